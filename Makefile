@@ -1,0 +1,73 @@
+# Every target sets up what it needs. `make serve` and `make test` work in a fresh clone.
+PYTHON ?= python3
+BIN := .venv/bin
+WEB_SOURCES := $(shell find web/src web/public web/index.html web/vite.config.ts web/package.json web/package-lock.json -type f 2>/dev/null)
+
+.DEFAULT_GOAL := help
+.PHONY: help setup serve test check unit assets bench generate lock clean
+
+help: ## Show the targets
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+setup: .venv/.serve web/dist/index.html data/soundfont.sf2 ## Make .venv, build the page, prepare the soundfont
+
+serve: setup ## Start Reina and print its address
+	$(BIN)/reina serve
+
+test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
+	$(MAKE) check
+	cd web && npm run test
+	$(BIN)/pytest
+
+check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated files
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+	web/node_modules/.bin/pyright
+	cd web && npm run check
+	$(BIN)/python -m reina.protocol.generate --check
+
+generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
+	$(BIN)/python -m reina.protocol.generate
+
+assets: .venv/.dev ## Build the rigs anew from their pinned sources
+	$(BIN)/python rigs/build/build.py
+
+bench: setup .venv/.dev ## Measure, and print the figures
+	$(BIN)/python tests/benchmarks/run.py
+
+lock: ## Pin the Python dependencies anew (needs uv)
+	sh requirements/lock.sh
+
+clean: ## Remove everything that was built
+	rm -rf .venv web/dist web/node_modules data
+
+.venv/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Reina needs Python 3.11 or newer; set PYTHON=/path/to/python3.11"; exit 1; }
+	$(PYTHON) -m venv .venv
+
+.venv/.serve: .venv/bin/python requirements/serve.txt pyproject.toml
+	$(BIN)/pip install --quiet --require-hashes -r requirements/serve.txt
+	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
+
+.venv/.dev: .venv/.serve requirements/dev.txt
+	$(BIN)/pip install --quiet --require-hashes -r requirements/dev.txt
+	@touch $@
+
+.venv/.browser: .venv/.dev
+	$(BIN)/python tests/e2e/find_browser.py --install
+	@touch $@
+
+web/node_modules/.stamp: web/package.json web/package-lock.json
+	@node -e 'const [a,b]=process.versions.node.split(".").map(Number); process.exit(a>20||(a===20&&b>=19)?0:1)' || { echo "Reina needs Node 20.19 or newer"; exit 1; }
+	cd web && npm ci --no-fund --no-audit --loglevel=error
+	@touch $@
+
+web/dist/index.html: web/node_modules/.stamp $(WEB_SOURCES)
+	cd web && npm run build
+	@touch $@
+
+data/soundfont.sf2: web/node_modules/.stamp web/scripts/make-soundfont.mjs
+	@mkdir -p data
+	cd web && node scripts/make-soundfont.mjs ../$@

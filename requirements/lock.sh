@@ -1,0 +1,7 @@
+#!/bin/sh
+# Pins versions and hashes, for every platform and without the address of any index.
+set -eu
+cd "$(dirname "$0")/.."
+compile() { uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header "$@"; }
+compile pyproject.toml requirements/build.in -o requirements/serve.txt
+compile pyproject.toml requirements/build.in --group dev --group assets -c requirements/serve.txt -o requirements/dev.txt
