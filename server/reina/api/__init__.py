@@ -1,0 +1,1 @@
+"""The layer `api`; docs/architecture.md says what it holds."""

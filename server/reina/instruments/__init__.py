@@ -1,0 +1,1 @@
+"""The layer `instruments`; docs/architecture.md says what it holds."""

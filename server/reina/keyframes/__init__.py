@@ -1,0 +1,1 @@
+"""The layer `keyframes`; docs/architecture.md says what it holds."""

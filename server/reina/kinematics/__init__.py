@@ -1,0 +1,1 @@
+"""The layer `kinematics`; docs/architecture.md says what it holds."""

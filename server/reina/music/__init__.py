@@ -1,0 +1,1 @@
+"""The layer `music`; docs/architecture.md says what it holds."""

@@ -1,0 +1,1 @@
+"""The layer `performance`; docs/architecture.md says what it holds."""

@@ -1,0 +1,1 @@
+"""The layer `protocol`; docs/architecture.md says what it holds."""

@@ -1,0 +1,1 @@
+"""The layer `rotations`; docs/architecture.md says what it holds."""

@@ -1,0 +1,1 @@
+"""The layer `sessions`; docs/architecture.md says what it holds."""

@@ -1,0 +1,1 @@
+"""The layer `skeleton`; docs/architecture.md says what it holds."""
