@@ -1,6 +1,6 @@
 """The root of Reina's one error tree.
 
-A message says what was wrong, where, and what would be right; it is written for the person who sent the input.
+A message says what was wrong, where, and what would be right, to the person who sent the input.
 """
 
 
