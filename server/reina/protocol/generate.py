@@ -1,0 +1,114 @@
+"""Write what follows from the protocol's declarations, or check that what is there still does.
+
+    python -m reina.protocol.generate [--check]
+
+Writes the page's types and frame reader (web/src/generated/protocol.ts) and the description of the stream
+(docs/protocol.md). The description of the HTTP interface is `python -m reina.api.openapi`'s.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from reina.protocol import messages, resources, transport
+from reina.protocol.reader import frame_reader
+from reina.protocol.typescript import interfaces
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pydantic import BaseModel
+
+ROOT = Path(__file__).parents[3]
+
+SENT: tuple[type[BaseModel], ...] = (
+    messages.Hello,
+    messages.Transport,
+    messages.ShowChanged,
+    messages.ScoreChanged,
+    messages.SongReady,
+    messages.NoteOn,
+    messages.NoteOff,
+    messages.Pong,
+    messages.StreamError,
+    resources.Session,
+    resources.CreatedSession,
+    resources.SessionList,
+    resources.Score,
+    resources.RigList,
+    resources.ShowParameterList,
+    resources.ExampleList,
+    resources.Health,
+    resources.Problem,
+)
+"""What the server sends: every field is there."""
+
+RECEIVED: tuple[type[BaseModel], ...] = (
+    messages.Ping,
+    transport.Play,
+    transport.Pause,
+    transport.Seek,
+    transport.SetRate,
+    transport.SetLoop,
+    resources.SessionChange,
+)
+"""What the server is sent: fields with a default may be left out."""
+
+_HEAD = """\
+// Written by `make generate` from server/reina/protocol; do not edit. Field names are the wire's.
+"""
+
+
+def typescript() -> str:
+    """The page's half of the protocol."""
+    unions = "\n".join(
+        f"export type {name} =\n" + "\n".join(f"  | {model.__name__}" for model in members) + "\n"
+        for name, members in {
+            "ServerMessage": SENT[:9],
+            "ViewerMessage": RECEIVED[:1],
+            "TransportCommand": RECEIVED[1:6],
+        }.items()
+    )
+    return "\n".join([_HEAD, frame_reader(), interfaces(SENT, RECEIVED), unions])
+
+
+def write_or_check(files: Mapping[Path, str], *, check: bool) -> int:
+    """Write files, or with `check` print how they differ from what is there.
+
+    Returns:
+        The exit status: 1 when something differs and was to be checked only.
+    """
+    status = 0
+    for path, text in files.items():
+        present = path.read_text(encoding="utf-8") if path.exists() else ""
+        if present == text:
+            continue
+        name = path.relative_to(ROOT)
+        if check:
+            status = 1
+            difference = difflib.unified_diff(
+                present.splitlines(), text.splitlines(), f"{name}", "as generated", lineterm="", n=1
+            )
+            sys.stderr.write("\n".join([*difference, f"{name} is stale: run `make generate`.\n"]))
+        else:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+            sys.stdout.write(f"wrote {name}\n")
+    return status
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m reina.protocol.generate", description=__doc__)
+    parser.add_argument("--check", action="store_true", help="change nothing; fail when something is stale")
+    arguments = parser.parse_args()
+    files = {ROOT / "web/src/generated/protocol.ts": typescript()}
+    return write_or_check(files, check=arguments.check)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

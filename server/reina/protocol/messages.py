@@ -1,0 +1,125 @@
+"""Control messages: the text half of the stream, told apart by `type`."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, TypeAdapter
+
+from reina.protocol.manifest import Manifest
+from reina.protocol.model import WireModel
+from reina.protocol.notes import WireNote
+from reina.protocol.transport import TransportState
+
+
+class SongState(WireModel):
+    """The sound that goes with the score."""
+
+    href: str
+    status: Literal["ready", "rendering", "failed"]
+    """`rendering`: the server is still making it from the score; `song_ready` follows."""
+    source: Literal["uploaded", "rendered"]
+    media_type: str
+    progress: float
+    """0 to 1; 1 once it is ready."""
+
+
+class StreamLinks(WireModel):
+    """Where a viewer finds what the stream does not carry."""
+
+    session: str
+    score: str
+    show: str
+    song: str
+    rigs: dict[str, str]
+    """Rig name to its description."""
+
+
+class Hello(Manifest):
+    """First on every stream: whoever joins late or again needs nothing else."""
+
+    type: Literal["hello"] = "hello"
+    session: str
+    title: str
+    duration_s: float
+    """Where the music ends: the score's end, or the uploaded song's where that is later."""
+    links: StreamLinks
+    song: SongState
+    transport: TransportState
+
+
+class Transport(TransportState):
+    """The music clock changed: played, paused, sought, another rate or loop, or an edit raised the epoch."""
+
+    type: Literal["transport"] = "transport"
+
+
+class ShowChanged(WireModel):
+    """The show was edited; the frames already follow."""
+
+    type: Literal["show_changed"] = "show_changed"
+    path: str | None
+    """The track that changed, or null for the whole show."""
+    revision: int
+    """Rises by one with each edit."""
+
+
+class ScoreChanged(WireModel):
+    """Another part or transposition was chosen; read the score anew."""
+
+    type: Literal["score_changed"] = "score_changed"
+    part: int
+    transposition: int
+
+
+class SongReady(WireModel):
+    """The song can be fetched."""
+
+    type: Literal["song_ready"] = "song_ready"
+    song: SongState
+
+
+class NoteOn(WireNote):
+    """A note of the played part begins (or sounds already, after a seek into it)."""
+
+    type: Literal["note_on"] = "note_on"
+    song_time_s: float
+    """When, in song time."""
+
+
+class NoteOff(WireNote):
+    """A note of the played part ends (or is cut off by a pause or a seek)."""
+
+    type: Literal["note_off"] = "note_off"
+    song_time_s: float
+    """When, in song time."""
+
+
+class Pong(WireModel):
+    """The answer to `ping`."""
+
+    type: Literal["pong"] = "pong"
+    id: int
+    server_time_s: float
+
+
+class StreamError(WireModel):
+    """Something a viewer sent could not be used, or something of the session failed."""
+
+    type: Literal["error"] = "error"
+    title: str
+    detail: str
+
+
+class Ping(WireModel):
+    """A viewer measures the offset between its clock and the server's."""
+
+    type: Literal["ping"]
+    id: Annotated[int, Field(ge=0, le=2**53)]
+
+
+ServerMessage = Annotated[
+    Hello | Transport | ShowChanged | ScoreChanged | SongReady | NoteOn | NoteOff | Pong | StreamError,
+    Field(discriminator="type"),
+]
+ViewerMessage = Ping
+
+server_message: TypeAdapter[ServerMessage] = TypeAdapter(ServerMessage)

@@ -1,0 +1,19 @@
+"""The base of every model on the wire."""
+
+from pydantic import BaseModel, ConfigDict
+
+
+class WireModel(BaseModel):
+    """Immutable, and strict about fields that the contract does not name.
+
+    A default is for whoever builds the model in Python; what the server sends always holds every field, so the
+    generated TypeScript marks none of them optional (see `reina.protocol.typescript`).
+    """
+
+    model_config = ConfigDict(
+        extra="forbid",
+        frozen=True,
+        allow_inf_nan=False,
+        use_attribute_docstrings=True,
+        json_schema_serialization_defaults_required=True,
+    )

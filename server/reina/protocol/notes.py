@@ -1,0 +1,34 @@
+"""A note as the wire shows it: in the score, and in `note_on` and `note_off`."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from reina.protocol.model import WireModel
+
+MidiPitch = Annotated[int, Field(ge=0, le=127)]
+
+
+class WireNote(WireModel):
+    """One note of a part, with its fingering where the player plays that part."""
+
+    index: int
+    """The note's place in the score's table of notes."""
+    part: int
+    """Index of its part."""
+    onset_s: float
+    """Seconds from the start of the score."""
+    duration_s: float
+    onset_beats: float
+    """Quarter notes from the start of the score."""
+    duration_beats: float
+    sounding_pitch: MidiPitch
+    """MIDI number as it sounds."""
+    written_pitch: int
+    """MIDI number as a player of the instrument reads it."""
+    velocity: float
+    """0 to 1."""
+    valves: list[int] | None
+    """The valves that are down, ascending; [] is open, null is not playable (or not played by the player)."""
+    reason: str | None = None
+    """Why `valves` is null; null where it is not."""

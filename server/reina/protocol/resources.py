@@ -1,0 +1,225 @@
+"""The bodies of the HTTP interface."""
+
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from reina.protocol.manifest import ParameterType
+from reina.protocol.messages import SongState
+from reina.protocol.model import WireModel
+from reina.protocol.notes import WireNote
+
+Title = Annotated[str, Field(min_length=1, max_length=200)]
+
+
+class Fault(WireModel):
+    """One of several things that were wrong."""
+
+    detail: str
+    where: str | None
+    """The place in the input."""
+
+
+class Problem(WireModel):
+    """Problem details (RFC 9457), sent as application/problem+json."""
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    errors: list[Fault] = []
+    """Each fault, where there are several; else empty."""
+
+
+class Warned(WireModel):
+    """Something in the score that could not be taken as it stands, and what was done instead."""
+
+    kind: str
+    place: str
+    message: str
+
+
+class PartSummary(WireModel):
+    """One part of a score."""
+
+    index: int
+    name: str
+    program: int | None
+    """General MIDI program, 0 to 127, where the file says one."""
+    is_drums: bool
+    notes: int
+    """How many notes it has."""
+
+
+class PartChoice(WireModel):
+    """How well a part suits the player's instrument."""
+
+    part: int
+    score: float
+    reasons: list[str]
+
+
+class SessionLinks(WireModel):
+    """Everything of a session, and the page that shows it."""
+
+    self: str
+    page: str
+    score: str
+    song: str
+    show: str
+    transport: str
+    frames: str
+    manifest: str
+    stream: str
+
+
+class Session(WireModel):
+    """One session: a score, its player, its show and its clock."""
+
+    id: str
+    title: str
+    public: bool
+    """Whether the list of sessions shows it; otherwise only who has the id can watch."""
+    created_at: str
+    """ISO 8601, UTC."""
+    duration_s: float
+    instrument: str
+    part: int
+    """The part that the player plays."""
+    transposition: int
+    """Semitones by which the player's part is moved."""
+    parts: list[PartSummary]
+    choices: list[PartChoice]
+    """The parts that the instrument could play, best first."""
+    notes: int
+    warnings: list[Warned]
+    song: SongState
+    links: SessionLinks
+
+
+class CreatedSession(Session):
+    """A session as its creator sees it, once."""
+
+    control_token: str
+    """What changes the session needs: `Authorization: Bearer <control_token>`."""
+
+
+class SessionSummary(WireModel):
+    """A session in the list."""
+
+    id: str
+    title: str
+    created_at: str
+    duration_s: float
+    links: SessionLinks
+
+
+class SessionList(WireModel):
+    """The public sessions, newest first."""
+
+    sessions: list[SessionSummary]
+
+
+class SessionChange(WireModel):
+    """What PATCH may change of a session; a field left out stays."""
+
+    title: Title | None = None
+    public: bool | None = None
+    part: Annotated[int, Field(ge=0)] | None = None
+    transposition: Annotated[int, Field(ge=-48, le=48)] | None = None
+
+
+class Tempo(WireModel):
+    """A tempo and where it begins."""
+
+    onset_beats: float
+    onset_s: float
+    bpm: float
+    """Quarter notes a minute."""
+
+
+class Metre(WireModel):
+    """A time signature and where it begins."""
+
+    onset_beats: float
+    onset_s: float
+    numerator: int
+    denominator: int
+
+
+class Score(WireModel):
+    """The score, as far as it is drawn and played."""
+
+    title: str
+    duration_s: float
+    part: int
+    transposition: int
+    parts: list[PartSummary]
+    tempi: list[Tempo]
+    metres: list[Metre]
+    bar_lines_s: list[float]
+    notes: list[WireNote]
+    """By onset; of one part alone with `?part=`."""
+    warnings: list[Warned]
+
+
+class RigSummary(WireModel):
+    """A rig in the list."""
+
+    name: str
+    href: str
+
+
+class RigList(WireModel):
+    """The rigs that this server has."""
+
+    rigs: list[RigSummary]
+
+
+class ShowParameter(WireModel):
+    """A parameter that keyframes can move."""
+
+    path: str
+    type: ParameterType
+    unit: str
+    minimum: float | None
+    maximum: float | None
+    default: Any
+    choices: list[str]
+    blend: bool
+    interpolations: list[str]
+    documentation: str
+
+
+class ShowParameterList(WireModel):
+    """Every show parameter, in the frame's order."""
+
+    parameters: list[ShowParameter]
+
+
+class Example(WireModel):
+    """A bundled piece: its files, to be posted as a session of one's own."""
+
+    name: str
+    title: str
+    score: str
+    song: str | None
+    show: str | None
+
+
+class ExampleList(WireModel):
+    """The bundled pieces; the first is the one for a first visit."""
+
+    examples: list[Example]
+
+
+class Health(WireModel):
+    """Liveness and readiness."""
+
+    status: str
+    """`ok` once it can play."""
+    ready: bool
+    version: str
+    streams: list[str]
+    """The subprotocols that it speaks."""
+    server_time_s: float

@@ -1,0 +1,69 @@
+"""The transport: what a viewer hears of the music clock, and what a controller may ask of it."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from reina.protocol.model import WireModel
+
+MINIMUM_RATE = 0.1
+MAXIMUM_RATE = 4.0
+
+
+class Loop(WireModel):
+    """The span of song time that is played over and over."""
+
+    start_s: float
+    end_s: float
+
+
+class TransportState(WireModel):
+    """Song time as a function of server time: song_time_s + (t - server_time_s) · rate while playing."""
+
+    playing: bool
+    song_time_s: float
+    """Song time at `server_time_s`."""
+    server_time_s: float
+    """Seconds on the server's monotonic clock, the one that `pong` answers with."""
+    rate: float
+    """Song seconds a second."""
+    loop: Loop | None
+    epoch: int
+    """Raised by every play, pause, seek, rate, loop and edit; frames carry it modulo 256."""
+
+
+class Play(WireModel):
+    """Play from where the clock stands (from the start, where it stands at the end)."""
+
+    action: Literal["play"]
+
+
+class Pause(WireModel):
+    """Stop, and stay."""
+
+    action: Literal["pause"]
+
+
+class Seek(WireModel):
+    """Go to a song time, held within the score."""
+
+    action: Literal["seek"]
+    song_time_s: Annotated[float, Field(ge=0)]
+
+
+class SetRate(WireModel):
+    """Play faster or slower."""
+
+    action: Literal["rate"]
+    rate: Annotated[float, Field(ge=MINIMUM_RATE, le=MAXIMUM_RATE)]
+
+
+class SetLoop(WireModel):
+    """Loop over a span; both null end the loop."""
+
+    action: Literal["loop"]
+    start_s: Annotated[float, Field(ge=0)] | None
+    end_s: Annotated[float, Field(gt=0)] | None
+
+
+TransportCommand = Annotated[Play | Pause | Seek | SetRate | SetLoop, Field(discriminator="action")]

@@ -1,0 +1,549 @@
+// Written by `make generate` from server/reina/protocol; do not edit. Field names are the wire's.
+
+export const PROTOCOL_VERSION = 1
+export const SUBPROTOCOL = "reina.v1"
+export const HEADER_SIZE = 24
+export const FLAG_PLAYING = 1
+export const FLAG_FIRST = 2
+export const FLAG_CUT = 4
+
+/**
+ * Storage for one frame, with views into it that are made once: reading a frame into it allocates nothing.
+ * The views are in the platform's byte order, which is the wire's (little-endian) wherever browsers run.
+ */
+export class Frame {
+  /** The whole frame as 32-bit words. */
+  readonly words: Uint32Array
+  /** Joint quaternions of each skeleton, x y z w, in the order of its joints. */
+  readonly rotations: readonly Float32Array[]
+  /** Root position of each skeleton, x y z, metres, in place of the root joint's rest translation. */
+  readonly rootPositions: readonly Float32Array[]
+  /** The value of each parameter, in the manifest's order. */
+  readonly parameters: readonly Float32Array[]
+  private readonly header: DataView
+
+  constructor(manifest: Manifest) {
+    const buffer = new ArrayBuffer(manifest.frame_size)
+    this.words = new Uint32Array(buffer)
+    this.header = new DataView(buffer, 0, HEADER_SIZE)
+    this.rotations = manifest.skeletons.map(
+      (skeleton) => new Float32Array(buffer, skeleton.offset, 4 * skeleton.joints.length),
+    )
+    this.rootPositions = manifest.skeletons.map(
+      (skeleton) => new Float32Array(buffer, skeleton.root_offset, 3),
+    )
+    this.parameters = manifest.parameters.map(
+      (parameter) => new Float32Array(buffer, parameter.offset, parameter.length),
+    )
+  }
+
+  /** Protocol version. */
+  get version(): number {
+    return this.header.getUint8(0)
+  }
+
+  /** The clock's epoch, modulo 256; frames of an older one are not shown. */
+  get epoch(): number {
+    return this.header.getUint8(1)
+  }
+
+  /** FLAG_PLAYING, FLAG_FIRST, FLAG_CUT. */
+  get flags(): number {
+    return this.header.getUint16(2, true)
+  }
+
+  /** k: song time is k / fps. */
+  get index(): number {
+    return this.header.getUint32(4, true)
+  }
+
+  /** Song time, seconds. */
+  get songTimeS(): number {
+    return this.header.getFloat64(8, true)
+  }
+
+  /** Server time at which it is to be seen, on the clock of pong; 0 over HTTP. */
+  get dueTimeS(): number {
+    return this.header.getFloat64(16, true)
+  }
+
+  get playing(): boolean {
+    return (this.flags & FLAG_PLAYING) !== 0
+  }
+
+  get first(): boolean {
+    return (this.flags & FLAG_FIRST) !== 0
+  }
+
+  get cut(): boolean {
+    return (this.flags & FLAG_CUT) !== 0
+  }
+}
+
+/**
+ * Reads binary messages: one or more whole frames, back to back. Open a message, then read its frames in turn:
+ *
+ *     const count = reader.open(event.data)
+ *     for (let number = 0; number < count; number++) reader.read(number, queue.next())
+ */
+export class FrameReader {
+  readonly manifest: Manifest
+  private readonly parameterIndices: ReadonlyMap<string, number>
+  private message = new Uint32Array(0)
+
+  constructor(manifest: Manifest) {
+    this.manifest = manifest
+    this.parameterIndices = new Map(manifest.parameters.map((parameter, index) => [parameter.path, index]))
+  }
+
+  /** A frame to read into; make as many as the queue is long, once. */
+  createFrame(): Frame {
+    return new Frame(this.manifest)
+  }
+
+  /** Where in Frame.parameters a path stands, or -1. */
+  parameterIndex(path: string): number {
+    return this.parameterIndices.get(path) ?? -1
+  }
+
+  /** How many frames a message holds; throws a RangeError when they are not whole ones of this version. */
+  open(message: ArrayBuffer): number {
+    const size = this.manifest.frame_size
+    if (message.byteLength === 0 || message.byteLength % size !== 0) {
+      throw new RangeError(`${message.byteLength} bytes are not whole frames of ${size} bytes`)
+    }
+    this.message = new Uint32Array(message)
+    const version = (this.message[0] ?? 0) & 0xff
+    if (version !== PROTOCOL_VERSION) {
+      throw new RangeError(`a frame of version ${version}; this page reads version ${PROTOCOL_VERSION}`)
+    }
+    return message.byteLength / size
+  }
+
+  /** Copy a frame of the opened message, counted from 0, into storage of its own; allocates nothing. */
+  read(number: number, into: Frame): void {
+    const { message } = this
+    const { words } = into
+    const start = number * words.length
+    for (let i = 0; i < words.length; i++) {
+      words[i] = message[start + i] ?? 0
+    }
+  }
+}
+
+/** Where everything in a frame is; all of it in bytes, all of it little-endian. */
+export interface Manifest {
+  protocol: "reina.v1"
+  /** Frames a second of song time: frame k shows song time k / fps. */
+  fps: number
+  /** Bytes of one frame, a multiple of 8. */
+  frame_size: number
+  skeletons: SkeletonManifest[]
+  parameters: ParameterManifest[]
+}
+
+/** Song time as a function of server time: song_time_s + (t - server_time_s) · rate while playing. */
+export interface TransportState {
+  playing: boolean
+  /** Song time at server_time_s. */
+  song_time_s: number
+  /** Seconds on the server's monotonic clock, the one that pong answers with. */
+  server_time_s: number
+  /** Song seconds a second. */
+  rate: number
+  loop: Loop | null
+  /** Raised by every play, pause, seek, rate, loop and edit; frames carry it modulo 256. */
+  epoch: number
+}
+
+/** One note of a part, with its fingering where the player plays that part. */
+export interface WireNote {
+  /** The note's place in the score's table of notes. */
+  index: number
+  /** Index of its part. */
+  part: number
+  /** Seconds from the start of the score. */
+  onset_s: number
+  duration_s: number
+  /** Quarter notes from the start of the score. */
+  onset_beats: number
+  duration_beats: number
+  /** MIDI number as it sounds. */
+  sounding_pitch: number
+  /** MIDI number as a player of the instrument reads it. */
+  written_pitch: number
+  /** 0 to 1. */
+  velocity: number
+  /** The valves that are down, ascending; [] is open, null is not playable (or not played by the player). */
+  valves: number[] | null
+  /** Why valves is null; null where it is not. */
+  reason: string | null
+}
+
+/** One session: a score, its player, its show and its clock. */
+export interface Session {
+  id: string
+  title: string
+  /** Whether the list of sessions shows it; otherwise only who has the id can watch. */
+  public: boolean
+  /** ISO 8601, UTC. */
+  created_at: string
+  duration_s: number
+  instrument: string
+  /** The part that the player plays. */
+  part: number
+  /** Semitones by which the player's part is moved. */
+  transposition: number
+  parts: PartSummary[]
+  /** The parts that the instrument could play, best first. */
+  choices: PartChoice[]
+  notes: number
+  warnings: Warned[]
+  song: SongState
+  links: SessionLinks
+}
+
+/** First on every stream: whoever joins late or again needs nothing else. */
+export interface Hello extends Manifest {
+  type: "hello"
+  session: string
+  title: string
+  /** Where the music ends: the score's end, or the uploaded song's where that is later. */
+  duration_s: number
+  links: StreamLinks
+  song: SongState
+  transport: TransportState
+}
+
+/** The music clock changed: played, paused, sought, another rate or loop, or an edit raised the epoch. */
+export interface Transport extends TransportState {
+  type: "transport"
+}
+
+/** The show was edited; the frames already follow. */
+export interface ShowChanged {
+  type: "show_changed"
+  /** The track that changed, or null for the whole show. */
+  path: string | null
+  /** Rises by one with each edit. */
+  revision: number
+}
+
+/** Another part or transposition was chosen; read the score anew. */
+export interface ScoreChanged {
+  type: "score_changed"
+  part: number
+  transposition: number
+}
+
+/** The song can be fetched. */
+export interface SongReady {
+  type: "song_ready"
+  song: SongState
+}
+
+/** A note of the played part begins (or sounds already, after a seek into it). */
+export interface NoteOn extends WireNote {
+  type: "note_on"
+  /** When, in song time. */
+  song_time_s: number
+}
+
+/** A note of the played part ends (or is cut off by a pause or a seek). */
+export interface NoteOff extends WireNote {
+  type: "note_off"
+  /** When, in song time. */
+  song_time_s: number
+}
+
+/** The answer to ping. */
+export interface Pong {
+  type: "pong"
+  id: number
+  server_time_s: number
+}
+
+/** Something a viewer sent could not be used, or something of the session failed. */
+export interface StreamError {
+  type: "error"
+  title: string
+  detail: string
+}
+
+/** A session as its creator sees it, once. */
+export interface CreatedSession extends Session {
+  /** What changes the session needs: Authorization: Bearer <control_token>. */
+  control_token: string
+}
+
+/** The public sessions, newest first. */
+export interface SessionList {
+  sessions: SessionSummary[]
+}
+
+/** The score, as far as it is drawn and played. */
+export interface Score {
+  title: string
+  duration_s: number
+  part: number
+  transposition: number
+  parts: PartSummary[]
+  tempi: Tempo[]
+  metres: Metre[]
+  bar_lines_s: number[]
+  /** By onset; of one part alone with ?part=. */
+  notes: WireNote[]
+  warnings: Warned[]
+}
+
+/** The rigs that this server has. */
+export interface RigList {
+  rigs: RigSummary[]
+}
+
+/** Every show parameter, in the frame's order. */
+export interface ShowParameterList {
+  parameters: ShowParameter[]
+}
+
+/** The bundled pieces; the first is the one for a first visit. */
+export interface ExampleList {
+  examples: Example[]
+}
+
+/** Liveness and readiness. */
+export interface Health {
+  /** ok once it can play. */
+  status: string
+  ready: boolean
+  version: string
+  /** The subprotocols that it speaks. */
+  streams: string[]
+  server_time_s: number
+}
+
+/** Problem details (RFC 9457), sent as application/problem+json. */
+export interface Problem {
+  type: string
+  title: string
+  status: number
+  detail: string
+  /** Each fault, where there are several; else empty. */
+  errors: Fault[]
+}
+
+/** A viewer measures the offset between its clock and the server's. */
+export interface Ping {
+  type: "ping"
+  id: number
+}
+
+/** Play from where the clock stands (from the start, where it stands at the end). */
+export interface Play {
+  action: "play"
+}
+
+/** Stop, and stay. */
+export interface Pause {
+  action: "pause"
+}
+
+/** Go to a song time, held within the score. */
+export interface Seek {
+  action: "seek"
+  song_time_s: number
+}
+
+/** Play faster or slower. */
+export interface SetRate {
+  action: "rate"
+  rate: number
+}
+
+/** Loop over a span; both null end the loop. */
+export interface SetLoop {
+  action: "loop"
+  start_s: number | null
+  end_s: number | null
+}
+
+/** What PATCH may change of a session; a field left out stays. */
+export interface SessionChange {
+  title?: string | null
+  public?: boolean | null
+  part?: number | null
+  transposition?: number | null
+}
+
+/** A bundled piece: its files, to be posted as a session of one's own. */
+export interface Example {
+  name: string
+  title: string
+  score: string
+  song: string | null
+  show: string | null
+}
+
+/** One of several things that were wrong. */
+export interface Fault {
+  detail: string
+  /** The place in the input. */
+  where: string | null
+}
+
+/** The span of song time that is played over and over. */
+export interface Loop {
+  start_s: number
+  end_s: number
+}
+
+/** A time signature and where it begins. */
+export interface Metre {
+  onset_beats: number
+  onset_s: number
+  numerator: number
+  denominator: number
+}
+
+/** One parameter of the frame. */
+export interface ParameterManifest {
+  path: string
+  type: "boolean" | "number" | "vector" | "color" | "orientation" | "choice"
+  /** Bytes from the frame's start to its value. */
+  offset: number
+  /** How many float32 the value has. */
+  length: number
+  /** False: a page never blends it between two frames. */
+  blend: boolean
+}
+
+/** How well a part suits the player's instrument. */
+export interface PartChoice {
+  part: number
+  score: number
+  reasons: string[]
+}
+
+/** One part of a score. */
+export interface PartSummary {
+  index: number
+  name: string
+  /** General MIDI program, 0 to 127, where the file says one. */
+  program: number | null
+  is_drums: boolean
+  /** How many notes it has. */
+  notes: number
+}
+
+/** A rig in the list. */
+export interface RigSummary {
+  name: string
+  href: string
+}
+
+/** Everything of a session, and the page that shows it. */
+export interface SessionLinks {
+  self: string
+  page: string
+  score: string
+  song: string
+  show: string
+  transport: string
+  frames: string
+  manifest: string
+  stream: string
+}
+
+/** A session in the list. */
+export interface SessionSummary {
+  id: string
+  title: string
+  created_at: string
+  duration_s: number
+  links: SessionLinks
+}
+
+/** A parameter that keyframes can move. */
+export interface ShowParameter {
+  path: string
+  type: "boolean" | "number" | "vector" | "color" | "orientation" | "choice"
+  unit: string
+  minimum: number | null
+  maximum: number | null
+  default: unknown
+  choices: string[]
+  blend: boolean
+  interpolations: string[]
+  documentation: string
+}
+
+/** One skeleton of the frame. */
+export interface SkeletonManifest {
+  /** player or the instrument's name; another player's begin with players/2/. */
+  name: string
+  /** The rig's name: its joints' rest pose and models stand at the link rigs[rig]. */
+  rig: string
+  /** Joint names, parents before children; the first is the root. */
+  joints: string[]
+  /** Bytes from the frame's start to its joint quaternions, x y z w as float32, in the order of joints. */
+  offset: number
+  /** Bytes from the frame's start to its root's position, x y z as float32, metres. */
+  root_offset: number
+}
+
+/** The sound that goes with the score. */
+export interface SongState {
+  href: string
+  /** rendering: the server is still making it from the score; song_ready follows. */
+  status: "ready" | "rendering" | "failed"
+  source: "uploaded" | "rendered"
+  media_type: string
+  /** 0 to 1; 1 once it is ready. */
+  progress: number
+}
+
+/** Where a viewer finds what the stream does not carry. */
+export interface StreamLinks {
+  session: string
+  score: string
+  show: string
+  song: string
+  /** Rig name to its description. */
+  rigs: Record<string, string>
+}
+
+/** A tempo and where it begins. */
+export interface Tempo {
+  onset_beats: number
+  onset_s: number
+  /** Quarter notes a minute. */
+  bpm: number
+}
+
+/** Something in the score that could not be taken as it stands, and what was done instead. */
+export interface Warned {
+  kind: string
+  place: string
+  message: string
+}
+
+export type ServerMessage =
+  | Hello
+  | Transport
+  | ShowChanged
+  | ScoreChanged
+  | SongReady
+  | NoteOn
+  | NoteOff
+  | Pong
+  | StreamError
+
+export type ViewerMessage =
+  | Ping
+
+export type TransportCommand =
+  | Play
+  | Pause
+  | Seek
+  | SetRate
+  | SetLoop
