@@ -1,0 +1,6 @@
+export { ClockSync } from "./clock-sync";
+export { FrameQueue, type QueuedFrame } from "./frame-queue";
+export { ProblemError } from "./problem";
+export { ReinaApi, type SessionFiles } from "./rest";
+export { songTimeAt } from "./song-time";
+export { Stream, type StreamListener, type StreamState } from "./stream";

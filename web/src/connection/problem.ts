@@ -1,0 +1,50 @@
+import type { Fault, Problem } from "../generated/protocol";
+
+/** A request that the server refused, with its problem details (RFC 9457), or that never reached it. */
+export class ProblemError extends Error {
+  override readonly name = "ProblemError";
+  /** The HTTP status; 0 when the server could not be reached. */
+  readonly status: number;
+  /** What is wrong, in a few words. */
+  readonly title: string;
+  /** Where, and what would be right. */
+  readonly detail: string;
+  /** Each fault, where there are several. */
+  readonly errors: readonly Fault[];
+
+  constructor(problem: Omit<Problem, "type">) {
+    super(problem.detail === "" ? problem.title : `${problem.title}: ${problem.detail}`);
+    this.status = problem.status;
+    this.title = problem.title;
+    this.detail = problem.detail;
+    this.errors = problem.errors;
+  }
+
+  /** The session, or what was asked of it, is not there. */
+  get isUnknown(): boolean {
+    return this.status === 404;
+  }
+
+  /** This page may watch the session, but not change it. */
+  get isForbidden(): boolean {
+    return this.status === 401 || this.status === 403;
+  }
+}
+
+/** What is wrong with a response that is not 2xx. */
+export async function problemOf(response: Response): Promise<ProblemError> {
+  const body: unknown = await response.json().catch(() => null);
+  const fallback = { title: `The server answered ${response.status}`, detail: "", errors: [] };
+  const problem = typeof body === "object" && body !== null ? (body as Partial<Problem>) : {};
+  return new ProblemError({ ...fallback, ...problem, status: response.status });
+}
+
+/** The server did not answer at all. */
+export function unreachable(): ProblemError {
+  return new ProblemError({
+    status: 0,
+    title: "The server does not answer",
+    detail: "Check that Reina is still running, then try again.",
+    errors: [],
+  });
+}

@@ -1,0 +1,119 @@
+import type {
+  CreatedSession,
+  Example,
+  ExampleList,
+  Score,
+  Session,
+  SessionChange,
+  ShowParameter,
+  ShowParameterList,
+  TransportCommand,
+  TransportState,
+} from "../generated/protocol";
+import { problemOf, unreachable } from "./problem";
+
+/** What a new session is made of. */
+export interface SessionFiles {
+  readonly score: File;
+  readonly song?: File;
+  readonly show?: File;
+}
+
+/** The server's calls, typed. Each throws ProblemError when the server refuses or does not answer. */
+export class ReinaApi {
+  readonly #base: string;
+  readonly #fetch: typeof fetch;
+
+  /**
+   * @param base where the API stands, without a slash at its end
+   * @param fetchFunction for tests
+   */
+  constructor(base = "/api/v1", fetchFunction: typeof fetch = (...request) => fetch(...request)) {
+    this.#base = base;
+    this.#fetch = fetchFunction;
+  }
+
+  createSession(files: SessionFiles): Promise<CreatedSession> {
+    const form = new FormData();
+    form.append("score", files.score);
+    if (files.song !== undefined) form.append("song", files.song);
+    if (files.show !== undefined) form.append("show", files.show);
+    return this.#json("POST", `${this.#base}/sessions`, { body: form });
+  }
+
+  session(id: string): Promise<Session> {
+    return this.#json("GET", this.#sessionPath(id));
+  }
+
+  changeSession(id: string, change: SessionChange, token: string): Promise<Session> {
+    return this.#json("PATCH", this.#sessionPath(id), { json: change, token });
+  }
+
+  async deleteSession(id: string, token: string): Promise<void> {
+    await this.request("DELETE", this.#sessionPath(id), { token });
+  }
+
+  score(id: string): Promise<Score> {
+    return this.#json("GET", `${this.#sessionPath(id)}/score`);
+  }
+
+  transport(id: string): Promise<TransportState> {
+    return this.#json("GET", `${this.#sessionPath(id)}/transport`);
+  }
+
+  control(id: string, command: TransportCommand, token: string): Promise<TransportState> {
+    return this.#json("POST", `${this.#sessionPath(id)}/transport`, { json: command, token });
+  }
+
+  async parameters(): Promise<ShowParameter[]> {
+    return (await this.#json<ShowParameterList>("GET", `${this.#base}/parameters`)).parameters;
+  }
+
+  async examples(): Promise<Example[]> {
+    return (await this.#json<ExampleList>("GET", `${this.#base}/examples`)).examples;
+  }
+
+  /** A bundled file, to be posted as one's own. */
+  async file(href: string): Promise<File> {
+    const response = await this.request("GET", href);
+    const name = decodeURIComponent(new URL(href, "http://page").pathname.split("/").at(-1) ?? "file");
+    return new File([await response.blob()], name);
+  }
+
+  /** Any call below a session, for what has its own module (song, show). */
+  sessionPath(id: string, below: string): string {
+    return `${this.#sessionPath(id)}/${below}`;
+  }
+
+  /** Make a request; a response that is not 2xx is thrown as ProblemError. */
+  async request(
+    method: string,
+    path: string,
+    options: { json?: unknown; body?: BodyInit; token?: string; signal?: AbortSignal } = {},
+  ): Promise<Response> {
+    const headers: Record<string, string> = { Accept: "application/json, */*" };
+    if (options.token !== undefined) headers["Authorization"] = `Bearer ${options.token}`;
+    if (options.json !== undefined) headers["Content-Type"] = "application/json";
+    const body = options.json === undefined ? options.body : JSON.stringify(options.json);
+    const init: RequestInit = { method, headers };
+    if (body !== undefined) init.body = body;
+    if (options.signal !== undefined) init.signal = options.signal;
+    let response: Response;
+    try {
+      response = await this.#fetch(path, init);
+    } catch (error) {
+      if (options.signal?.aborted === true) throw error;
+      throw unreachable();
+    }
+    if (!response.ok) throw await problemOf(response);
+    return response;
+  }
+
+  #sessionPath(id: string): string {
+    return `${this.#base}/sessions/${encodeURIComponent(id)}`;
+  }
+
+  async #json<T>(method: string, path: string, options?: Parameters<ReinaApi["request"]>[2]): Promise<T> {
+    return (await (await this.request(method, path, options)).json()) as T;
+  }
+}

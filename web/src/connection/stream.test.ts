@@ -1,0 +1,138 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { Stream, type StreamListener } from "./stream";
+
+/** A socket under the test's hand. */
+class HeldSocket {
+  readonly sent: string[] = [];
+  readyState = 0;
+  binaryType = "blob";
+  onopen: (() => void) | null = null;
+  onmessage: ((event: { data: string | ArrayBuffer }) => void) | null = null;
+  onclose: (() => void) | null = null;
+  readonly url: string;
+  readonly protocol: string;
+
+  constructor(url: string, protocol: string) {
+    this.url = url;
+    this.protocol = protocol;
+  }
+
+  send(text: string): void {
+    this.sent.push(text);
+  }
+  close(): void {
+    this.readyState = 3;
+  }
+  open(): void {
+    this.readyState = 1;
+    this.onopen?.();
+  }
+  lose(): void {
+    this.readyState = 3;
+    this.onclose?.();
+  }
+  receive(data: object | ArrayBuffer): void {
+    this.onmessage?.({ data: data instanceof ArrayBuffer ? data : JSON.stringify(data) });
+  }
+}
+
+let sockets: HeldSocket[];
+let now: number;
+
+function open(listener: Partial<StreamListener> = {}): Stream {
+  const silent: StreamListener = { message: () => undefined, frames: () => undefined, connection: () => undefined };
+  return new Stream("ws://page/api/v1/sessions/s/stream", { ...silent, ...listener }, {
+    now: () => now,
+    random: () => 0.5,
+    connect: (url, protocol) => {
+      const socket = new HeldSocket(url, protocol);
+      sockets.push(socket);
+      return socket as unknown as WebSocket;
+    },
+  });
+}
+
+function socketAt(place: number): HeldSocket {
+  const socket = sockets.at(place);
+  if (socket === undefined) throw new Error(`no socket ${place} was opened`);
+  return socket;
+}
+
+function answerPing(socket: HeldSocket, place: number, roundTrip: number, ahead: number): void {
+  const { id } = JSON.parse(socket.sent.at(place) ?? "{}") as { id: number };
+  now += roundTrip;
+  socket.receive({ type: "pong", id, server_time_s: now - roundTrip / 2 + ahead });
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  sockets = [];
+  now = 50;
+});
+afterEach(() => vi.useRealTimers());
+
+describe("Stream", () => {
+  it("speaks the subprotocol and hands messages and frames on", () => {
+    const messages: string[] = [];
+    const frames: number[] = [];
+    open({ message: (message) => messages.push(message.type), frames: (bytes) => frames.push(bytes.byteLength) });
+    const socket = socketAt(0);
+    expect(socket.protocol).toBe("reina.v1");
+    expect(socket.url).toContain("frames_per_message=");
+    expect(socket.binaryType).toBe("arraybuffer");
+    socket.open();
+    socket.receive({ type: "hello" });
+    socket.receive({ type: "song_ready" });
+    socket.receive(new ArrayBuffer(96));
+    expect(messages).toEqual(["hello", "song_ready"]);
+    expect(frames).toEqual([96]);
+  });
+
+  it("measures the server's clock with pings in pairs", () => {
+    const stream = open();
+    const socket = socketAt(0);
+    socket.open();
+    expect(socket.sent).toHaveLength(1);
+    answerPing(socket, 0, 0.3, 1000);
+    expect(socket.sent).toHaveLength(2);
+    answerPing(socket, 1, 0.002, 1000);
+    expect(socket.sent).toHaveLength(2);
+    expect(stream.clock.roundTrip).toBeCloseTo(0.002, 9);
+    expect(stream.serverNow()).toBeCloseTo(now + 1000, 6);
+    vi.advanceTimersByTime(100);
+    expect(socket.sent).toHaveLength(3);
+  });
+
+  it("comes back after a loss, waiting longer each time, and starts afresh after a hello", () => {
+    const waits: (number | null)[] = [];
+    open({ connection: (state, retryIn) => (state === "lost" ? waits.push(retryIn) : undefined) });
+    for (let i = 0; i < 3; i++) {
+      socketAt(-1).lose();
+      vi.advanceTimersByTime(20_000);
+    }
+    expect(waits).toEqual([0.25, 0.5, 1]);
+    expect(sockets).toHaveLength(4);
+    socketAt(-1).open();
+    socketAt(-1).receive({ type: "hello" });
+    socketAt(-1).lose();
+    expect(waits.at(-1)).toBe(0.25);
+  });
+
+  it("takes a silent connection for dead", () => {
+    open();
+    socketAt(0).open();
+    now += 20;
+    vi.advanceTimersByTime(3000);
+    expect(socketAt(0).readyState).toBe(3);
+    expect(sockets).toHaveLength(2);
+  });
+
+  it("does not come back once it is closed", () => {
+    const stream = open();
+    socketAt(0).open();
+    stream.close();
+    socketAt(0).lose();
+    vi.advanceTimersByTime(60_000);
+    expect(sockets).toHaveLength(1);
+  });
+});

@@ -1,0 +1,164 @@
+import { SUBPROTOCOL, type ServerMessage, type ViewerMessage } from "../generated/protocol";
+import { ClockSync } from "./clock-sync";
+
+/** What a stream tells its owner. */
+export interface StreamListener {
+  /** Any control message but `pong`, `hello` included. */
+  message(message: ServerMessage): void;
+  /** A binary message: whole frames. */
+  frames(message: ArrayBuffer): void;
+  /** The connection came up or went down; `retryIn` seconds until the next try, null where there is none. */
+  connection(state: StreamState, retryIn: number | null): void;
+}
+
+export type StreamState = "connecting" | "open" | "lost" | "closed";
+
+/** The outside world, injected for tests. */
+export interface StreamWorld {
+  /** The page's clock, seconds. */
+  now(): number;
+  connect(url: string, protocol: string): WebSocket;
+  random(): number;
+}
+
+const FRAMES_PER_MESSAGE = 3;
+const FIRST_RETRY_S = 0.25;
+const LAST_RETRY_S = 5;
+/** Pairs of probes right after connecting, then one pair every few seconds. */
+const EAGER_PAIRS = 4;
+const EAGER_INTERVAL_S = 0.08;
+const PROBE_INTERVAL_S = 2;
+/** Without any message for so long, the connection is taken for dead. */
+const SILENCE_S = 8;
+
+const browserWorld: StreamWorld = {
+  now: () => performance.now() / 1000,
+  connect: (url, protocol) => new WebSocket(url, protocol),
+  random: () => Math.random(),
+};
+
+/**
+ * The session's WebSocket: connects, comes back after a loss with growing pauses, and keeps the offset to the server's
+ * clock by pings in pairs (the first of a pair wakes whatever sleeps on the way, the second measures).
+ */
+export class Stream {
+  readonly clock = new ClockSync();
+  readonly #url: string;
+  readonly #listener: StreamListener;
+  readonly #world: StreamWorld;
+  readonly #pings = new Map<number, { sentAt: number; second: boolean }>();
+  #socket: WebSocket | null = null;
+  #closed = false;
+  #tries = 0;
+  #pairs = 0;
+  #nextPing = 0;
+  #heardAt = 0;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #probing: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(url: string, listener: StreamListener, world: StreamWorld = browserWorld) {
+    const address = new URL(url);
+    address.searchParams.set("frames_per_message", String(FRAMES_PER_MESSAGE));
+    this.#url = address.href;
+    this.#listener = listener;
+    this.#world = world;
+    this.#connect();
+  }
+
+  /** The server's time now, seconds. */
+  serverNow(): number {
+    return this.clock.serverTime(this.#world.now());
+  }
+
+  /** End the connection for good. */
+  close(): void {
+    this.#closed = true;
+    clearTimeout(this.#timer);
+    clearTimeout(this.#probing);
+    this.#socket?.close(1000);
+    this.#socket = null;
+    this.#listener.connection("closed", null);
+  }
+
+  /** Try again at once instead of waiting, as when the network comes back. */
+  retryNow(): void {
+    if (this.#closed || this.#socket !== null) return;
+    clearTimeout(this.#timer);
+    this.#connect();
+  }
+
+  #connect(): void {
+    this.#listener.connection("connecting", null);
+    const socket = this.#world.connect(this.#url, SUBPROTOCOL);
+    socket.binaryType = "arraybuffer";
+    this.#socket = socket;
+    socket.onopen = () => {
+      if (this.#socket !== socket) return;
+      this.#heardAt = this.#world.now();
+      this.clock.reset();
+      this.#pings.clear();
+      this.#pairs = 0;
+      this.#listener.connection("open", null);
+      this.#probe();
+    };
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      if (this.#socket === socket) this.#receive(event.data);
+    };
+    socket.onclose = () => {
+      if (this.#socket === socket) this.#lose();
+    };
+  }
+
+  #receive(data: string | ArrayBuffer): void {
+    this.#heardAt = this.#world.now();
+    if (typeof data !== "string") {
+      this.#listener.frames(data);
+      return;
+    }
+    const message = JSON.parse(data) as ServerMessage;
+    if (message.type === "pong") this.#takePong(message.id, message.server_time_s);
+    else {
+      if (message.type === "hello") this.#tries = 0;
+      this.#listener.message(message);
+    }
+  }
+
+  #lose(): void {
+    this.#socket = null;
+    clearTimeout(this.#probing);
+    if (this.#closed) return;
+    const pause = Math.min(FIRST_RETRY_S * 2 ** this.#tries, LAST_RETRY_S) * (0.75 + 0.5 * this.#world.random());
+    this.#tries += 1;
+    this.#listener.connection("lost", pause);
+    this.#timer = setTimeout(() => this.#connect(), pause * 1000);
+  }
+
+  #probe(): void {
+    const socket = this.#socket;
+    if (socket === null) return;
+    if (this.#world.now() - this.#heardAt > SILENCE_S) {
+      socket.close();
+      this.#lose();
+      return;
+    }
+    this.#ping(false);
+    this.#pairs += 1;
+    const pause = this.#pairs < EAGER_PAIRS ? EAGER_INTERVAL_S : PROBE_INTERVAL_S;
+    this.#probing = setTimeout(() => this.#probe(), pause * 1000);
+  }
+
+  #ping(second: boolean): void {
+    const id = this.#nextPing++;
+    this.#pings.set(id, { sentAt: this.#world.now(), second });
+    const ping: ViewerMessage = { type: "ping", id };
+    if (this.#socket?.readyState === 1) this.#socket.send(JSON.stringify(ping));
+  }
+
+  #takePong(id: number, serverTime: number): void {
+    const ping = this.#pings.get(id);
+    if (ping === undefined) return;
+    this.#pings.delete(id);
+    this.clock.add({ sentAt: ping.sentAt, receivedAt: this.#heardAt, serverTime });
+    if (!ping.second) this.#ping(true);
+  }
+}

@@ -1,0 +1,2 @@
+export { loadSong } from "./song-loader";
+export { SongPlayer, type SongTime, type SoundState } from "./song-player";

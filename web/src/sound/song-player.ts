@@ -1,0 +1,213 @@
+import type { TransportState } from "../generated/protocol";
+import { DriftWatch } from "./drift";
+import { heardContextTime } from "./heard-time";
+import { PlaybackPath } from "./playback-path";
+
+/** What the player needs to know of time. */
+export interface SongTime {
+  /** The page's clock, seconds (performance.now's). */
+  pageNow(): number;
+  /** The song time that should be heard at a time of the page's clock, seconds. */
+  songTimeAt(pageTime: number): number;
+}
+
+export type SoundState =
+  /** Nothing to play yet. */
+  | "silent"
+  /** The browser wants a click or a key before it lets sound out. */
+  | "blocked"
+  | "ready";
+
+interface Voice {
+  readonly source: AudioBufferSourceNode;
+  readonly gain: GainNode;
+  readonly path: PlaybackPath;
+  readonly rate: number;
+}
+
+/** From planning a start to its sound being computed. */
+const LEAD_S = 0.06;
+const FADE_S = 0.012;
+/** After a start the output timestamp needs a moment to be true. */
+const SETTLE_S = 0.6;
+const VOLUME_GLIDE_S = 0.03;
+
+/**
+ * Plays the decoded song so that what is heard at any moment is the song time that the server's clock says.
+ *
+ * One AudioBufferSource is scheduled for each play, seek, rate or loop; `check`, called every tenth of a second or so,
+ * measures what is really heard and brings it back when it has drifted.
+ */
+export class SongPlayer {
+  readonly #context: AudioContext;
+  readonly #master: GainNode;
+  readonly #time: SongTime;
+  readonly #onState: (state: SoundState) => void;
+  readonly #drift = new DriftWatch();
+  #song: AudioBuffer | null = null;
+  #transport: TransportState | null = null;
+  #voice: Voice | null = null;
+  #checkFrom = 0;
+  #state: SoundState = "silent";
+  #volume = 1;
+  #muted = false;
+
+  constructor(time: SongTime, onState: (state: SoundState) => void, context = new AudioContext()) {
+    this.#time = time;
+    this.#onState = onState;
+    this.#context = context;
+    this.#master = context.createGain();
+    this.#master.connect(context.destination);
+    context.onstatechange = () => {
+      this.#tellState();
+      this.#restart();
+    };
+  }
+
+  /** Seconds of the song that is loaded; 0 without one. */
+  get songDuration(): number {
+    return this.#song?.duration ?? 0;
+  }
+
+  /**
+   * Decode and take a song; null takes it away. What plays goes over to it.
+   *
+   * @throws DOMException when the browser cannot decode it
+   */
+  async setSong(bytes: ArrayBuffer | null): Promise<void> {
+    this.#song = bytes === null ? null : await this.#context.decodeAudioData(bytes);
+    this.#tellState();
+    this.#restart();
+  }
+
+  /** The transport changed: play, pause or move accordingly. */
+  follow(transport: TransportState): void {
+    const before = this.#transport;
+    this.#transport = transport;
+    // An edit of the show raises the epoch too; the sound need not stutter for it.
+    if (before !== null && this.#voice !== null && sameMotion(before, transport)) return;
+    this.#restart();
+  }
+
+  /** Let sound out; to be called from a click or a key. */
+  async unlock(): Promise<void> {
+    if (this.#context.state !== "running") await this.#context.resume();
+  }
+
+  /** 0…1. */
+  setVolume(volume: number, muted: boolean): void {
+    this.#volume = volume;
+    this.#muted = muted;
+    // Loudness is heard by ratios: the square makes the slider's middle sound like the middle.
+    const gain = this.#muted ? 0 : this.#volume * this.#volume;
+    this.#master.gain.setTargetAtTime(gain, this.#context.currentTime, VOLUME_GLIDE_S);
+  }
+
+  /** The song time that is heard now, seconds; null when none is. */
+  heardSongTime(): number | null {
+    const voice = this.#voice;
+    return voice === null || this.#context.state !== "running" ? null : voice.path.positionAt(this.#heard());
+  }
+
+  /** Measure, and correct when the sound is not where it should be. */
+  check(): void {
+    const voice = this.#voice;
+    if (voice === null || this.#context.state !== "running") return;
+    const pageTime = this.#time.pageNow();
+    if (pageTime < this.#checkFrom) return;
+    const error = voice.path.errorAt(this.#heard(), this.#time.songTimeAt(pageTime));
+    const correction = this.#drift.read(error, voice.rate);
+    if (correction.kind === "restart") this.#restart();
+    else if (correction.kind === "burst") {
+      const begin = this.#context.currentTime + LEAD_S;
+      this.#setRate(voice, begin, voice.rate * correction.rate);
+      this.#setRate(voice, begin + correction.seconds, voice.rate);
+      this.#checkFrom = pageTime + LEAD_S + correction.seconds + SETTLE_S;
+    }
+  }
+
+  /** Stop and give the sound device back. */
+  async close(): Promise<void> {
+    this.#stopVoice();
+    this.#context.onstatechange = null;
+    await this.#context.close();
+  }
+
+  #restart(): void {
+    this.#stopVoice();
+    const transport = this.#transport;
+    if (this.#song === null || transport?.playing !== true) return;
+    if (this.#context.state !== "running") {
+      // Granted at once where the person has touched the page already, else once they do.
+      void this.#context.resume();
+      return;
+    }
+    this.#startVoice(this.#song, transport);
+  }
+
+  #startVoice(song: AudioBuffer, transport: TransportState): void {
+    const when = this.#context.currentTime + LEAD_S;
+    const pageTime = this.#time.pageNow();
+    const position = this.#time.songTimeAt(pageTime + (when - this.#heard()));
+    if (position >= song.duration) return;
+    const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
+    const source = new AudioBufferSourceNode(this.#context, { buffer: song, playbackRate: transport.rate });
+    if (loop !== null && loop.end_s <= song.duration) {
+      source.loop = true;
+      source.loopStart = loop.start_s;
+      source.loopEnd = loop.end_s;
+    }
+    const gain = new GainNode(this.#context, { gain: 0 });
+    gain.gain.setValueAtTime(0, when);
+    gain.gain.linearRampToValueAtTime(1, when + FADE_S);
+    source.connect(gain).connect(this.#master);
+    source.start(when, position);
+    source.onended = () => gain.disconnect();
+    const path = new PlaybackPath(when, position, transport.rate, loop);
+    this.#voice = { source, gain, path, rate: transport.rate };
+    this.#drift.reset();
+    this.#checkFrom = pageTime + SETTLE_S;
+  }
+
+  #stopVoice(): void {
+    const voice = this.#voice;
+    this.#voice = null;
+    if (voice === null) return;
+    const now = this.#context.currentTime;
+    voice.gain.gain.cancelScheduledValues(now);
+    voice.gain.gain.setTargetAtTime(0, now, FADE_S / 3);
+    voice.source.stop(now + 2 * FADE_S);
+  }
+
+  #setRate(voice: Voice, at: number, rate: number): void {
+    voice.source.playbackRate.setValueAtTime(rate, at);
+    voice.path.changeRate(at, rate);
+  }
+
+  #heard(): number {
+    const stamp = this.#context.getOutputTimestamp();
+    return heardContextTime({
+      pageTime: this.#time.pageNow(),
+      currentTime: this.#context.currentTime,
+      outputLatency: this.#context.outputLatency,
+      baseLatency: this.#context.baseLatency,
+      outputContextTime: stamp.contextTime,
+      outputPageTime: stamp.performanceTime === undefined ? undefined : stamp.performanceTime / 1000,
+    });
+  }
+
+  #tellState(): void {
+    const state = this.#song === null ? "silent" : this.#context.state === "running" ? "ready" : "blocked";
+    if (state === this.#state) return;
+    this.#state = state;
+    this.#onState(state);
+  }
+}
+
+/** Whether both transports say the same song time for every moment to come. */
+function sameMotion(a: TransportState, b: TransportState): boolean {
+  if (a.playing !== b.playing || a.rate !== b.rate) return false;
+  if (a.loop?.start_s !== b.loop?.start_s || a.loop?.end_s !== b.loop?.end_s) return false;
+  const moved = b.song_time_s - a.song_time_s - (b.server_time_s - a.server_time_s) * a.rate;
+  return a.playing && Math.abs(moved) < 0.001;
+}
