@@ -66,8 +66,8 @@ def is_mp3(head: bytes) -> bool:
 def read_mp3(file: BinaryIO, size: int) -> AudioFacts:
     """Read rate, channels and length of an MP3.
 
-    The length comes from the encoder's frame count, or else from the size at the first frame's bit rate, which
-    is right for a constant rate; encoders of varying rates write the count.
+    The length comes from the encoder's frame count, or else from the size at the first frame's bit rate,
+    which is right for a constant rate; encoders of varying rates write the count.
 
     Raises:
         BrokenAudioError: No frame follows the tags.
