@@ -1,0 +1,3 @@
+export { RigError, type RigDocument } from "./document";
+export { loadRig, type LoadedRig } from "./load";
+export { RigModel } from "./model";

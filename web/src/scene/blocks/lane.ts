@@ -1,0 +1,85 @@
+/** The lane: where a moment of the score and a height on the staff lie in the room, as GLSL. */
+
+import { Color, UniformsLib, UniformsUtils, Vector3 } from "three";
+
+/** Measures of both arrangements, metres unless said otherwise. */
+export const LANE = {
+  /** Height of one diatonic step on the staff. */
+  step: 0.033,
+  /** toward_bell: the ribbon leaves the bell and turns to the player's left. */
+  bell: { side: 1, radius: 1.15, turn: 1.12, height: 1.2, funnel: 0.95, narrowest: 0.16, sight: 3.6 },
+  /** lane_below: a desk before the player; the moment that sounds stands at `now`. */
+  below: { now: -0.55, near: 1.05, height: 0.42, lean: 0.5, past: 0.75, sight: 2.4 },
+} as const;
+
+/** Uniforms that blocks, halos and lines share; each is set in place. */
+export type LaneUniforms = ReturnType<typeof createLaneUniforms>;
+
+export function createLaneUniforms() {
+  return {
+    ...UniformsUtils.clone(UniformsLib.fog),
+    /** Song time, seconds. */
+    songTime: { value: 0 },
+    /** Metres a second. */
+    speed: { value: 0.6 },
+    /** 0 toward_bell, 1 lane_below. */
+    arrangement: { value: 0 },
+    /** Middle of the bell's mouth, in the world. */
+    bell: { value: new Vector3(0, 1.3, 0.75) },
+    toKey: { value: new Vector3() },
+    color: { value: new Color(0.1, 0.12, 0.2) },
+    soundingColor: { value: new Color(1, 0.6, 0.2) },
+    opacity: { value: 1 },
+    glow: { value: 1 },
+  };
+}
+
+const f = (value: number): string => value.toFixed(4);
+
+/**
+ * `Place lanePlace(float ahead, float step)`: a point of the staff `ahead` metres after the sounding moment, with the
+ * directions along the lane, up the staff and out of it, the staff's scale there, and how much it is seen.
+ */
+export const LANE_PLACE = /* glsl */ `
+uniform float songTime;
+uniform float speed;
+uniform float arrangement;
+uniform vec3 bell;
+struct Place {
+  vec3 point;
+  vec3 along;
+  vec3 up;
+  vec3 out_;
+  float scale;
+  float sight;
+};
+const float STEP = ${f(LANE.step)};
+float laneStart() {
+  return arrangement < 0.5 ? 0.0 : ${f(-LANE.below.past)};
+}
+float laneEnd() {
+  return arrangement < 0.5 ? ${f(LANE.bell.sight)} : ${f(LANE.below.sight)};
+}
+Place lanePlace(float ahead, float step) {
+  Place place;
+  if (arrangement < 0.5) {
+    float spread = smoothstep(0.0, ${f(LANE.bell.funnel)}, ahead);
+    float turn = min(ahead / ${f(LANE.bell.radius)}, ${f(LANE.bell.turn)});
+    float straight = ahead - turn * ${f(LANE.bell.radius)};
+    vec2 across = ${f(LANE.bell.radius)} * vec2(1.0 - cos(turn), sin(turn)) + straight * vec2(sin(turn), cos(turn));
+    place.scale = mix(${f(LANE.bell.narrowest)}, 1.0, spread);
+    float centre = mix(bell.y, ${f(LANE.bell.height)}, smoothstep(0.0, ${f(1.6 * LANE.bell.funnel)}, ahead));
+    place.point = vec3(bell.x + ${f(LANE.bell.side)} * across.x, centre + (step - 4.0) * STEP * place.scale, bell.z + across.y);
+    place.along = vec3(${f(LANE.bell.side)} * sin(turn), 0.0, cos(turn));
+    place.up = vec3(0.0, 1.0, 0.0);
+  } else {
+    place.scale = 1.0;
+    place.along = vec3(1.0, 0.0, 0.0);
+    place.up = vec3(0.0, ${f(Math.cos(LANE.below.lean))}, ${f(-Math.sin(LANE.below.lean))});
+    place.point = vec3(${f(LANE.below.now)} + ahead, ${f(LANE.below.height)}, ${f(LANE.below.near)}) + place.up * (step - 4.0) * STEP;
+  }
+  place.out_ = cross(place.along, place.up);
+  place.sight = smoothstep(laneEnd(), laneEnd() - 1.1, ahead) * smoothstep(laneStart() - 0.001, laneStart() + (arrangement < 0.5 ? 0.02 : 0.4), ahead);
+  return place;
+}
+`;

@@ -1,0 +1,250 @@
+/** The blocks, their halos and the staff's lines, as GLSL. */
+
+import { BLOCK } from "./block_geometry";
+import { LANE_PLACE } from "./lane";
+
+const f = (value: number): string => value.toFixed(4);
+
+/** Where a note's block begins and ends on the lane; what was played into the bell is gone. */
+const NOTE_SPAN = /* glsl */ `
+attribute vec4 note;
+float sounding() {
+  return step(note.x, songTime + 1e-4) * step(songTime + 1e-4, note.x + note.y);
+}
+bool noteSpan(out float start, out float end) {
+  start = max((note.x - songTime) * speed, laneStart());
+  float full = (note.x + note.y - songTime) * speed;
+  // A breath between two blocks, so that repeated notes stay two.
+  end = min(full - min(0.012, 0.15 * note.y * speed), laneEnd());
+  return end > start + 0.0015;
+}
+`;
+
+export const BLOCK_VERTEX = /* glsl */ `
+#include <common>
+#include <fog_pars_vertex>
+${LANE_PLACE}
+${NOTE_SPAN}
+attribute float inset;
+varying vec3 vFace;
+varying vec2 vInside;
+varying float vLength;
+varying float vSounding;
+varying float vMask;
+varying float vSight;
+varying vec3 vNormalWorld;
+varying vec3 vToEye;
+void main() {
+  float start, end;
+  vec4 mvPosition = vec4(0.0, 0.0, 0.0, 1.0);
+  if (noteSpan(start, end)) {
+    float extent = end - start;
+    float ahead = mix(start, end, position.x);
+    Place place = lanePlace(ahead, note.z);
+    float depth = inset * min(1.0, extent / (4.0 * ${f(BLOCK.edge)})) * place.scale;
+    vec3 point = place.point + place.along * depth + (place.up * position.y + place.out_ * position.z) * place.scale;
+    mvPosition = viewMatrix * vec4(point, 1.0);
+    gl_Position = projectionMatrix * mvPosition;
+    vFace = normal;
+    vInside = vec2((ahead - start + depth) / place.scale, position.y);
+    vLength = extent / place.scale;
+    vSounding = sounding();
+    vMask = note.w;
+    vSight = place.sight;
+    vNormalWorld = normalize(place.along * normal.x + place.up * normal.y + place.out_ * normal.z);
+    vToEye = cameraPosition - point;
+  } else {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    vFace = vNormalWorld = vToEye = vec3(0.0, 0.0, 1.0);
+    vInside = vec2(0.0);
+    vLength = vSounding = vMask = vSight = 0.0;
+  }
+  #include <fog_vertex>
+}
+`;
+
+/** Colours of the marks: paper, and one for each valve (linear sRGB of #F4EFE6, #C23B3B, #4C6A9A, #D9A441). */
+const MARKS = /* glsl */ `
+const vec3 PAPER = vec3(0.905, 0.863, 0.791);
+const vec3 INK = vec3(0.007, 0.0086, 0.0137);
+vec3 valveColor(int valve) {
+  return valve == 0 ? vec3(0.539, 0.0437, 0.0437) : (valve == 1 ? vec3(0.0723, 0.1441, 0.3231) : vec3(0.6939, 0.3712, 0.0528));
+}
+`;
+
+export const BLOCK_FRAGMENT = /* glsl */ `
+#include <common>
+#include <fog_pars_fragment>
+uniform vec3 color;
+uniform vec3 soundingColor;
+uniform float opacity;
+uniform float glow;
+uniform vec3 toKey;
+varying vec3 vFace;
+varying vec2 vInside;
+varying float vLength;
+varying float vSounding;
+varying float vMask;
+varying float vSight;
+varying vec3 vNormalWorld;
+varying vec3 vToEye;
+${MARKS}
+void main() {
+  float alpha = opacity * vSight * smoothstep(0.22, 0.5, length(vToEye));
+  if (alpha < 0.004) discard;
+  vec3 normal = normalize(vNormalWorld);
+  vec3 eye = normalize(vToEye);
+  bool playable = vMask > -0.5;
+  vec3 body = playable ? color : mix(color, vec3(dot(color, vec3(0.3333))), 0.7) * 0.5;
+
+  // Lacquer: a matt body under a clear coat that catches the window.
+  float wrapped = 0.5 + 0.5 * dot(normal, toKey);
+  float sky = 0.5 + 0.5 * normal.y;
+  vec3 light = vec3(1.0, 0.88, 0.72) * wrapped * wrapped * 1.5 + vec3(0.32, 0.36, 0.44) * sky;
+  float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
+  float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0) * 1.6;
+  vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.35 * fresnel + glint);
+
+  // From the edge of the face inward, metres.
+  float fromEnds = min(vInside.x, vLength - vInside.x);
+  float fromSides = ${f(BLOCK.height / 2)} - abs(vInside.y);
+  float inward = min(fromEnds, fromSides);
+  float facing = smoothstep(0.6, 0.9, abs(vFace.z));
+
+  // Lit from within: brightest in the core, and still bright at the rim.
+  float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
+  vec3 lit = soundingColor * (0.75 + glow * (0.55 + 1.1 * core)) + 0.25 * shaded;
+  vec3 surface = mix(shaded, lit, vSounding);
+
+  float pixel = max(fwidth(vInside.y), 1e-5);
+  // Three valves in a column at the note's beginning, the first on top; it holds from either side.
+  float column = min(0.0185, 0.5 * vLength);
+  for (int valve = 0; valve < 3; valve++) {
+    vec2 from = vInside - vec2(column, (1.0 - float(valve)) * 0.0192);
+    float distance_ = length(from);
+    float radius = min(0.0082, 0.42 * vLength);
+    bool down = playable && mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
+    float disc = 1.0 - smoothstep(radius - pixel, radius + pixel, distance_);
+    float hole = 1.0 - smoothstep(radius - 0.0024 - pixel, radius - 0.0024 + pixel, distance_);
+    float ring = disc - hole;
+    float open = vMask > -0.5 && vMask < 0.5 ? 1.0 : 0.0;
+    vec3 mark = down ? mix(PAPER, valveColor(valve) * 1.35, hole) : PAPER;
+    float share = down ? disc : ring * mix(0.42, 1.0, open);
+    // On a lit block the marks stand on ink.
+    float plate = (1.0 - smoothstep(radius + 0.001, radius + 0.0022 + 2.0 * pixel, distance_)) * vSounding * 0.75;
+    if (playable) {
+      surface = mix(surface, INK, plate * facing);
+      surface = mix(surface, mark, share * facing);
+    }
+  }
+  // What cannot be played is an empty frame.
+  if (!playable) {
+    float frame = 1.0 - smoothstep(0.003, 0.003 + pixel, inward);
+    surface = mix(surface, PAPER, 0.6 * frame * facing);
+    alpha *= mix(0.35, 1.0, frame);
+  }
+  gl_FragColor = vec4(surface, alpha);
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+  #include <fog_fragment>
+}
+`;
+
+/** Light about a sounding block: a card that faces the eye, added to the picture. */
+export const HALO_VERTEX = /* glsl */ `
+#include <common>
+${LANE_PLACE}
+${NOTE_SPAN}
+uniform float glow;
+varying vec2 vFrom;
+varying float vSight;
+const float REACH = 0.16;
+void main() {
+  float start, end;
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  vFrom = vec2(0.0);
+  vSight = 0.0;
+  if (sounding() > 0.5 && glow > 0.0 && noteSpan(start, end)) {
+    float ahead = clamp(mix(start, end, position.x), start, end);
+    Place place = lanePlace(ahead, note.z);
+    vec3 eye = normalize(cameraPosition - place.point);
+    vec3 up = normalize(cross(eye, place.along));
+    up *= sign(dot(up, place.up) + 1e-4);
+    vec3 along = cross(up, eye);
+    along *= sign(dot(along, place.along) + 1e-4);
+    vec3 point = place.point + (along * position.z + up * position.y) * REACH * max(place.scale, 0.5) + eye * 0.02;
+    vFrom = position.zy;
+    vSight = place.sight;
+    gl_Position = projectionMatrix * viewMatrix * vec4(point, 1.0);
+  }
+}
+`;
+
+export const HALO_FRAGMENT = /* glsl */ `
+#include <common>
+uniform vec3 soundingColor;
+uniform float glow;
+uniform float opacity;
+varying vec2 vFrom;
+varying float vSight;
+void main() {
+  float falloff = max(0.0, 1.0 - length(vFrom));
+  float light = falloff * falloff * falloff * glow * 0.55 * opacity * max(vSight, 0.35);
+  gl_FragColor = vec4(soundingColor * light, 1.0);
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+}
+`;
+
+/** Staff, ledger and bar lines: thin bands, a little wider than a hair from afar. */
+export const LINE_VERTEX = /* glsl */ `
+#include <common>
+#include <fog_pars_vertex>
+${LANE_PLACE}
+attribute vec4 line;
+uniform float pixelAngle;
+varying float vSight;
+varying float vBar;
+varying float vThin;
+void main() {
+  vec4 mvPosition = vec4(0.0, 0.0, 0.0, 1.0);
+  float start = max((line.x - songTime) * speed, laneStart());
+  float end = min((line.y - songTime) * speed, laneEnd());
+  bool bar = line.z != line.w;
+  vBar = bar ? 1.0 : 0.0;
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  vSight = vThin = 0.0;
+  if (bar ? (start <= end + 1e-5 && (line.x - songTime) * speed >= laneStart()) : start < end) {
+    float overhang = bar || line.y - line.x > 1e5 ? 0.0 : 0.018;
+    float ahead = mix(start - overhang * step(laneStart() + overhang, start), min(end + overhang, laneEnd()), position.x);
+    Place place = lanePlace(ahead, mix(line.z, line.w, position.x));
+    float away = distance(cameraPosition, place.point);
+    // Never thinner than a pixel: fainter instead.
+    float wanted = (bar ? 0.0022 : 0.0016) * place.scale;
+    float width = max(wanted, 0.6 * pixelAngle * away);
+    vThin = wanted / width;
+    vec3 across = bar ? place.along : place.up;
+    vec3 point = place.point + across * position.y * width;
+    mvPosition = viewMatrix * vec4(point, 1.0);
+    gl_Position = projectionMatrix * mvPosition;
+    vSight = place.sight * smoothstep(0.2, 0.5, away);
+  }
+  #include <fog_vertex>
+}
+`;
+
+export const LINE_FRAGMENT = /* glsl */ `
+#include <common>
+#include <fog_pars_fragment>
+uniform float opacity;
+varying float vSight;
+varying float vBar;
+varying float vThin;
+${MARKS}
+void main() {
+  gl_FragColor = vec4(PAPER, vSight * vThin * mix(0.5, 0.72, vBar) * min(1.0, opacity * 1.2));
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+  #include <fog_fragment>
+}
+`;

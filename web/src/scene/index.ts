@@ -1,0 +1,6 @@
+export { StageUnavailableError } from "./errors";
+export { LayoutError, type DrawnFrame } from "./frame";
+export type { ScoreNote, ScoreView } from "./score";
+export { Stage, type StageOptions } from "./stage";
+export type { Tier } from "./tiers";
+export { RigError } from "../rig";

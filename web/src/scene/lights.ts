@@ -1,0 +1,58 @@
+/** The lights of the stage, as the show sets them. */
+
+import { AmbientLight, DirectionalLight, Group, type Scene, Vector3 } from "three";
+
+import type { TierSettings } from "./tiers";
+
+/** What every light looks at: the player's chest. */
+const TARGET = new Vector3(0, 1.05, 0.1);
+
+/** Half the width and height of what casts shadows about the target, metres: a player with the instrument raised. */
+const SHADOW_REACH = 1.35;
+
+export class StageLights {
+  readonly key = new DirectionalLight(0xffffff, 3);
+  readonly fill = new DirectionalLight(0xffffff, 0.5);
+  readonly rim = new DirectionalLight(0xffffff, 1.5);
+  readonly ambient = new AmbientLight(0xffffff, 0.1);
+  /** Unit vector from the player to the key, in the world. */
+  readonly toKey = new Vector3(-0.6, 0.5, 0.6);
+  readonly #target = new Group();
+
+  constructor(scene: Scene, tier: TierSettings) {
+    this.#target.position.copy(TARGET);
+    // The key stays first: the room's surfaces take it through the windows (room/surface.ts).
+    for (const light of [this.key, this.fill, this.rim]) {
+      light.target = this.#target;
+      scene.add(light);
+    }
+    scene.add(this.ambient, this.#target);
+    this.key.position.set(-2.5, 2.8, 2.6);
+    this.rim.position.set(1.6, 2.6, -2.2);
+    if (tier.shadowMapSize > 0) {
+      this.key.castShadow = true;
+      const { shadow } = this.key;
+      shadow.mapSize.setScalar(tier.shadowMapSize);
+      shadow.camera.left = shadow.camera.bottom = -SHADOW_REACH;
+      shadow.camera.right = shadow.camera.top = SHADOW_REACH;
+      shadow.camera.near = 0.1;
+      shadow.camera.far = 14;
+      shadow.bias = -0.0004;
+      shadow.normalBias = 0.012;
+      shadow.radius = tier.shadowMapSize / 512;
+    }
+  }
+
+  /** Follow the key: the fill stands across from it. */
+  arrange(): void {
+    const { key, fill } = this;
+    this.toKey.subVectors(key.position, TARGET).normalize();
+    fill.position.set(TARGET.x - this.toKey.x * 3, TARGET.y + 0.7, TARGET.z + 2.4);
+  }
+
+  dispose(): void {
+    this.key.dispose();
+    this.fill.dispose();
+    this.rim.dispose();
+  }
+}

@@ -1,0 +1,33 @@
+/** The WebGL renderer, or a plain word about why there is none. */
+
+import { ACESFilmicToneMapping, PCFShadowMap, SRGBColorSpace, WebGLRenderer } from "three";
+
+import { StageUnavailableError } from "./errors";
+import type { TierSettings } from "./tiers";
+
+/**
+ * Make the renderer on a canvas.
+ *
+ * @throws StageUnavailableError where the browser gives no WebGL 2.
+ */
+export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings): WebGLRenderer {
+  const attributes: WebGLContextAttributes = {
+    alpha: false,
+    antialias: tier.antialias,
+    powerPreference: "high-performance",
+  };
+  const context = canvas.getContext("webgl2", attributes);
+  if (context === null) {
+    throw new StageUnavailableError(
+      "This browser cannot draw the stage: it has no WebGL 2. " +
+        "Switch on hardware acceleration in its settings, or open Reina in a current Firefox, Chrome, Edge or Safari.",
+    );
+  }
+  const renderer = new WebGLRenderer({ canvas, context, ...attributes });
+  renderer.outputColorSpace = SRGBColorSpace;
+  renderer.toneMapping = ACESFilmicToneMapping;
+  renderer.shadowMap.enabled = tier.shadowMapSize > 0;
+  renderer.shadowMap.type = PCFShadowMap;
+  renderer.info.autoReset = false;
+  return renderer;
+}

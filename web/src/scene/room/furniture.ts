@@ -1,0 +1,82 @@
+/** Music stands and chairs at the back of the room, for depth. */
+
+import {
+  BoxGeometry,
+  type BufferGeometry,
+  CylinderGeometry,
+  InstancedMesh,
+  type Material,
+  Matrix4,
+  MeshStandardMaterial,
+} from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
+
+
+/** x, z and heading about +y of each, metres and radians. */
+type Place = readonly [x: number, z: number, heading: number];
+
+const STANDS: readonly Place[] = [
+  [1.32, -1.05, -0.5],
+  [-1.55, -1.75, 0.45],
+  [0.35, -2.35, 0.05],
+  [2.6, -2.2, -0.6],
+  [-2.9, -2.5, 0.5],
+];
+
+const CHAIRS: readonly Place[] = [
+  [1.75, -1.6, -0.5],
+  [-1.95, -2.3, 0.45],
+  [0.3, -2.95, 0.05],
+  [3.0, -2.75, -0.6],
+  [-3.25, -3.0, 0.5],
+];
+
+function rod(from: [number, number, number], to: [number, number, number], radius: number): BufferGeometry {
+  const [x, y, z] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+  const length = Math.hypot(x, y, z);
+  return new CylinderGeometry(radius, radius, length, 8)
+    .translate(0, length / 2, 0)
+    .rotateX(Math.acos(y / length))
+    .rotateY(Math.atan2(x, z))
+    .translate(...from);
+}
+
+/** A desk on a tube with three feet; who plays stands behind it, at −z. */
+function standGeometry(): BufferGeometry {
+  const desk = new BoxGeometry(0.5, 0.34, 0.006).translate(0, 0.17, 0);
+  const lip = new BoxGeometry(0.5, 0.008, 0.055).translate(0, 0.004, -0.028);
+  const tilted = [desk, lip].map((part) => part.rotateX(0.42).translate(0, 0.98, 0));
+  const feet = [0, 1, 2].map((i) => {
+    const turn = (i * 2 * Math.PI) / 3 + Math.PI / 2;
+    return rod([0, 0.24, 0], [0.27 * Math.cos(turn), 0.012, 0.27 * Math.sin(turn)], 0.009);
+  });
+  return mergeGeometries([...tilted, rod([0, 0.2, 0], [0, 1.06, 0.03], 0.012), ...feet]);
+}
+
+/** A stacking chair that faces +z. */
+function chairGeometry(): BufferGeometry {
+  const seat = new BoxGeometry(0.4, 0.025, 0.4).translate(0, 0.44, 0);
+  const back = new BoxGeometry(0.4, 0.2, 0.018).rotateX(-0.14).translate(0, 0.74, -0.235);
+  const legs = [-0.18, 0.18].flatMap((x) => [
+    rod([x, 0, 0.19], [x, 0.44, 0.17], 0.011),
+    rod([x, 0, -0.24], [x, 0.45, -0.18], 0.011),
+    rod([x, 0.42, -0.18], [x, 0.82, -0.25], 0.011),
+  ]);
+  return mergeGeometries([seat, back, ...legs]);
+}
+
+function place(geometry: BufferGeometry, material: Material, places: readonly Place[]): InstancedMesh {
+  const mesh = new InstancedMesh(geometry, material, places.length);
+  const matrix = new Matrix4();
+  places.forEach(([x, z, heading], i) => mesh.setMatrixAt(i, matrix.makeRotationY(heading).setPosition(x, 0, z)));
+  mesh.castShadow = true;
+  mesh.receiveShadow = true;
+  mesh.computeBoundingSphere();
+  return mesh;
+}
+
+export function createFurniture(): InstancedMesh[] {
+  const enamel = new MeshStandardMaterial({ color: 0x15161a, roughness: 0.45, metalness: 0.3 });
+  const wood = new MeshStandardMaterial({ color: 0x4a2c1a, roughness: 0.5 });
+  return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, CHAIRS)];
+}

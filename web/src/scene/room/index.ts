@@ -1,0 +1,29 @@
+/** The band room after school. */
+
+import { Color, Group, type Vector3 } from "three";
+
+import type { TierSettings } from "../tiers";
+import { createFloor, type Floor } from "./floor";
+import { createFurniture } from "./furniture";
+import { FloorMirror } from "./mirror";
+import { createWalls } from "./walls";
+
+export { RoomReflections } from "./reflections";
+
+export interface Room {
+  readonly object: Group;
+  readonly floor: Floor["mesh"];
+  readonly mirror: FloorMirror | null;
+  /** The key's colour times its intensity: what the windows shine with. */
+  readonly keyColor: Color;
+}
+
+/** @param toKey unit vector to the key, kept up to date by the lights. */
+export function createRoom(toKey: Vector3, tier: TierSettings): Room {
+  const keyColor = new Color(3, 2.4, 1.7);
+  const mirror = tier.mirrorScale > 0 ? new FloorMirror(tier.mirrorScale) : null;
+  const { mesh: floor } = createFloor(toKey, mirror);
+  const object = new Group();
+  object.add(floor, createWalls(toKey, keyColor), ...createFurniture());
+  return { object, floor, mirror, keyColor };
+}

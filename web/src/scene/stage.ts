@@ -1,0 +1,232 @@
+/** The stage: loads the rigs, takes frames, draws pictures. */
+
+import { Color, FogExp2, type Object3D, Scene, Vector3, type WebGLRenderer } from "three";
+
+import type { Hello } from "../generated/protocol";
+import { RigModel, loadRig } from "../rig";
+import { NoteBlocks } from "./blocks/blocks";
+import { StageCamera } from "./camera";
+import { type DrawnFrame, ParameterIndex } from "./frame";
+import { StageLights } from "./lights";
+import { createRenderer } from "./renderer";
+import { RoomReflections, createRoom, type Room } from "./room";
+import type { ScoreView } from "./score";
+import { ShowBinding } from "./show_binding";
+import { dressSurfaces } from "./surfaces";
+import { TIERS, type Tier, type TierSettings } from "./tiers";
+
+export interface StageOptions {
+  readonly tier: Tier;
+  readonly reducedMotion: boolean;
+  onCameraTaken?(taken: boolean): void;
+}
+
+/** The bell's mouth: a node, and the point in its frame. */
+interface Bell {
+  readonly node: Object3D;
+  readonly offset: Vector3;
+}
+
+const BELL_NODE = "socket_bell";
+
+export class Stage {
+  readonly #tier: TierSettings;
+  readonly #tierName: Tier;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  readonly #background = new Color(0x14110e);
+  readonly #fog = new FogExp2(0x14110e, 0.05);
+  readonly #lights: StageLights;
+  readonly #camera: StageCamera;
+  readonly #room: Room;
+  readonly #reflections: RoomReflections;
+  readonly #blocks: NoteBlocks;
+  readonly #show: ShowBinding;
+  #models: RigModel[] = [];
+  #bell: Bell | null = null;
+  #drawnIndex = -1;
+  #height = 1;
+  #loads = 0;
+  #redraw = 0;
+  #disposed = false;
+
+  /** @throws StageUnavailableError where the browser gives no WebGL 2. */
+  constructor(canvas: HTMLCanvasElement, options: StageOptions) {
+    this.#tierName = options.tier;
+    this.#tier = TIERS[options.tier];
+    this.#canvas = canvas;
+    this.#renderer = createRenderer(canvas, this.#tier);
+    const scene = this.#scene;
+    scene.matrixWorldAutoUpdate = false;
+    scene.background = this.#background;
+    scene.fog = this.#fog;
+    this.#lights = new StageLights(scene, this.#tier);
+    this.#room = createRoom(this.#lights.toKey, this.#tier);
+    scene.add(this.#room.object);
+    this.#blocks = new NoteBlocks(options.tier === "low" ? 4 : 10);
+    this.#blocks.uniforms.toKey.value = this.#lights.toKey;
+    scene.add(this.#blocks.object);
+    this.#reflections = new RoomReflections(this.#tier.environmentSize);
+    scene.environment = this.#reflections.render(this.#renderer);
+    this.#camera = new StageCamera(canvas, {
+      reducedMotion: options.reducedMotion,
+      onTaken: (taken) => options.onCameraTaken?.(taken),
+      onChange: () => this.#drawSoon(),
+    });
+    this.#show = new ShowBinding({
+      renderer: this.#renderer,
+      scene,
+      fog: this.#fog,
+      background: this.#background,
+      camera: this.#camera,
+      lights: this.#lights,
+      room: this.#room,
+      blocks: this.#blocks,
+    });
+    canvas.addEventListener("webglcontextrestored", this.#restore);
+  }
+
+  /** Index of the frame that was last drawn; -1 before the first. */
+  get drawnIndex(): number {
+    return this.#drawnIndex;
+  }
+
+  /** Draw calls and triangles of the last picture. */
+  get cost(): { readonly calls: number; readonly triangles: number } {
+    const { calls, triangles } = this.#renderer.info.render;
+    return { calls, triangles };
+  }
+
+  /**
+   * Fetch what a session's frames move: each skeleton's rig file and the tier's model.
+   *
+   * @throws RigError if a rig cannot be had or does not fit its model.
+   * @throws LayoutError if the frames do not fit the rigs or the page.
+   */
+  async load(hello: Hello, rigUrl: (name: string) => string): Promise<void> {
+    const load = ++this.#loads;
+    const rigs = await Promise.all(
+      hello.skeletons.map(({ rig }) => loadRig(rig, rigUrl(rig), this.#tierName)),
+    );
+    if (load !== this.#loads || this.#disposed) return;
+    const parameters = new ParameterIndex(hello.parameters);
+    const models = rigs.flatMap((rig, i) => {
+      const layout = hello.skeletons[i];
+      return layout === undefined ? [] : [new RigModel(rig, layout, parameters)];
+    });
+    this.#show.bind(parameters);
+    for (const { object } of this.#models) this.#scene.remove(object);
+    for (const { object } of models) {
+      dressSurfaces(object, this.#tier);
+      this.#scene.add(object);
+    }
+    this.#models = models;
+    this.#bell = findBell(models);
+  }
+
+  /** Lay out the played part's notes. */
+  setScore(score: ScoreView): void {
+    this.#blocks.setScore(score);
+    this.#drawSoon();
+  }
+
+  /** Take a frame and draw it. */
+  draw(frame: DrawnFrame): void {
+    const { floats } = frame;
+    for (const model of this.#models) model.pose(floats);
+    this.#show.apply(floats);
+    this.#blocks.scroll(frame.songTime);
+    this.#render();
+    this.#drawnIndex = frame.index;
+  }
+
+  #render(): void {
+    if (this.#renderer.getContext().isContextLost()) return;
+    const scene = this.#scene;
+    this.#camera.follow();
+    scene.updateMatrixWorld();
+    if (this.#bell !== null) {
+      const { node, offset } = this.#bell;
+      this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);
+    }
+    const { camera } = this.#camera;
+    this.#blocks.uniforms.pixelAngle.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / this.#height;
+    const { shadowMap, info } = this.#renderer;
+    info.reset();
+    shadowMap.autoUpdate = true;
+    const { mirror, floor } = this.#room;
+    if (mirror !== null) {
+      mirror.render(this.#renderer, scene, camera, floor);
+      shadowMap.autoUpdate = false;
+    }
+    this.#renderer.render(scene, camera);
+    if (this.#camera.returning) this.#drawSoon();
+  }
+
+  /** Draw the last frame again with the next picture: the camera moved, or the score came. */
+  #drawSoon(): void {
+    if (this.#redraw !== 0 || this.#disposed) return;
+    this.#redraw = requestAnimationFrame(() => {
+      this.#redraw = 0;
+      if (this.#drawnIndex >= 0) this.#render();
+    });
+  }
+
+  /** three.js makes buffers and textures anew by itself, but not what it had drawn into them. */
+  readonly #restore = (): void => {
+    this.#scene.environment = this.#reflections.render(this.#renderer);
+    this.#drawSoon();
+  };
+
+  /** @param pixelRatio of the device; the tier may draw with less. */
+  resize(width: number, height: number, pixelRatio: number): void {
+    const ratio = Math.min(pixelRatio, this.#tier.largestPixelRatio);
+    this.#renderer.setPixelRatio(ratio);
+    this.#renderer.setSize(width, height, false);
+    this.#height = Math.max(1, height * ratio);
+    this.#room.mirror?.resize(width * ratio, height * ratio);
+    this.#camera.resize(width / Math.max(1, height));
+    this.#drawSoon();
+  }
+
+  /** Leave the camera where it is, free to be orbited. */
+  takeCamera(): void {
+    this.#camera.take();
+  }
+
+  /** Give the camera back to the show. */
+  giveBackCamera(): void {
+    this.#camera.giveBack();
+  }
+
+  /** The joints' local rotations as they stand in the scene, x y z w, by joint name. */
+  boneQuaternions(): Record<string, [number, number, number, number]> {
+    const rotations: Record<string, [number, number, number, number]> = {};
+    for (const model of this.#models) model.readRotations(rotations);
+    return rotations;
+  }
+
+  dispose(): void {
+    this.#disposed = true;
+    cancelAnimationFrame(this.#redraw);
+    this.#canvas.removeEventListener("webglcontextrestored", this.#restore);
+    this.#camera.dispose();
+    this.#lights.dispose();
+    this.#blocks.dispose();
+    this.#room.mirror?.dispose();
+    this.#reflections.dispose();
+    this.#renderer.dispose();
+  }
+}
+
+/** The mouth of the first bell among the models: the rig's contact, or else the model's socket. */
+function findBell(models: readonly RigModel[]): Bell | null {
+  for (const model of models) {
+    const contact = model.findContact("bell");
+    if (contact !== null) return contact;
+    const node = model.object.getObjectByName(BELL_NODE);
+    if (node !== undefined) return { node, offset: new Vector3() };
+  }
+  return null;
+}

@@ -1,0 +1,43 @@
+/** What each tier of device draws. */
+
+export type Tier = "full" | "medium" | "low";
+
+export interface TierSettings {
+  readonly antialias: boolean;
+  readonly largestPixelRatio: number;
+  /** Texels along a side of the key's shadow map; 0 casts no shadow. */
+  readonly shadowMapSize: number;
+  /** Size of the floor's mirror image as a share of the picture; 0 leaves only the room's own reflection. */
+  readonly mirrorScale: number;
+  /** Texels along a side of each face of the reflected room. */
+  readonly environmentSize: number;
+  /** Shades skin with light that passes under it, and cloth with its sheen. */
+  readonly softSurfaces: boolean;
+}
+
+export const TIERS: Readonly<Record<Tier, TierSettings>> = {
+  full: {
+    antialias: true,
+    largestPixelRatio: 2,
+    shadowMapSize: 2048,
+    mirrorScale: 0.5,
+    environmentSize: 512,
+    softSurfaces: true,
+  },
+  medium: {
+    antialias: true,
+    largestPixelRatio: 1.5,
+    shadowMapSize: 1024,
+    mirrorScale: 0,
+    environmentSize: 256,
+    softSurfaces: true,
+  },
+  low: {
+    antialias: false,
+    largestPixelRatio: 1,
+    shadowMapSize: 0,
+    mirrorScale: 0,
+    environmentSize: 128,
+    softSurfaces: false,
+  },
+};
