@@ -1,1 +1,46 @@
-"""The layer `music`; docs/architecture.md says what it holds."""
+"""Scores, their readers, tempo and metre, the music clock and note events.
+
+Usable without a server: ``read_score(path.read_bytes(), filename=path.name)``.
+"""
+
+from reina.music.clock import ClockError, ClockState, MusicClock, Span
+from reina.music.controls import Control, ControlKind
+from reina.music.document.schema import score_schema
+from reina.music.errors import ScoreError, ScoreLimitError
+from reina.music.events import Listener, NoteEvent, NoteEventEmitter
+from reina.music.limits import DEFAULT_LIMITS, Limits
+from reina.music.metre import BarPosition, MetreMap, TimeSignature
+from reina.music.notes import Note, Notes
+from reina.music.read import read_score
+from reina.music.score import Part, Score
+from reina.music.tempo import Tempo, TempoMap
+from reina.music.warnings import ScoreWarning, WarningLog
+
+__all__ = [
+    "DEFAULT_LIMITS",
+    "BarPosition",
+    "ClockError",
+    "ClockState",
+    "Control",
+    "ControlKind",
+    "Limits",
+    "Listener",
+    "MetreMap",
+    "MusicClock",
+    "Note",
+    "NoteEvent",
+    "NoteEventEmitter",
+    "Notes",
+    "Part",
+    "Score",
+    "ScoreError",
+    "ScoreLimitError",
+    "ScoreWarning",
+    "Span",
+    "Tempo",
+    "TempoMap",
+    "TimeSignature",
+    "WarningLog",
+    "read_score",
+    "score_schema",
+]

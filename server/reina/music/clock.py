@@ -1,0 +1,252 @@
+"""The music clock: which song time is heard at which server time."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from reina.errors import InputError
+from reina.music.arrays import FloatArray, IntArray
+
+SLOWEST_RATE = 0.1
+FASTEST_RATE = 4.0
+SHORTEST_LOOP_S = 0.1
+
+
+class ClockError(InputError):
+    """A transport action that cannot be done."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """Song time that runs on without a jump.
+
+    Attributes:
+        server_time_s: Server time at which it begins.
+        start_s: Song time at which it begins.
+        end_s: Song time up to which it runs, not included unless it is the song's end.
+        ends_song: Whether it runs to the song's end.
+    """
+
+    server_time_s: float
+    start_s: float
+    end_s: float
+    ends_song: bool = False
+
+
+@dataclass(frozen=True)
+class ClockState:
+    """What the clock says at one server time; it holds until the clock is changed, which raises the epoch.
+
+    Attributes:
+        playing: Whether song time runs.
+        song_time_s: Song time heard at `server_time_s`.
+        server_time_s: The server time that is spoken of.
+        rate: Song seconds a server second.
+        loop: Start and end of the loop in song time, or None.
+        epoch: Counts the changes.
+        duration_s: Where the song ends.
+    """
+
+    playing: bool
+    song_time_s: float
+    server_time_s: float
+    rate: float
+    loop: tuple[float, float] | None
+    epoch: int
+    duration_s: float
+
+    @property
+    def _looping(self) -> tuple[float, float] | None:
+        """The loop, if playing on from here comes to its end."""
+        return self.loop if self.loop is not None and self.song_time_s < self.loop[1] else None
+
+    def song_times_at(self, server_times_s: ArrayLike) -> FloatArray:
+        """Return the song times heard at server times, of the same shape; before this state, its own."""
+        at = np.asarray(server_times_s, dtype=np.float64)
+        if not self.playing:
+            return np.full(at.shape, self.song_time_s)
+        run = self.song_time_s + np.maximum(at - self.server_time_s, 0.0) * self.rate
+        loop = self._looping
+        if loop is not None:
+            start, end = loop
+            return np.where(run < end, run, start + np.mod(run - end, end - start))
+        return np.minimum(run, self.duration_s)
+
+    def at(self, server_time_s: float) -> "ClockState":
+        """Return the state at a later server time; at the song's end it is paused."""
+        song_time_s = float(self.song_times_at(server_time_s))
+        ended = self._looping is None and song_time_s >= self.duration_s
+        return replace(
+            self, playing=self.playing and not ended, song_time_s=song_time_s, server_time_s=server_time_s
+        )
+
+    def server_time_of(self, song_time_s: float) -> float | None:
+        """Return the first server time from this state on at which a song time is heard; None if never."""
+        if not self.playing:
+            return self.server_time_s if song_time_s == self.song_time_s else None
+        loop = self._looping
+        last = loop[1] if loop is not None else self.duration_s
+        if self.song_time_s <= song_time_s < last or (loop is None and song_time_s == last):
+            return self.server_time_s + (song_time_s - self.song_time_s) / self.rate
+        if loop is not None and loop[0] <= song_time_s < self.song_time_s:
+            return self.server_time_s + (loop[1] - self.song_time_s + song_time_s - loop[0]) / self.rate
+        return None
+
+    def spans(self, start_s: float, end_s: float) -> tuple[Span, ...]:
+        """Return the song time heard between two server times as runs without a jump, in their order.
+
+        Neighbouring calls meet without a gap: the last span of one ends where the first of the next begins.
+        """
+        start_s = max(start_s, self.server_time_s)
+        if not self.playing or end_s <= start_s:
+            return ()
+        run, until = self.song_time_s + (np.array([start_s, end_s]) - self.server_time_s) * self.rate
+        loop = self._looping
+        if loop is None:
+            run, until = float(run), min(float(until), self.duration_s)
+            return (Span(start_s, run, until, until >= self.duration_s),) if until > run else ()
+        begin, end = loop
+        length = end - begin
+        spans: list[Span] = []
+        turn = max(0, math.floor((float(run) - begin) / length))
+        while begin + turn * length < until:
+            first = max(float(run), begin + turn * length) if turn else float(run)
+            last = min(float(until), end + turn * length)
+            if last > first:
+                server = self.server_time_s + (first - self.song_time_s) / self.rate
+                spans.append(Span(server, first - turn * length, last - turn * length))
+            turn += 1
+        return tuple(spans)
+
+    def frames_due(self, start_s: float, end_s: float, fps: int) -> tuple[IntArray, FloatArray]:
+        """Return the frames on the grid k / fps that fall due from `start_s` up to, not including, `end_s`.
+
+        Neighbouring calls give each frame once. While paused none is due.
+
+        Returns:
+            (F,) int64 frame indices and (F,) float64 server times, in the order of the times.
+        """
+        frames: list[IntArray] = [np.zeros(0, dtype=np.int64)]
+        due: list[FloatArray] = [np.zeros(0)]
+        for span in self.spans(start_s, end_s):
+            # A millionth of a frame is forgiven, so that a seek to k / fps begins with frame k.
+            first, last = (math.ceil(round(time * fps, 6)) for time in (span.start_s, span.end_s))
+            if span.ends_song:
+                last = math.floor(round(span.end_s * fps, 6)) + 1
+            run = np.arange(first, last, dtype=np.int64)
+            frames.append(run)
+            due.append(span.server_time_s + (run / fps - span.start_s) / self.rate)
+        return np.concatenate(frames), np.concatenate(due)
+
+
+class MusicClock:
+    """Play, pause, seek, rate and loop, on an injected clock.
+
+    Song time while playing is ``s0 + (T - T0) · rate``, where s0 was heard at the server time T0 of the last
+    change. At the end it stops: the state then says paused at the duration, and playing again begins at 0.
+    Every call below raises the epoch, whether it changes anything or not.
+    """
+
+    def __init__(self, now: Callable[[], float], duration_s: float) -> None:
+        """Make a clock that is paused at 0.
+
+        Args:
+            now: The server's time in seconds; it never goes back.
+            duration_s: Where the song ends, greater than 0.
+
+        Raises:
+            ValueError: If the duration is not greater than 0 and finite.
+        """
+        if not (math.isfinite(duration_s) and duration_s > 0):
+            raise ValueError(f"a song lasts a finite time greater than 0 seconds, not {duration_s}")
+        self._now = now
+        self._changed = ClockState(False, 0.0, now(), 1.0, None, 0, duration_s)
+
+    @property
+    def duration_s(self) -> float:
+        """Where the song ends, seconds."""
+        return self._changed.duration_s
+
+    @property
+    def epoch(self) -> int:
+        """How many changes there were."""
+        return self._changed.epoch
+
+    def state(self, at: float | None = None) -> ClockState:
+        """Return the state at a server time, now by default; it depends on the last change and `at` alone."""
+        return self._changed.at(self._now() if at is None else at)
+
+    def play(self) -> ClockState:
+        """Let song time run; from the beginning if it stands at the end."""
+        state = self.state()
+        if state.song_time_s >= state.duration_s and not state.playing:
+            state = replace(state, song_time_s=0.0)
+        return self._change(replace(state, playing=True))
+
+    def pause(self) -> ClockState:
+        """Let song time stand."""
+        return self._change(replace(self.state(), playing=False))
+
+    def seek(self, song_time_s: float) -> ClockState:
+        """Go to a song time; what is before the beginning or after the end is taken as that.
+
+        Raises:
+            ClockError: If it is not finite.
+        """
+        if not math.isfinite(song_time_s):
+            raise ClockError(f"{song_time_s} is no song time; a number of seconds is", where="song_time_s")
+        state = self.state()
+        return self._change(replace(state, song_time_s=min(max(song_time_s, 0.0), state.duration_s)))
+
+    def set_rate(self, rate: float) -> ClockState:
+        """Let song time run faster or slower.
+
+        Raises:
+            ClockError: If the rate is outside 0.1 to 4.
+        """
+        if not SLOWEST_RATE <= rate <= FASTEST_RATE:
+            raise ClockError(f"the rate is {SLOWEST_RATE} to {FASTEST_RATE}, not {rate}", where="rate")
+        return self._change(replace(self.state(), rate=float(rate)))
+
+    def set_loop(self, start_s: float | None, end_s: float | None = None) -> ClockState:
+        """Return to `start_s` whenever `end_s` is reached; without them, play on to the end.
+
+        Raises:
+            ClockError: If it is not inside the song or shorter than 0.1 s.
+        """
+        loop = None
+        if start_s is not None and end_s is not None:
+            if not 0 <= start_s < end_s <= self.duration_s:
+                raise ClockError(
+                    f"a loop begins before it ends, within 0 to {self.duration_s:.3f} s, "
+                    f"not {start_s} to {end_s}",
+                    where="start_s",
+                )
+            if end_s - start_s < SHORTEST_LOOP_S:
+                raise ClockError(f"a loop lasts at least {SHORTEST_LOOP_S} s", where="end_s")
+            loop = (float(start_s), float(end_s))
+        return self._change(replace(self.state(), loop=loop))
+
+    def touch(self) -> ClockState:
+        """Raise the epoch alone: something else that the frames depend on was changed."""
+        return self._change(self.state())
+
+    def set_duration(self, duration_s: float) -> ClockState:
+        """Change where the song ends; the position and the loop are kept inside it.
+
+        Raises:
+            ValueError: If it is not greater than 0 and finite.
+        """
+        if not (math.isfinite(duration_s) and duration_s > 0):
+            raise ValueError(f"a song lasts a finite time greater than 0 seconds, not {duration_s}")
+        state = self.state()
+        loop = state.loop if state.loop and state.loop[1] <= duration_s else None
+        song_time_s = min(state.song_time_s, duration_s)
+        return self._change(replace(state, song_time_s=song_time_s, loop=loop, duration_s=duration_s))
+
+    def _change(self, state: ClockState) -> ClockState:
+        self._changed = replace(state, epoch=self._changed.epoch + 1)
+        return self._changed

@@ -1,0 +1,103 @@
+"""Reina's own score document; the published JSON Schema is made from these models."""
+
+import re
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+_STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
+_ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "##": 2, "x": 2, "b": -1, "♭": -1, "bb": -2}
+_NAME = re.compile(r"([A-Ga-g])(##|#|♯|x|bb|b|♭|)(-?\d{1,2})")
+
+
+def pitch_number(value: object) -> object:
+    """Return the MIDI number of a pitch given by name (``"B♭4"``, ``"F#3"``; C4 is 60), else `value` itself.
+
+    Raises:
+        ValueError: If the name is none.
+    """
+    if not isinstance(value, str):
+        return value
+    match = _NAME.fullmatch(value.strip())
+    if match is None:
+        raise ValueError(f"{value[:20]!r} is no pitch; C4, F#3 or Bb5 would be, or a MIDI number")
+    step, accidental, octave = match.groups()
+    return 12 * (int(octave) + 1) + _STEPS[step.upper()] + _ACCIDENTALS[accidental]
+
+
+Beat = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Pitch = Annotated[
+    int,
+    BeforeValidator(pitch_number, json_schema_input_type=int | str),
+    Field(ge=0, le=127),
+]
+
+
+class _Model(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class TempoEntry(_Model):
+    """A tempo from a beat on."""
+
+    beat: Beat = Field(description="Where it begins, in quarter notes from the beginning.")
+    bpm: float = Field(ge=1, le=100_000, allow_inf_nan=False, description="Quarter notes in a minute.")
+
+
+class TimeSignatureEntry(_Model):
+    """A metre from a beat on; it begins a new bar."""
+
+    beat: Beat = Field(description="Where it begins, in quarter notes from the beginning.")
+    numerator: int = Field(ge=1, le=255)
+    denominator: Literal[1, 2, 4, 8, 16, 32, 64]
+
+
+class NoteEntry(_Model):
+    """A note."""
+
+    beat: Beat = Field(description="Onset in quarter notes from the beginning.")
+    duration: float = Field(gt=0, allow_inf_nan=False, description="Duration in quarter notes.")
+    pitch: Pitch = Field(description="MIDI number (60 is middle C) or a name such as C4, F#3, Bb5.")
+    velocity: float = Field(default=0.7, ge=0, le=1, description="Loudness of the attack.")
+
+
+class ControllerEntry(_Model):
+    """A controller's value from a beat on."""
+
+    beat: Beat
+    number: int = Field(ge=0, le=127, description="The MIDI controller: 7 is volume, 11 expression.")
+    value: int = Field(ge=0, le=127)
+
+
+class PartEntry(_Model):
+    """What one instrument plays."""
+
+    name: str = Field(default="", max_length=200)
+    program: int | None = Field(
+        default=None, ge=0, le=127, description="General MIDI program from 0; 56 is the trumpet."
+    )
+    drums: bool = Field(default=False, description="Whether the pitches are drums.")
+    transposition: int = Field(
+        default=0,
+        ge=-48,
+        le=48,
+        description="Semitones from the pitches written here to those that sound; -2 for a part in B flat.",
+    )
+    notes: list[NoteEntry] = Field(default_factory=list[NoteEntry])
+    controllers: list[ControllerEntry] = Field(default_factory=list[ControllerEntry])
+
+
+class ScoreDocument(_Model):
+    """A score."""
+
+    format: Literal["reina-score"] = Field(description="Says that this is a score of this form.")
+    version: Literal[1] = Field(default=1, description="Version of the form.")
+    title: str = Field(default="", max_length=500)
+    tempos: list[TempoEntry] = Field(
+        default_factory=list[TempoEntry], description="120 a minute where none is said."
+    )
+    time_signatures: list[TimeSignatureEntry] = Field(
+        default_factory=list[TimeSignatureEntry], description="4/4 where none is said."
+    )
+    pickup_beats: Beat = Field(default=0.0, description="Length of an incomplete first bar in quarter notes.")
+    parts: list[PartEntry] = Field(min_length=1)

@@ -1,0 +1,24 @@
+"""Why a score was refused."""
+
+from collections.abc import Sequence
+
+from reina.errors import InputError
+
+
+class ScoreError(InputError):
+    """A score that cannot be read.
+
+    Attributes:
+        problems: Every fault as ``(place, what)``, the first being the one in ``detail``; several only for a
+            document whose shape is wrong in several places.
+    """
+
+    def __init__(
+        self, detail: str, *, where: str | None = None, problems: Sequence[tuple[str, str]] = ()
+    ) -> None:
+        super().__init__(detail, where=where)
+        self.problems: tuple[tuple[str, str], ...] = tuple(problems) or ((where or "", detail),)
+
+
+class ScoreLimitError(ScoreError):
+    """A score that is larger, longer or deeper than Reina reads (`reina.music.limits`)."""

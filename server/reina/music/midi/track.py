@@ -1,0 +1,220 @@
+"""One track's bytes into events."""
+
+from dataclasses import dataclass, field
+
+from reina.music.errors import ScoreLimitError
+from reina.music.warnings import WarningLog
+
+TICK_SHIFT = 24
+MOST_TICKS = 2**38
+MOST_METAS = 100_000
+
+NOTE_OFF, NOTE_ON, KEY_PRESSURE, CONTROLLER, PROGRAM, CHANNEL_PRESSURE, PITCH_BEND = range(0x8, 0xF)
+"""The upper four bits of a channel message's status."""
+
+SYSTEM_DATA_BYTES = {0xF1: 1, 0xF2: 2, 0xF3: 1}
+"""System messages that have data; they do not belong into a file, and are skipped."""
+
+TRACK_NAME, INSTRUMENT_NAME, END_OF_TRACK, SET_TEMPO, TIME_SIGNATURE = 0x03, 0x04, 0x2F, 0x51, 0x58
+"""Types of the meta events that are read."""
+
+KEPT_METAS = frozenset({TRACK_NAME, INSTRUMENT_NAME, SET_TEMPO, TIME_SIGNATURE})
+
+TOO_MANY_EVENTS = "more events than are read"
+
+
+@dataclass(frozen=True)
+class Meta:
+    """A meta event.
+
+    Attributes:
+        tick: When.
+        kind: Its type byte.
+        data: Its data.
+        byte: Where in the file it stands.
+    """
+
+    tick: int
+    kind: int
+    data: bytes
+    byte: int
+
+
+@dataclass
+class Track:
+    """What a track holds.
+
+    Attributes:
+        number: Its place in the file, from 1.
+        packed: Channel messages, each as ``tick << 24 | status << 16 | first data byte << 8 | second``.
+        metas: Meta events of `KEPT_METAS`.
+        end_tick: When the track ends.
+        end: Position after the last byte read.
+        ended: Whether an end-of-track event was found.
+        intact: Whether reading came to the end without breaking off.
+    """
+
+    number: int
+    packed: list[int] = field(default_factory=list[int])
+    metas: list[Meta] = field(default_factory=list[Meta])
+    end_tick: int = 0
+    end: int = 0
+    ended: bool = False
+    intact: bool = True
+
+
+class _BrokenError(Exception):
+    """The rest of the track cannot be read; the first argument says why."""
+
+
+def read_track(
+    data: bytes, start: int, end: int, *, number: int, offset: int, most_events: int, log: WarningLog
+) -> Track:
+    """Read the events in ``data[start:end]``; what stands before a break is kept.
+
+    Running status lasts over meta and system exclusive events, as players have it.
+
+    Args:
+        data: The whole file.
+        start: Position of the first delta time.
+        end: Position after the track.
+        number: The track's number for messages, from 1.
+        offset: What to add to a position to get the place in the file as it was sent.
+        most_events: How many channel messages may be kept.
+        log: Where repairs are told.
+
+    Raises:
+        ScoreLimitError: If there are too many events or ticks.
+    """
+    track = Track(number)
+    place = _Place(number, offset + start)
+    try:
+        _read_events(data[start:end], track, place, most_events, log)
+    except IndexError:
+        track.intact = False
+        track.end = end - start
+        log.add(
+            "truncated_track",
+            place(track.end),
+            "the track ends inside an event; what stands before it was kept",
+        )
+    except _BrokenError as broken:
+        track.intact = False
+        log.add("broken_track", place(track.end), f"{broken}; what stands before it was kept")
+    track.end += start
+    return track
+
+
+@dataclass(frozen=True)
+class _Place:
+    number: int
+    offset: int
+
+    def __call__(self, position: int) -> str:
+        return f"track {self.number}, byte {position + self.offset}"
+
+
+def _read_events(data: bytes, track: Track, place: _Place, most_events: int, log: WarningLog) -> None:
+    packed = track.packed
+    end = len(data)
+    at = 0
+    tick = 0
+    status = 0
+    while at < end:
+        track.end_tick, track.end = tick, at
+        delta = data[at]
+        at += 1
+        if delta > 0x7F:
+            delta, at = _read_rest(data, at, delta)
+        tick += delta
+        byte = data[at]
+        if byte > 0x7F:
+            at += 1
+            if byte < 0xF0:
+                status = byte
+            else:
+                at = _read_system(data, at, byte, tick, track, place, log)
+                if track.ended:
+                    track.end_tick, track.end = tick, at
+                    return
+                continue
+        elif not status:
+            at = _skip_stray(data, at, place, log)
+            continue
+        first = data[at]
+        if 0xC0 <= status < 0xE0:
+            second = 0
+            at += 1
+        else:
+            second = data[at + 1]
+            at += 2
+        if (first | second) > 0x7F:
+            log.add("data_byte", place(at), "a data byte over 127 was taken as 127")
+            first, second = min(first, 0x7F), min(second, 0x7F)
+        packed.append(tick << TICK_SHIFT | status << 16 | first << 8 | second)
+        if len(packed) > most_events:
+            raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
+        if tick > MOST_TICKS:
+            raise ScoreLimitError(
+                f"a length of {tick:,} ticks; at most {MOST_TICKS:,} are read", where=place(at)
+            )
+    track.end_tick, track.end = tick, at
+
+
+def _read_rest(data: bytes, at: int, value: int) -> tuple[int, int]:
+    """Read the rest of a variable-length number whose first byte was `value`: at most four bytes together."""
+    value &= 0x7F
+    for _ in range(3):
+        byte = data[at]
+        at += 1
+        value = value << 7 | byte & 0x7F
+        if byte < 0x80:
+            return value, at
+    raise _BrokenError("a variable-length number of more than four bytes")
+
+
+def _read_length(data: bytes, at: int) -> tuple[int, int]:
+    length = data[at]
+    return (length, at + 1) if length < 0x80 else _read_rest(data, at + 1, length)
+
+
+def _read_system(
+    data: bytes, at: int, status: int, tick: int, track: Track, place: _Place, log: WarningLog
+) -> int:
+    """Read a meta or system event after its status; return the position after it."""
+    if status == 0xFF:
+        kind = data[at]
+        length, begin = _read_length(data, at + 1)
+        if begin + length > len(data):
+            raise _BrokenError(f"a meta event of {length} bytes where {len(data) - begin} are left")
+        if kind == END_OF_TRACK:
+            track.ended = True
+        elif kind in KEPT_METAS:
+            if len(track.metas) == MOST_METAS:
+                raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
+            track.metas.append(Meta(tick, kind, data[begin : begin + length], at - 1 + place.offset))
+        return begin + length
+    if status in {0xF0, 0xF7}:
+        length, begin = _read_length(data, at)
+        if begin + length <= len(data):
+            return begin + length
+        closing = data.find(b"\xf7", at)
+        if closing < 0:
+            raise _BrokenError(
+                f"a system exclusive message of {length} bytes where {len(data) - begin} are left"
+            )
+        log.add(
+            "sysex_length", place(at), "a system exclusive message with a wrong length; read to its end mark"
+        )
+        return closing + 1
+    log.add("system_message", place(at - 1), f"status {status:#04x} does not belong into a file; skipped")
+    return at + SYSTEM_DATA_BYTES.get(status, 0)
+
+
+def _skip_stray(data: bytes, at: int, place: _Place, log: WarningLog) -> int:
+    """Skip data bytes that belong to no message; return the position of the next delta time."""
+    begin = at
+    while data[at] < 0x80:
+        at += 1
+    log.add("stray_data", place(begin), f"{at - begin} data bytes that belong to no message were skipped")
+    return at - 1 if at > begin else at

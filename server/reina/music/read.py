@@ -1,0 +1,41 @@
+"""Any score that people have, from its bytes."""
+
+from pathlib import PurePath
+
+from reina.music.document.reader import read_json
+from reina.music.errors import ScoreError
+from reina.music.limits import DEFAULT_LIMITS, Limits
+from reina.music.midi import read_midi
+from reina.music.score import Score
+
+JSON_BEGINNINGS = (b"{", b"[", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
+
+
+def read_score(
+    data: bytes,
+    *,
+    filename: str | None = None,
+    sequence: int | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Score:
+    """Read a MIDI file or a JSON score; what it is is told by its bytes, not by its name.
+
+    What was repaired is in the score's `warnings`; docs/music.md lists every case.
+
+    Args:
+        data: The file.
+        filename: Its name; gives the title where the file has none.
+        sequence: Which sequence of a MIDI file of format 2 to read, counted from 0; the first by default.
+        limits: How large a score may be.
+
+    Raises:
+        ScoreError: If there is no score in it, with the reason and the place.
+        ScoreLimitError: If it is beyond `limits`.
+    """
+    if not data:
+        raise ScoreError("the file is empty", where="byte 0")
+    limits.check("size_bytes", len(data), what="size in bytes")
+    title = PurePath(filename).stem if filename else ""
+    if data.lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS):
+        return read_json(data, title=title or "Untitled", limits=limits)
+    return read_midi(data, title=title or "Untitled", sequence=sequence, limits=limits)
