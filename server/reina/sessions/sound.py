@@ -16,8 +16,9 @@ from collections.abc import Collection
 from pathlib import Path
 
 from reina.music.score import Score
+from reina.sessions.sound_events import SoundPlan
 from reina.sessions.sound_font import MissingSoundfontError, SoundError, find_soundfont, soundfont_id
-from reina.sessions.sound_plan import SoundPlan, plan_sound
+from reina.sessions.sound_plan import plan_sound
 from reina.sessions.sound_probe import AudioInfo, probe_audio
 
 __all__ = [

@@ -6,7 +6,7 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from reina.sessions.sound_plan import SAMPLE_RATE
+from reina.sessions.sound_events import SAMPLE_RATE
 from reina.sessions.sound_wav import wav_header
 
 CHANNELS = 2

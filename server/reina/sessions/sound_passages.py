@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from reina.sessions.sound_events import DRUM_CHANNEL, SAMPLE_RATE, SoundPlan
 from reina.sessions.sound_midi import write_midi
-from reina.sessions.sound_plan import DRUM_CHANNEL, SAMPLE_RATE, SoundPlan
 
 BLOCK = 64
 """The synthesizer acts on events once in so many samples."""

@@ -3,9 +3,7 @@
 The plan is canonical: scores that sound the same give the same bytes, and so share one rendering.
 """
 
-import hashlib
 from collections import Counter, defaultdict
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,17 +11,20 @@ from numpy.typing import NDArray
 from reina.errors import InputError
 from reina.music.controls import Control
 from reina.music.score import Part, Score
+from reina.sessions.sound_events import (
+    CHANNELS_OF_PORT,
+    CONTROL_DTYPE,
+    DRUM_CHANNEL,
+    NOTE_DTYPE,
+    SAMPLE_RATE,
+    SoundPlan,
+)
 from reina.sessions.sound_programs import default_program
-
-SAMPLE_RATE = 48000
-"""What the synthesizer renders at; one tick of a plan is one sample."""
 
 LONGEST_S = 3600.0
 SHORTEST_NOTE = SAMPLE_RATE // 50
 """A tap of no length still has to speak: 20 ms."""
 
-CHANNELS_OF_PORT = 16
-DRUM_CHANNEL = 9
 MELODIC_CHANNELS = tuple(channel for channel in range(CHANNELS_OF_PORT) if channel != DRUM_CHANNEL)
 MOST_VOICES = 4 * len(MELODIC_CHANNELS)
 """With more melodic parts than this, those of one channel and program share a voice."""
@@ -33,40 +34,6 @@ HEARD_CONTROLLERS = frozenset({1, 33, 7, 39, 10, 42, 11, 43, 64, 91, 93, 6, 38, 
 parameters, reset. All Sound Off and All Notes Off are left out, since the score's notes already end where
 they end."""
 BANK_SELECT = 0
-
-NOTE_DTYPE = np.dtype(
-    [("on", "<u4"), ("off", "<u4"), ("port", "u1"), ("channel", "u1"), ("key", "u1"), ("velocity", "u1")]
-)
-CONTROL_DTYPE = np.dtype(
-    [("tick", "<u4"), ("port", "u1"), ("status", "u1"), ("data1", "u1"), ("data2", "u1")]
-)
-
-
-@dataclass(frozen=True, eq=False)
-class SoundPlan:
-    """What is to be rendered.
-
-    Attributes:
-        notes: (N,) of NOTE_DTYPE, sorted by `on`; ticks are samples from the score's time 0. On one port,
-            channel and key notes never overlap.
-        controls: (C,) of CONTROL_DTYPE, sorted by `tick`, in the order in which they take effect; `status` is
-            the MIDI status byte with the channel.
-    """
-
-    notes: NDArray[np.void]
-    controls: NDArray[np.void]
-
-    @property
-    def duration_s(self) -> float:
-        """End of the last note in seconds."""
-        return float(self.notes["off"].max()) / SAMPLE_RATE
-
-    def digest(self, *about: str) -> str:
-        """SHA-256 of the plan and of what else decides the sound, in hexadecimal."""
-        state = hashlib.sha256(repr((len(self.notes), len(self.controls), *about)).encode())
-        state.update(self.notes.tobytes())
-        state.update(self.controls.tobytes())
-        return state.hexdigest()
 
 
 def plan_sound(score: Score, *, trumpet_part: int | None = None) -> SoundPlan:

@@ -17,9 +17,9 @@ from pathlib import Path
 import midirenderer
 import numpy as np
 
+from reina.sessions.sound_events import CONTROL_DTYPE, NOTE_DTYPE, SoundPlan
 from reina.sessions.sound_mix import CHANNELS, Mix, Samples
 from reina.sessions.sound_passages import BLOCK, Passage, cut_into_passages, write_passage
-from reina.sessions.sound_plan import CONTROL_DTYPE, NOTE_DTYPE, SoundPlan
 
 GAINS = (1.0, 1 / 4, 1 / 16, 1 / 64)
 """How loud a passage is rendered: the first at which it does not reach full scale, where the synthesizer
@@ -104,7 +104,9 @@ def _tell(message: dict[str, object]) -> None:
 
 
 def _end_with_parent() -> None:
-    sys.stdin.buffer.read()
+    # Past Python's buffer, whose lock a waiting reader would still hold when the process ends.
+    while os.read(sys.stdin.fileno(), 1):
+        pass
     os._exit(2)
 
 
