@@ -1,0 +1,154 @@
+import copy
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from reina.skeleton import RigError, load_hold, load_rig, read_rig
+from reina.skeleton.document import Node
+
+HALF = [0.0, 0.0, 0.70710678, 0.70710678]
+DOCUMENT: dict[str, Any] = {
+    "name": "stick",
+    "joints": [
+        {"name": "hips", "parent": None, "translation": [0, 1, 0], "rotation": [0, 0, 0, 1]},
+        {"name": "a", "parent": "hips", "translation": [0, 1, 0], "rotation": HALF, "node": "A"},
+        {
+            "name": "b",
+            "parent": "a",
+            "translation": [1, 0, 0],
+            "rotation": [0, 0, 0, 1],
+            "limits": {"order": "yzx", "x": [0, 0], "y": [-0.5, 0.5], "z": [-1, 1]},
+        },
+        {"name": "c", "parent": "b", "translation": [1, 0, 0], "rotation": [0, 0, 0, 1]},
+    ],
+    "effectors": [{"name": "tip", "joint": "c", "offset": [0.5, 0, 0]}],
+    "contacts": [{"name": "lips", "joint": "hips", "offset": [0, 0, 0.1]}],
+    "capsules": [{"joint": "b", "from": [0, 0, 0], "to": [1, 0, 0], "radius": 0.1}],
+    "morphs": [{"parameter": "face/smile", "target": "mouthSmile"}],
+    "chains": [
+        {
+            "name": "finger",
+            "joints": ["a", "b", "c"],
+            "effector": "tip",
+            "solver": "coupled_three_bone",
+            "kappa": 0.5,
+        }
+    ],
+    "twists": [{"joint": "c", "source": "b", "fraction": 0.5}],
+    "parts": [
+        {"node": "valve1", "parameter": "trumpet/valve/1", "travel": [0, -0.0165, 0]},
+        {"node": "key", "parameter": "oboe/key/1", "axis": [1, 0, 0], "angle": 0.2},
+    ],
+    "buttons": [{"valve": 1, "effector": "tip", "position": [0, 0.1, 0], "travel": [0, -0.0165, 0]}],
+}
+
+
+def test_everything_in_the_document_is_read() -> None:
+    rig = read_rig(Node(copy.deepcopy(DOCUMENT)))
+    assert rig.name == "stick"
+    assert rig.skeleton.names == ("hips", "a", "b", "c")
+    assert rig.nodes == ("hips", "A", "b", "c")
+    assert rig.skeleton.parents.tolist() == [-1, 0, 1, 2]
+    np.testing.assert_allclose(np.linalg.norm(rig.skeleton.rest_rotations, axis=1), 1.0, atol=1e-15)
+    assert rig.effector("tip").joint == 3
+    assert rig.contact("lips").offset.tolist() == [0, 0, 0.1]
+    chain = rig.chain_of_effector("tip")
+    assert (chain.name, chain.joints, chain.solver, chain.kappa) == (
+        "finger",
+        (1, 2, 3),
+        "coupled_three_bone",
+        0.5,
+    )
+    assert rig.limits[2].order == "yzx"
+    assert rig.limits[2].minimum == (0.0, -0.5, -1.0)
+    assert rig.limits[2].maximum == (0.0, 0.5, 1.0)
+    assert set(rig.limits) == {2}
+    assert (rig.twists[0].joint, rig.twists[0].source, rig.twists[0].fraction) == (3, 2, 0.5)
+    assert rig.morphs[0].parameter == "face/smile"
+    assert rig.capsules[0].radius == 0.1
+    assert rig.parts[1].angle_rad == 0.2
+    assert rig.buttons[0].travel.tolist() == [0, -0.0165, 0]
+
+
+BREAKS: list[tuple[list[Any], Any, str]] = [
+    (["joints", 1, "parent"], "d", "joints/1/parent: 'a' has the parent 'd'"),
+    (["joints", 1, "rotation"], [0, 0, 0, 2], "joints/1/rotation: quaternions are unit"),
+    (["joints", 1, "rotation"], [0, 0, 1], "joints/1/rotation: here belongs a list of 4 numbers, not of 3"),
+    (["joints", 2, "translation", 1], "high", "joints/2/translation/1: here belongs a number, not a string"),
+    (["joints", 2, "translation", 1], float("nan"), "joints/2/translation/1: here belongs a finite number"),
+    (["joints", 2, "limits", "order"], "abc", "joints/2/limits/order: Euler order 'abc'"),
+    (["joints", 2, "limits", "y"], [0.5, -0.5], "joints/2/limits/y: the least angle"),
+    (["effectors", 0, "joint"], "d", "effectors/0/joint: there is no joint 'd'"),
+    (["chains", 0, "solver"], "magic", "chains/0/solver: solver 'magic' is not known"),
+    (["chains", 0, "joints"], ["a", "b"], "chains/0/joints: coupled_three_bone needs 3 joints, not 2"),
+    (["chains", 0, "joints"], ["a", "c", "b"], "chains/0/joints: 'c' is no child of 'a'"),
+    (["chains", 0, "effector"], "nose", "chains/0/effector: there is no effector 'nose'"),
+    (["twists", 0, "fraction"], True, "twists/0/fraction: here belongs a number, not true or false"),
+    (["parts", 1, "axis"], None, "parts/1: a part needs 'travel', or 'axis' and 'angle'"),
+    (["buttons", 0, "valve"], 0, "buttons/0/valve: valves are numbered from 1"),
+    (["joints"], None, "at least one joint"),
+    (["joints"], {}, "joints: here belongs a list, not an object"),
+    (["name"], 3, "name: here belongs a string, not a number"),
+]
+
+
+@pytest.mark.parametrize(("path", "value", "message"), BREAKS)
+def test_a_fault_is_named_with_its_place(path: list[Any], value: object, message: str) -> None:
+    document = copy.deepcopy(DOCUMENT)
+    place: Any = document
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    with pytest.raises(RigError) as caught:
+        read_rig(Node(document))
+    assert message in str(caught.value)
+
+
+def test_what_is_missing_is_named() -> None:
+    document = copy.deepcopy(DOCUMENT)
+    del document["chains"][0]["kappa"]
+    with pytest.raises(RigError, match="chains/0: coupled_three_bone needs 'kappa'"):
+        read_rig(Node(document))
+    del document["joints"]
+    with pytest.raises(RigError, match="'joints' is missing"):
+        read_rig(Node(document))
+    with pytest.raises(RigError, match="there is no effector 'nose'; there are: tip"):
+        read_rig(Node(copy.deepcopy(DOCUMENT))).effector("nose")
+
+
+def test_rigs_and_holds_load_from_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "holds").mkdir()
+    (tmp_path / "rig.json").write_text(json.dumps(DOCUMENT))
+    hold = {
+        "instrument": "stick",
+        "player": "stick",
+        "pose": {"b": HALF},
+        "instrument_pose": {"position": [0, 1, 2], "rotation": [0, 0, 0, 1]},
+        "hips": [0, 0.9, 0],
+    }
+    (tmp_path / "holds" / "stick.json").write_text(json.dumps(hold))
+    rig = load_rig(tmp_path)
+    loaded = load_hold(tmp_path, "stick")
+    rotations = loaded.rotations(rig)
+    np.testing.assert_allclose(rotations[2], HALF, atol=1e-8)
+    np.testing.assert_array_equal(rotations[3], [0, 0, 0, 1])
+    assert loaded.hips_position is not None
+    assert loaded.hips_position.tolist() == [0, 0.9, 0]
+    with pytest.raises(RigError, match=r"no file flute\.json"):
+        load_hold(tmp_path, "flute")
+    (tmp_path / "rig.json").write_text("{")
+    with pytest.raises(RigError, match=r"rig\.json: this is not JSON"):
+        load_rig(tmp_path)
+    (tmp_path / "rig.json").write_text("[]")
+    with pytest.raises(RigError, match="here belongs an object, not a list"):
+        load_rig(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["trumpeter", "trumpet"])
+def test_the_shipped_rigs_load(name: str) -> None:
+    rig = load_rig(Path(__file__).parents[3] / "rigs" / name)
+    assert rig.name == name
+    assert len(rig.nodes) == len(rig.skeleton)
