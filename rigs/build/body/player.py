@@ -1,0 +1,110 @@
+"""The trumpeter as a rig: models of three tiers and rig.json."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from body.contacts import capsules, contacts
+from body.eyes import eyes
+from body.figure import MORPHS, Figure, shape_figure
+from body.images import hair_picture, jpeg
+from body.limits import chains, joint_limits, twists
+from body.skeleton import Skeleton, build_skeleton
+from body.skin import bare_skin, lashes, lip_centre, paint_skin, texel_positions
+from body.skinning import skin_weights
+from common.export import write_skinned
+from common.parts import Part, Surface
+from common.rig_file import write_json
+from dress.hair import bob
+from dress.tailor import Tailor
+from dress.trimmings import trimming_parts
+from dress.uniform import blazer, uniform_parts
+
+Array = NDArray[np.float64]
+
+NAME = "trumpeter"
+MORPH_PARAMETERS = {
+    "face/blink_left": "eyeBlinkLeft",
+    "face/blink_right": "eyeBlinkRight",
+    "face/cheek_puff": "cheekPuff",
+    "face/mouth_pucker": "mouthPucker",
+    "face/mouth_press": "mouthPress",
+    "face/jaw_open": "jawOpen",
+    "face/brow_up": "browInnerUp",
+    "face/smile": "mouthSmile",
+}
+
+
+@dataclass(frozen=True)
+class Tier:
+    """How finely a tier is built before it is reduced: cloth subdivisions, hair, skirt grid and eyes."""
+
+    subdivisions: int
+    lock_steps: int
+    lock_sides: int
+    lock_share: float
+    skirt_grid: tuple[int, int]
+    eye_grid: tuple[int, int]
+
+
+TIERS = {
+    "full": Tier(1, 16, 10, 1.0, (26, 192), (24, 40)),
+    "medium": Tier(1, 12, 7, 0.9, (20, 144), (16, 28)),
+    "low": Tier(0, 7, 4, 0.55, (8, 96), (8, 14)),
+}
+
+
+def build_player(data: Path, raw: Path, rig_folder: Path) -> None:
+    """Write `trumpeter.<tier>.glb`, not yet compressed, into `raw`, and rig.json into `rig_folder`."""
+    figure = shape_figure(data)
+    skeleton = build_skeleton(figure)
+    weights = skin_weights(figure, skeleton)
+    positions, covered = texel_positions(figure)
+    mouth = lip_centre(figure, positions, covered)
+    skin = bare_skin(figure, skeleton, weights, paint_skin(figure, skeleton, positions, covered))
+    tailor = Tailor.measure(figure, skeleton, weights)
+    hair = Surface("hair", 0.42, image=jpeg(hair_picture(), 92), both_sides=True)
+    for name, tier in TIERS.items():
+        outer = blazer(tailor, tier.subdivisions)
+        parts = [
+            skin,
+            lashes(figure, weights),
+            eyes(figure, skeleton, *tier.eye_grid),
+            *uniform_parts(tailor, tier.subdivisions, tier.skirt_grid, outer),
+            *trimming_parts(tailor, outer),
+            Part("Hair", bob(tailor, tier.lock_steps, tier.lock_sides, tier.lock_share), hair),
+        ]
+        write_skinned(raw / f"{NAME}.{name}.glb", NAME, skeleton, parts)
+    write_json(rig_folder / "rig.json", rig_content(figure, skeleton, weights, mouth))
+
+
+def rig_content(figure: Figure, skeleton: Skeleton, weights: Array, mouth: Array) -> dict[str, Any]:
+    """What rig.json says of the player."""
+    limits = joint_limits(skeleton)
+    joints = []
+    for name, parent in skeleton.parents.items():
+        translation, rotation = skeleton.local(name)
+        joint = {"name": name, "parent": parent, "translation": translation.tolist(), "rotation": rotation.tolist(), "node": name}
+        if name in limits:
+            joint["limits"] = limits[name]
+        joints.append(joint)
+    return {
+        "name": NAME,
+        "licence": "CC0-1.0",
+        "models": {tier: f"{tier}.glb" for tier in TIERS},
+        "joints": joints,
+        "effectors": [
+            {"name": name, "joint": joint, "offset": skeleton.to_local(joint, point).tolist()}
+            for name, (joint, point) in skeleton.effectors.items()
+        ],
+        "contacts": contacts(figure, skeleton, mouth),
+        "capsules": capsules(figure, skeleton, weights),
+        "morphs": [{"parameter": path, "target": target} for path, target in MORPH_PARAMETERS.items() if target in MORPHS],
+        "chains": chains(),
+        "twists": twists(),
+    }

@@ -1,0 +1,1 @@
+"""The trumpet: swept tubes and turned parts, each in the instrument's own frame."""

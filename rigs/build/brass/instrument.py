@@ -1,0 +1,81 @@
+"""The trumpet as a rig: models of three tiers and rig.json."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from brass import measures as m
+from brass.body_tubes import build_body
+from brass.metals import Metals
+from brass.moving_parts import first_slide, mouthpiece, second_slide, third_slide, tuning_slide, valve
+from brass.obstacles import trumpet_capsules
+from common.glb import GlbWriter
+from common.rig_file import write_json
+
+NAME = "trumpet"
+JOINT = "trumpet"
+DETAIL = {"full": 1.0, "medium": 0.6, "low": 0.32}
+BUTTON_EFFECTORS = ("rightIndexTip", "rightMiddleTip", "rightRingTip")
+
+CONTACTS: dict[str, tuple[float, float, float]] = {
+    "mouthpiece": (m.X_LEADPIPE, m.Y_TOP, m.Z_RIM),
+    "bell": (m.X_BELL, m.Y_TOP, m.Z_BELL_END),
+    "ring": m.RING,
+    "hook": (m.X_LEADPIPE + 0.001, m.Y_TOP + m.TUBE + 0.0002, m.HOOK_Z - 0.013),
+    "saddle": m.SADDLE,
+    "thumb_right": (-0.0064, 0.015, (m.VALVE_Z[0] + m.VALVE_Z[1]) / 2),
+    "grip_left": (m.CASING, -0.010, m.VALVE_Z[1]),
+}
+
+
+def build_instrument(raw: Path, rig_folder: Path) -> None:
+    """Write `trumpet.<tier>.glb`, not yet compressed, into `raw`, and rig.json into `rig_folder`."""
+    for tier, detail in DETAIL.items():
+        write_model(raw / f"{NAME}.{tier}.glb", detail)
+    write_json(rig_folder / "rig.json", rig_content())
+
+
+def write_model(path: Path, detail: float) -> None:
+    """One node a moving part under the joint's node; valves have frames of their own."""
+    writer = GlbWriter()
+    metals = Metals.into(writer)
+    pieces = {
+        "body": build_body(detail, metals),
+        "slide_main": tuning_slide(detail, metals),
+        "slide1": first_slide(detail, metals),
+        "slide2": second_slide(detail, metals),
+        "slide3": third_slide(detail, metals),
+        "mouthpiece": mouthpiece(detail, metals),
+    }
+    children = [writer.node(name, mesh=writer.mesh(name, piece.primitives(writer))) for name, piece in pieces.items()]
+    stem = writer.mesh("valve", valve(detail, metals).primitives(writer))
+    for number, z in enumerate(m.VALVE_Z, start=1):
+        children.append(writer.node(f"valve{number}", mesh=stem, translation=[0.0, m.STEM_Y, z]))
+    writer.save(path, [writer.node(JOINT, children=children)])
+
+
+def rig_content() -> dict[str, Any]:
+    """What rig.json says of the instrument."""
+    travel = [0.0, -m.STROKE, 0.0]
+    parts: list[dict[str, Any]] = [
+        {"node": f"valve{k}", "parameter": f"trumpet/valve/{k}", "travel": travel} for k in (1, 2, 3)
+    ]
+    parts.append({"node": "slide3", "parameter": "trumpet/slide/3", "travel": [0.0, 0.0, m.SLIDE3_TRAVEL]})
+    buttons = [
+        {"valve": k, "effector": effector, "position": [0.0, m.STEM_Y + m.BUTTON_TOP, z], "travel": travel}
+        for k, (effector, z) in enumerate(zip(BUTTON_EFFECTORS, m.VALVE_Z, strict=True), start=1)
+    ]
+    return {
+        "name": NAME,
+        "licence": "CC0-1.0",
+        "models": {tier: f"{tier}.glb" for tier in DETAIL},
+        "joints": [{"name": JOINT, "parent": None, "translation": [0.0, 0.0, 0.0], "rotation": [0.0, 0.0, 0.0, 1.0], "node": JOINT}],
+        "effectors": [],
+        "contacts": [{"name": name, "joint": JOINT, "offset": list(offset)} for name, offset in CONTACTS.items()],
+        "capsules": trumpet_capsules(),
+        "morphs": [],
+        "chains": [],
+        "parts": parts,
+        "buttons": buttons,
+    }

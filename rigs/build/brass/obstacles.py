@@ -1,0 +1,53 @@
+"""The trumpet as capsules, for collision tests: what a hand must not pass through."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from brass import measures as m
+from brass.body_tubes import bell_path
+from brass.paths import arc_length, at_lengths, u_bend
+
+BELL_PIECES = 14
+BOW_PIECES = 6
+
+
+def trumpet_capsules() -> list[dict[str, Any]]:
+    """Capsules on the joint `trumpet`, in its frame."""
+    result: list[dict[str, Any]] = []
+
+    def add(start: Any, end: Any, radius: float) -> None:
+        ends = [[float(x) for x in p] for p in (start, end)]
+        result.append({"joint": "trumpet", "from": ends[0], "to": ends[1], "radius": float(radius)})
+
+    def add_path(path: np.ndarray, radius: float) -> None:
+        for a, b in zip(path[:-1], path[1:], strict=True):
+            add(a, b, radius)
+
+    for z in m.VALVE_Z:
+        add([0, m.CASING_BOTTOM, z], [0, m.CASING_TOP, z], m.CASING)
+    path = bell_path()
+    lengths = np.linspace(0, arc_length(path)[-1], BELL_PIECES * 2 + 1)
+    points = at_lengths(path, lengths)
+    for k in range(len(points) - 1):
+        add(points[k], points[k + 1], m.bell_radius(lengths[-1] - (lengths[k] + lengths[k + 1]) / 2))
+    add([m.X_LEADPIPE, m.Y_TOP, m.Z_RECEIVER], [m.X_LEADPIPE, m.Y_TOP, 0.158], m.TUBE)
+    add([m.X_LEADPIPE, m.Y_TOP, m.Z_MOUTHPIECE - 0.05], [m.X_LEADPIPE, m.Y_TOP, m.Z_RECEIVER], 0.006)
+    add_path(u_bend(m.X_LEADPIPE, m.X_RETURN, m.Y_TOP, m.Y_LOW, 0.158, 0.036, BOW_PIECES), m.TUBE)
+    add([m.X_RETURN, m.Y_LOW, 0.158], [m.X_RETURN, m.Y_LOW, 0.118], m.TUBE)
+    add([m.X_RETURN, m.Y_LOW, 0.118], [0, m.Y_LOW, m.VALVE_Z[2]], m.TUBE)
+    add([m.X_LEADPIPE, m.Y_TOP, 0.092], [m.X_RETURN, m.Y_LOW, 0.092], 0.0022)
+    for x, levels, z, end in (
+        (m.SLIDE1_X, m.SLIDE1_Y, m.VALVE_Z[0], m.SLIDE1_Z - 0.013),
+        (m.SLIDE3_X, m.SLIDE3_Y, m.VALVE_Z[2], m.SLIDE3_Z + 0.0375),
+    ):
+        for y in levels:
+            add([x * 0.8, y, z], [x, y, end], m.TUBE + 0.0006)
+        reach = (levels[1] - levels[0]) / 2 * np.sign(end - z)
+        add_path(u_bend(x, x, levels[1], levels[0], end, reach, BOW_PIECES), m.TUBE)
+    for y in (-0.010, 0.014):
+        add([0, y, 0], [-0.026, y, 0], m.TUBE + 0.0006)
+    add([-0.036, 0.010, 0], [-0.036, -0.006, 0], m.TUBE)
+    return result

@@ -1,0 +1,65 @@
+"""Build the rigs: fetch the source, make the models, reduce and compress them, validate them, write rig.json.
+
+`python rigs/build/build.py` writes rigs/trumpeter and rigs/trumpet; the same input gives the same bytes. How the
+player holds the instrument is committed data and solved apart, by solve_hold.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+from body.player import NAME as PLAYER
+from body.player import build_player
+from brass.instrument import NAME as INSTRUMENT
+from brass.instrument import build_instrument
+from common.rig_file import write_json
+from common.source import default_cache, fetch
+
+HERE = Path(__file__).resolve().parent
+TRIANGLES = {  # at most this many in a tier; 0 keeps what the scripts made
+    PLAYER: {"full": 0, "medium": 40_000, "low": 11_500},
+    INSTRUMENT: {"full": 0, "medium": 20_000, "low": 7_500},
+}
+
+
+def pack(raw: Path, rigs: Path) -> dict[str, dict[str, int]]:
+    """Reduce, compress and validate every model; what each came to, by rig/tier. A model with issues stops the build."""
+    if not (HERE / "node_modules").exists():
+        subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=HERE, check=True)
+    results = {}
+    for rig, tiers in TRIANGLES.items():
+        for tier, triangles in tiers.items():
+            target = rigs / rig / f"{tier}.glb"
+            command = ["node", "tiers.mjs", str(raw / f"{rig}.{tier}.glb"), str(target), str(triangles)]
+            done = subprocess.run(command, cwd=HERE, check=True, capture_output=True, text=True)
+            said = json.loads(done.stdout.splitlines()[-1])
+            messages = said.pop("messages")
+            if said["errors"] or said["warnings"]:
+                raise ValueError(f"{target} is not valid glTF: {messages}")
+            results[f"{rig}/{tier}.glb"] = said
+            print(f"{rig}/{tier}.glb: {said['triangles']} triangles, {said['bytes']} bytes, no errors, no warnings")
+    return results
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rigs", type=Path, default=HERE.parent, help="where the rigs are written")
+    parser.add_argument("--cache", type=Path, default=default_cache(), help="where the downloaded source is kept")
+    arguments = parser.parse_args()
+    data = fetch(arguments.cache)
+    raw = HERE / ".work"
+    shutil.rmtree(raw, ignore_errors=True)
+    raw.mkdir()
+    for rig in (PLAYER, INSTRUMENT):
+        (arguments.rigs / rig).mkdir(parents=True, exist_ok=True)
+    build_player(data, raw, arguments.rigs / PLAYER)
+    build_instrument(raw, arguments.rigs / INSTRUMENT)
+    write_json(arguments.rigs / "validation.json", {"validator": "gltf-validator 2.0.0-dev.3.10", "models": pack(raw, arguments.rigs)})
+
+
+if __name__ == "__main__":
+    main()

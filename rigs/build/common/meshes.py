@@ -1,0 +1,144 @@
+"""Triangle meshes with skin weights, and the few operations that the clothes need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sparse
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+
+
+@dataclass
+class Mesh:
+    """`vertices` (V, 3) m, `weights` (V, J) per joint, `faces` (F, 3), and `uv` (V, 2) where it has them."""
+
+    vertices: Array
+    weights: Array
+    faces: Indices
+    uv: Array | None = None
+
+    def compact(self) -> Mesh:
+        """Drop the vertices that no face uses."""
+        used = np.unique(self.faces)
+        index = np.full(len(self.vertices), -1, dtype=np.int64)
+        index[used] = np.arange(len(used))
+        uv = None if self.uv is None else self.uv[used]
+        return Mesh(self.vertices[used], self.weights[used], index[self.faces], uv)
+
+    def where(self, flags: Flags) -> Mesh:
+        """Keep the faces whose corners are all flagged; `flags` is (V,)."""
+        return replace(self, faces=self.faces[flags[self.faces].all(axis=1)]).compact()
+
+    def subdivided(self) -> Mesh:
+        """Split each triangle into four at its edges' midpoints."""
+        count, faces = len(self.vertices), self.faces
+        edges = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        unique, inverse = np.unique(edges, axis=0, return_inverse=True)
+        ab, bc, ca = (count + part for part in np.split(inverse.ravel(), 3))
+        a, b, c = faces.T
+        split = [np.c_[a, ab, ca], np.c_[ab, b, bc], np.c_[ca, bc, c], np.c_[ab, bc, ca]]
+        return Mesh(
+            np.vstack([self.vertices, self.vertices[unique].mean(axis=1)]),
+            np.vstack([self.weights, self.weights[unique].mean(axis=1)]),
+            np.vstack(split),
+        )
+
+    def clipped(self, keep: Array) -> Mesh:
+        """Keep where the scalar field `keep` (V,) is positive, cutting triangles exactly at its zero."""
+        vertices, weights = list(self.vertices), list(self.weights)
+        cuts: dict[tuple[int, int], int] = {}
+        faces: list[list[int]] = []
+
+        def cut(a: int, b: int) -> int:
+            edge = (min(a, b), max(a, b))
+            if edge not in cuts:
+                t = keep[edge[0]] / (keep[edge[0]] - keep[edge[1]])
+                vertices.append(self.vertices[edge[0]] * (1 - t) + self.vertices[edge[1]] * t)
+                weights.append(self.weights[edge[0]] * (1 - t) + self.weights[edge[1]] * t)
+                cuts[edge] = len(vertices) - 1
+            return cuts[edge]
+
+        for face in self.faces:
+            outline: list[int] = []
+            for k in range(3):
+                a, b = int(face[k]), int(face[(k + 1) % 3])
+                if keep[a] > 0:
+                    outline.append(a)
+                if (keep[a] > 0) != (keep[b] > 0):
+                    outline.append(cut(a, b))
+            faces.extend([outline[0], outline[k], outline[k + 1]] for k in range(1, len(outline) - 1))
+        return Mesh(np.array(vertices), np.array(weights), np.array(faces, dtype=np.int64)).compact()
+
+
+def welded(mesh: Mesh, digits: int = 5) -> Mesh:
+    """Join the vertices that lie at one place, to `digits` decimals of a metre."""
+    _, first, inverse = np.unique(np.round(mesh.vertices, digits), axis=0, return_index=True, return_inverse=True)
+    faces = inverse.ravel()[mesh.faces]
+    proper = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 0] != faces[:, 2])
+    return Mesh(mesh.vertices[first], mesh.weights[first], faces[proper])
+
+
+def joined(meshes: list[Mesh]) -> Mesh:
+    """Put meshes together into one; all or none of them have texture coordinates."""
+    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
+    uv = None if meshes[0].uv is None else np.vstack([mesh.uv for mesh in meshes if mesh.uv is not None])
+    return Mesh(
+        np.vstack([mesh.vertices for mesh in meshes]),
+        np.vstack([mesh.weights for mesh in meshes]),
+        np.vstack([mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]),
+        uv,
+    )
+
+
+def normals(vertices: Array, faces: Indices) -> Array:
+    """Area-weighted unit vertex normals (V, 3)."""
+    total = np.zeros_like(vertices)
+    a, b, c = vertices[faces[:, 0]], vertices[faces[:, 1]], vertices[faces[:, 2]]
+    area = np.cross(b - a, c - a)
+    for corner in range(3):
+        np.add.at(total, faces[:, corner], area)
+    lengths = np.linalg.norm(total, axis=1, keepdims=True)
+    unit: Array = np.where(lengths > 1e-12, total / np.maximum(lengths, 1e-12), [0.0, 1.0, 0.0])
+    return unit
+
+
+def neighbour_mean(count: int, faces: Indices) -> sparse.csr_matrix:
+    """The matrix (V, V) that takes each vertex to the mean of its neighbours."""
+    edges = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    edges = np.vstack([edges, edges[:, ::-1]])
+    matrix = sparse.coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), (count, count)).tocsr()
+    matrix.data[:] = 1
+    degree = np.maximum(np.asarray(matrix.sum(axis=1)).ravel(), 1)
+    return sparse.csr_matrix(sparse.diags(1 / degree) @ matrix)
+
+
+def on_border(count: int, faces: Indices) -> Flags:
+    """Which vertices (V,) lie on an open edge."""
+    edges = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    unique, uses = np.unique(edges, axis=0, return_counts=True)
+    border = np.zeros(count, dtype=bool)
+    border[unique[uses == 1].ravel()] = True
+    return border
+
+
+def smoothed(values: Array, faces: Indices, rounds: int, fixed: Flags | None = None, step: float = 0.5) -> Array:
+    """Laplacian smoothing of per-vertex values (V, N); `fixed` vertices keep theirs."""
+    mean = neighbour_mean(len(values), faces)
+    values = values.copy()
+    for _ in range(rounds):
+        change = mean @ values - values
+        if fixed is not None:
+            change[fixed] = 0
+        values += step * change
+    return values
+
+
+def smoothstep(x: Array | float) -> Array:
+    """The cubic that rises from 0 at x ≤ 0 to 1 at x ≥ 1."""
+    clipped: Array = np.clip(np.asarray(x, dtype=np.float64), 0, 1)
+    return clipped * clipped * (3 - 2 * clipped)

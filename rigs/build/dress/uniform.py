@@ -1,0 +1,147 @@
+"""The band uniform: blazer, shirt, skirt, tights and shoes, cut from the body's helper surfaces."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from body.joint_names import SIDES
+from common.meshes import Mesh, smoothstep
+from common.parts import Part, Surface
+from common.shapes import grid_faces
+from dress.tailor import Tailor
+
+Array = NDArray[np.float64]
+
+BLAZER = Surface("blazer", 0.82, colour=(0.16, 0.19, 0.32), both_sides=True)
+SHIRT = Surface("shirt", 0.75, colour=(0.95, 0.95, 0.96), both_sides=True)
+SKIRT = Surface("skirt", 0.85, colour=(0.20, 0.215, 0.27), both_sides=True)
+TIGHTS = Surface("tights", 0.55, colour=(0.085, 0.085, 0.10))
+SHOES = Surface("shoes", 0.28, colour=(0.13, 0.075, 0.055), both_sides=True)
+
+OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
+BLAZER_SLEEVE = 0.86  # sleeves end at these shares of the forearm
+SHIRT_SLEEVE = 0.93
+
+
+def top_button_y(tailor: Tailor) -> float:
+    return float(tailor.at("upperChest")[1]) - 0.055
+
+
+def opening(tailor: Tailor, y: Array) -> Array:
+    """Half width (N,) of the blazer's V at heights `y`."""
+    low, high = top_button_y(tailor), tailor.neck_y - 0.005
+    return OPENING_M * np.clip((y - low) / (high - low), 0, 1.3) ** 0.85
+
+
+def _above_hips(tailor: Tailor) -> NDArray[np.bool_]:
+    tights = tailor.tights
+    return (tights.vertices[:, 1] > tailor.at("hips")[1] - 0.10) & (tailor.leg_weight(tights.weights) < 0.97)
+
+
+def blazer(tailor: Tailor, subdivisions: int) -> Mesh:
+    """The blazer's cloth: open in a V to the top button, flared over the hips, sleeves to the cuffs."""
+    mesh = tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions)
+    v, w = mesh.vertices, mesh.weights
+    hips, chest = tailor.at("hips"), tailor.at("upperChest")
+    keep = v[:, 1] - (hips[1] - 0.035) - 0.012 * np.cos(np.arctan2(v[:, 0], v[:, 2]))
+    for side, _ in SIDES:
+        arm, along = tailor.forearm(v, w, side)
+        keep = np.where(arm, np.minimum(keep, (BLAZER_SLEEVE - along) * 0.2), keep)
+    button = top_button_y(tailor)
+    parted = np.where(v[:, 1] < button - 0.16, (button - 0.16 - v[:, 1]) * 0.25, 0)
+    front = v[:, 2] > chest[2] + 0.01
+    keep = np.where(front, np.minimum(keep, np.abs(v[:, 0]) - np.maximum(opening(tailor, v[:, 1]), parted) - 0.0005), keep)
+    around_neck = np.hypot(v[:, 0], (v[:, 2] - tailor.at("neck")[2]) / 1.1) - 0.058
+    keep = np.where((v[:, 1] > tailor.neck_y - 0.03) & ~front, np.minimum(keep, around_neck), keep)
+    mesh = mesh.clipped(keep)
+    return _flare(tailor, _waisted(tailor, mesh))
+
+
+def _flare(tailor: Tailor, mesh: Mesh) -> Mesh:
+    """Let the blazer's skirt stand away from the hips."""
+    v, hips = mesh.vertices, tailor.at("hips")
+    outward = np.c_[v[:, 0], np.zeros(len(v)), v[:, 2] - hips[2]]
+    torso = tailor.leg_weight(mesh.weights) + tailor.weight_of(mesh.weights, "hips", "spine")
+    amount = np.clip((hips[1] + 0.07 - v[:, 1]) / 0.10, 0, 1) * np.minimum(torso, 1) * 0.016 / 0.14
+    mesh.vertices = v + outward * amount[:, None]
+    return mesh
+
+
+def _waisted(tailor: Tailor, mesh: Mesh) -> Mesh:
+    """Take the cloth in a little at the waist."""
+    v = mesh.vertices
+    waist = float(tailor.at("chest")[1]) + 0.02
+    arms = sum(tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES).astype(bool)
+    amount = 0.045 * np.exp(-(((v[:, 1] - waist) / 0.07) ** 2)) * ~arms * (np.abs(v[:, 0]) < 0.2)
+    centre = np.array([0.0, 0.0, tailor.at("chest")[2]])
+    mesh.vertices = v - (v - centre) * amount[:, None] * [1.0, 0.0, 0.25]
+    return mesh
+
+
+def shirt(tailor: Tailor, subdivisions: int) -> Mesh:
+    """Only the shirt that shows: the V at the chest, the neck and the cuffs."""
+    mesh = tailor.cloth(_above_hips(tailor), 0.006, 6, subdivisions)
+    v, w = mesh.vertices, mesh.weights
+    keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), tailor.neck_y + 0.022 - v[:, 1])
+    front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
+    shown = np.where(front, opening(tailor, v[:, 1]) + 0.022 - np.abs(v[:, 0]), -1.0)
+    shown = np.maximum(shown, v[:, 1] - (tailor.neck_y - 0.028))
+    for side, _ in SIDES:
+        arm, along = tailor.forearm(v, w, side)
+        keep = np.where(arm, np.minimum(keep, (SHIRT_SLEEVE - along) * 0.2), keep)
+        shown = np.where(arm, np.maximum(shown, (along - 0.74) * 0.2), shown)
+    return mesh.clipped(np.minimum(keep, shown))
+
+
+def skirt(tailor: Tailor, rows: int, columns: int, pleats: int = 24) -> Mesh:
+    """A pleated skirt from waist to above the knee, laid over the helper skirt on a polar grid."""
+    helper = Mesh(tailor.figure.vertices, tailor.weights, tailor.figure.mesh.triangles(["helper-skirt"])).compact()
+    waist, knee = tailor.at("hips")[1] + 0.05, tailor.at("leftLowerLeg")[1] + 0.06
+    hem = tailor.at("hips")[1] - 0.035
+    centre = np.array([0.0, 0.0, helper.vertices[:, 2].mean()])
+    angle = np.arctan2(helper.vertices[:, 0], helper.vertices[:, 2] - centre[2])
+    radius = np.hypot(helper.vertices[:, 0], helper.vertices[:, 2] - centre[2])
+    tree = cKDTree(np.c_[np.cos(angle) * 0.15, np.sin(angle) * 0.15, helper.vertices[:, 1]])
+    t, a = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij"))
+    y = waist + (knee - waist) * t
+    distance, index = tree.query(np.c_[np.cos(a) * 0.15, np.sin(a) * 0.15, y], k=6)
+    near = 1 / (distance + 0.004)
+    near /= near.sum(axis=1, keepdims=True)
+    phase = (a / (2 * np.pi) * pleats) % 1
+    fold = np.where(phase < 0.82, phase / 0.82, (1 - phase) / 0.18)
+    r = (radius[index] * near).sum(axis=1) * (0.97 + 0.03 * t) + 0.006 + 0.035 * t + (0.003 + 0.016 * t) * (fold - 0.5)
+    r -= 0.022 * np.clip((y - hem + 0.03) / 0.05, 0, 1)  # drawn in where the blazer covers it
+    vertices = np.c_[np.sin(a) * r, y, centre[2] + np.cos(a) * r]
+    weights = (helper.weights[index] * near[..., None]).sum(axis=1)
+    return Mesh(vertices, weights, grid_faces(rows, columns + 1, flip=True))
+
+
+def tights(tailor: Tailor, subdivisions: int) -> Mesh:
+    mesh, waist = tailor.tights, tailor.at("hips")[1] + 0.0
+    return tailor.cloth((tailor.leg_weight(mesh.weights) > 0.3) & (mesh.vertices[:, 1] < waist), 0.0015, 0, subdivisions)
+
+
+def shoes(tailor: Tailor, subdivisions: int) -> Mesh:
+    """Low leather shoes with flat soles on the floor."""
+    mesh = tailor.cloth(tailor.tights.vertices[:, 1] < 0.12, 0.007, 10, subdivisions)
+    v, ankle = mesh.vertices, tailor.at("leftFoot")
+    over_heel = 0.092 - v[:, 1]
+    over_toes = 0.074 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
+    behind = smoothstep((ankle[2] + 0.024 - v[:, 2]) / 0.024)
+    mesh = mesh.clipped(over_heel * behind + over_toes * (1 - behind))
+    sole = mesh.vertices[:, 1] - 0.0105
+    mesh.vertices[:, 1] = np.maximum(sole, 0.0)
+    return mesh
+
+
+def uniform_parts(tailor: Tailor, subdivisions: int, skirt_grid: tuple[int, int], outer: Mesh) -> list[Part]:
+    """All cloth but the trimmings; `outer` is the blazer, cut beforehand because trimmings lie on it."""
+    return [
+        Part("Shirt", shirt(tailor, subdivisions), SHIRT),
+        Part("Blazer", outer, BLAZER),
+        Part("Skirt", skirt(tailor, *skirt_grid), SKIRT),
+        Part("Tights", tights(tailor, subdivisions), TIGHTS),
+        Part("Shoes", shoes(tailor, subdivisions), SHOES),
+    ]

@@ -1,0 +1,1 @@
+"""How the player holds the instrument: a least-squares search over arms, hands and fingers."""

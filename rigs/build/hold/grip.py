@@ -1,0 +1,88 @@
+"""What both hands' searches share: a hand on an arm, with measures that the objectives weigh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from hold.arm import Arm, ArmPose
+from hold.collision import Obstacles, along_bones
+from hold.finger import Finger
+from hold.rig import Pose, Rig
+from hold.stance import Stance
+from hold.thumb import Thumb
+
+Array = NDArray[np.float64]
+
+FINGERS = ("Index", "Middle", "Ring", "Little")
+MM = 1000.0
+DEG = 180.0 / np.pi
+ELBOW_FROM_SHOULDER_M = {"right": np.array([-0.130, -0.200, 0.125]), "left": np.array([0.105, -0.205, 0.140])}
+
+
+def hand_turn(fingers: list[float], back: list[float]) -> Array:
+    """The rotation vector (3,) of a hand whose fingers point along `fingers` and whose back looks along `back`."""
+    x = np.array(fingers) / np.linalg.norm(fingers)
+    y = np.array(back) - x * (x @ np.array(back))
+    y /= np.linalg.norm(y)
+    vector: Array = Rotation.from_matrix(np.column_stack([x, y, np.cross(x, y)])).as_rotvec()
+    return vector
+
+
+def beyond(value: Array | float, low: float, high: float) -> Array:
+    """How far a value lies outside low … high, signed."""
+    return np.minimum(np.asarray(value) - low, 0) + np.maximum(np.asarray(value) - high, 0)
+
+
+@dataclass
+class Grip:
+    """One hand to be placed on an instrument whose world pose is (rotation, position)."""
+
+    rig: Rig
+    side: str
+    stance: Stance
+    instrument: tuple[Array, Array]
+    obstacles: Obstacles
+
+    def __post_init__(self) -> None:
+        world = self.rig.world(self.stance.pose, self.stance.hips)
+        self.arm = Arm(self.rig, self.side, world["upperChest"])
+        self.shoulder = world[f"{self.side}UpperArm"][1]
+        self.fingers = [Finger.of(self.rig, f"{self.side}{name}") for name in FINGERS]
+        self.thumb = Thumb.of(self.rig, self.side)
+        self.palm = [c for c in self.rig.content["capsules"] if c["joint"] == f"{self.side}Hand"]
+
+    def reach(self, x: Array) -> tuple[Array, Array, ArmPose]:
+        """Hand rotation and position in the instrument's frame, and the arm; x is position m, rotation vector, swivel, shoulder (2)."""
+        turn, place = self.instrument
+        rotation = Rotation.from_rotvec(x[3:6]).as_matrix()
+        arm = self.arm.reach(place + turn @ x[:3], turn @ rotation, x[6], x[7:9])
+        return rotation, x[:3], arm
+
+    def arm_cost(self, arm: ArmPose, x: Array) -> list[Array]:
+        """Residuals of posture: relaxed shoulder, elbow out and down, straight wrist, nothing out of reach."""
+        twist, flexion, deviation = arm.wrist * DEG
+        return [
+            np.array([arm.lacking * MM]),
+            (arm.elbow - self.shoulder - ELBOW_FROM_SHOULDER_M[self.side]) / 0.03,
+            x[7:9] * DEG / 6,
+            np.array([twist / 60, flexion / 14, deviation / 9]),
+            beyond(twist, -85, 85)[None] / 4,
+            beyond(flexion, -38, 30)[None] / 3,
+            beyond(deviation, -16, 16)[None] / 3,
+        ]
+
+    def palm_spheres(self) -> tuple[Array, Array]:
+        """Spheres that stand for the palm, in the hand's frame."""
+        parts = [along_bones(np.array([c["from"], c["to"]]), np.array([c["radius"]]), 5) for c in self.palm]
+        return np.vstack([p for p, _ in parts]), np.concatenate([r for _, r in parts])
+
+    def pose(self, arm: ArmPose, fingers: list[Array], thumb: Array) -> Pose:
+        """Local rotations of the whole arm with its hand."""
+        result = {**arm.local, **self.thumb.local_rotations(thumb)}
+        for finger, angles in zip(self.fingers, fingers, strict=True):
+            result.update(finger.local_rotations(angles))
+        return result

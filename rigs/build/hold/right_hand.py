@@ -1,0 +1,84 @@
+"""The right hand on the valves: every pad on its button over the whole stroke, thumb under the leadpipe, little finger at its hook."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hold.collision import along_bones
+from hold.grip import DEG, MM, Grip, beyond, hand_turn
+
+Array = NDArray[np.float64]
+
+HEIGHTS_M = (0.0, -0.0165, 0.004)  # valve up, valve down, finger resting off the cap
+ABDUCTION_DEG = 12.0
+THETA1_DEG = (-67.0, 77.0)  # limits less a margin of three degrees
+THETA2_DEG = (-132.0, -3.0)
+CURL_DEG = (-52.0, -58.0, -54.0)
+START = np.array([-0.075, 0.055, -0.055, *hand_turn([0.7, 0.35, 0.6], [-0.5, 0.85, 0.0]), 0.6, 0.0, 0.05, *np.zeros(5)])
+
+
+@dataclass
+class RightHand:
+    """Targets in the instrument's frame: three `buttons` (3, 3), the `thumb` contact and the `hook`."""
+
+    grip: Grip
+    buttons: Array
+    thumb: Array
+    hook: Array
+    heights: Array = field(default_factory=lambda: np.array([[0.0, h, 0.0] for h in HEIGHTS_M]))
+
+    def fingers(self, rotation: Array, position: Array) -> tuple[list[Array], list[Array]]:
+        """For each finger the angles (N, 4) at its targets (three heights; one for the little finger) and lacking reach (N,)."""
+        angles, lacking = [], []
+        for k, finger in enumerate(self.grip.fingers):
+            targets = self.buttons[k] + self.heights if k < 3 else self.hook[None]
+            a, gap = finger.solve((targets - position) @ rotation)
+            angles.append(a)
+            lacking.append(gap)
+        return angles, lacking
+
+    def residuals(self, x: Array) -> Array:
+        rotation, position, arm = self.grip.reach(x)
+        angles, lacking = self.fingers(rotation, position)
+        terms = self.grip.arm_cost(arm, x)
+        for k in range(3):
+            abduction, theta1, theta2, _ = angles[k].T * DEG
+            terms += [lacking[k] * MM / 0.2, (theta2 - CURL_DEG[k])[:1] / 9, abduction[:1] / 7, (theta1[:1] + 22) / 16]
+            terms += [beyond(abduction, -ABDUCTION_DEG, ABDUCTION_DEG) / 1.0, beyond(theta1, *THETA1_DEG) / 2, beyond(theta2, *THETA2_DEG) / 2]
+            terms += [beyond(theta2, -82, -18) / 4]
+            points = self.grip.fingers[k].points(angles[k][0]) @ rotation.T
+            bone = (points[3] - points[2]) / np.linalg.norm(points[3] - points[2])
+            terms.append(np.array([np.arcsin(np.clip(-bone[1], -1, 1)) * DEG - 58]) / 9)
+        little = angles[3][0] * DEG
+        terms += [lacking[3] * MM / 2, little[:1] / 9, beyond(little[:1], -18, 18) / 1.5, beyond(little[1:2], *THETA1_DEG) / 3, beyond(little[2:3], -95, -12) / 5]
+        thumb_points, pad_direction = self.grip.thumb.points(x[9:14])
+        thumb_points = position + thumb_points @ rotation.T
+        terms.append((thumb_points[3] - self.thumb) * MM / 1.2)
+        terms.append((rotation @ pad_direction - [0.93, 0.2, 0.3]) / 0.5)
+        terms.append(thumb_cost(x[9:14]))
+        terms += self._collisions(rotation, position, angles, thumb_points)
+        return np.concatenate([np.ravel(t) for t in terms])
+
+    def _collisions(self, rotation: Array, position: Array, angles: list[Array], thumb_points: Array) -> list[Array]:
+        terms = []
+        centres, radii = self.grip.palm_spheres()
+        spheres = [(position + centres @ rotation.T, radii, 0.0)]
+        for k, finger in enumerate(self.grip.fingers):
+            for row in angles[k][:2]:
+                points = position + finger.points(row) @ rotation.T
+                spheres.append((*along_bones(points[:3], finger.radii[:2], 3), 0.0))
+        spheres.append((*along_bones(thumb_points, self.grip.thumb.radii, 4), 0.0008))
+        for places, sizes, allowed in spheres:
+            depth = sizes - allowed - self.grip.obstacles.clearance(places)
+            terms.append(np.maximum(depth, 0) * MM / 0.8)
+        return terms
+
+
+def thumb_cost(angles: Array) -> Array:
+    """A thumb's residuals: near rest, inside its limits; angles (5,) rad."""
+    a = angles * DEG
+    limits = [beyond(a[0], -32, 32), beyond(a[1], -50, 36), beyond(a[2], -32, 32), beyond(a[3], -60, 15), beyond(a[4], -75, 15)]
+    return np.r_[a / [30, 35, 30, 40, 40], np.array(limits) / 2]

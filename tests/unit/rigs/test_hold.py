@@ -1,0 +1,158 @@
+"""The committed hold: the mouthpiece is at the lips, and every finger reaches its button over the whole stroke."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+RIGS = Path(__file__).resolve().parents[3] / "rigs"
+MARGIN_RAD = np.radians(3.0)
+
+
+def matrix(quaternion: Any) -> Array:
+    """A rotation matrix from x, y, z, w."""
+    x, y, z, w = np.asarray(quaternion) / np.linalg.norm(quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def item(items: list[dict[str, Any]], name: str) -> dict[str, Any]:
+    return next(entry for entry in items if entry["name"] == name)
+
+
+@dataclass
+class Held:
+    player: dict[str, Any]
+    trumpet: dict[str, Any]
+    hold: dict[str, Any]
+    world: dict[str, tuple[Array, Array]]
+
+    def in_trumpet(self, joint: str, offset: Any) -> Array:
+        rotation, place = self.world[joint]
+        instrument = self.hold["instrument"]
+        point: Array = matrix(instrument["rotation"]).T @ (place + rotation @ np.asarray(offset) - instrument["position"])
+        return point
+
+
+@cache
+def held() -> Held:
+    player = json.loads((RIGS / "trumpeter" / "rig.json").read_text(encoding="utf-8"))
+    trumpet = json.loads((RIGS / "trumpet" / "rig.json").read_text(encoding="utf-8"))
+    hold = json.loads((RIGS / "trumpeter" / "holds" / "trumpet.json").read_text(encoding="utf-8"))
+    world: dict[str, tuple[Array, Array]] = {}
+    for joint in player["joints"]:
+        local = matrix(hold["pose"][joint["name"]])
+        if joint["parent"] is None:
+            world[joint["name"]] = local, np.array(hold["hips"])
+        else:
+            rotation, place = world[joint["parent"]]
+            world[joint["name"]] = rotation @ local, place + rotation @ np.array(joint["translation"])
+    return Held(player, trumpet, hold, world)
+
+
+def test_pose_names_every_joint_with_a_unit_quaternion_on_the_rest_poses_side() -> None:
+    h = held()
+    assert set(h.hold["pose"]) == {joint["name"] for joint in h.player["joints"]}
+    for joint in h.player["joints"]:
+        quaternion = np.array(h.hold["pose"][joint["name"]])
+        assert np.linalg.norm(quaternion) == pytest.approx(1, abs=1e-8)
+        assert quaternion @ joint["rotation"] >= 0
+
+
+def test_mouthpiece_is_at_the_lips() -> None:
+    h = held()
+    lips = item(h.player["contacts"], "lips")
+    rim = item(h.trumpet["contacts"], "mouthpiece")["offset"]
+    assert np.linalg.norm(h.in_trumpet(lips["joint"], lips["offset"]) - rim) < 0.0002
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_feet_stand_flat_on_the_floor(side: str) -> None:
+    h = held()
+    sole = item(h.player["contacts"], f"{side}Sole")
+    rotation, place = h.world[sole["joint"]]
+    assert (place + rotation @ np.array(sole["offset"]))[1] == pytest.approx(0, abs=0.001)
+    assert rotation[1, 1] == pytest.approx(1, abs=1e-6)
+
+
+def test_bell_points_forward_and_a_little_down() -> None:
+    bell = matrix(held().hold["instrument"]["rotation"])[:, 2]
+    assert 4 < np.degrees(np.arcsin(-bell[1])) < 9
+    assert bell[2] > 0.98
+
+
+@pytest.mark.parametrize("valve", [1, 2, 3])
+def test_pads_lie_on_their_buttons(valve: int) -> None:
+    h = held()
+    button = h.trumpet["buttons"][valve - 1]
+    effector = item(h.player["effectors"], button["effector"])
+    assert np.linalg.norm(h.in_trumpet(effector["joint"], effector["offset"]) - button["position"]) < 0.0005
+
+
+@pytest.mark.parametrize("valve", [1, 2, 3])
+@pytest.mark.parametrize("stroke", [-0.25, 0.0, 0.25, 0.5, 0.75, 1.0])
+def test_fingers_reach_their_buttons_within_limits_over_the_whole_stroke(valve: int, stroke: float) -> None:
+    """`stroke` is the valve's value; −0.25 is about 4 mm above the cap."""
+    h = held()
+    button = h.trumpet["buttons"][valve - 1]
+    name = button["effector"].removesuffix("Tip")
+    joints = {joint["name"]: joint for joint in h.player["joints"]}
+    chain = item(h.player["chains"], name)
+    parts = [joints[joint] for joint in chain["joints"]]
+    target = np.array(button["position"]) + stroke * np.array(button["travel"])
+    instrument = h.hold["instrument"]
+    world = matrix(instrument["rotation"]) @ target + instrument["position"]
+    hand_rotation, hand_place = h.world["rightHand"]
+    knuckle = hand_place + hand_rotation @ np.array(parts[0]["translation"])
+    local = (hand_rotation @ matrix(parts[0]["rotation"])).T @ (world - knuckle)
+    lengths = [parts[1]["translation"][0], parts[2]["translation"][0], item(h.player["effectors"], f"{name}Tip")["offset"][0]]
+    theta2 = coupled_angle(lengths, chain["kappa"], float(np.linalg.norm(local)))
+    outer = theta2 * (1 + chain["kappa"])
+    bend = np.arctan2(
+        lengths[1] * np.sin(theta2) + lengths[2] * np.sin(outer),
+        lengths[0] + lengths[1] * np.cos(theta2) + lengths[2] * np.cos(outer),
+    )
+    from_rest = {
+        (0, "y"): np.arctan2(-local[2], local[0]),
+        (0, "z"): np.arctan2(local[1], np.hypot(local[0], local[2])) - bend,
+        (1, "z"): theta2 - rest_turn(parts[1]),
+        (2, "z"): theta2 * chain["kappa"] - rest_turn(parts[2]),
+    }
+    assert abs(from_rest[0, "y"]) < np.radians(13)
+    for (k, axis), angle in from_rest.items():
+        low, high = parts[k]["limits"][axis]
+        assert low + MARGIN_RAD <= angle <= high - MARGIN_RAD, (parts[k]["name"], axis, np.degrees(angle))
+
+
+def rest_turn(joint: dict[str, Any]) -> float:
+    return float(2 * np.arctan2(joint["rotation"][2], joint["rotation"][3]))
+
+
+def coupled_angle(lengths: list[float], kappa: float, distance: float) -> float:
+    """θ2 for which knuckle and pad are `distance` apart, by halving; fails when the pad cannot reach."""
+    l1, l2, l3 = lengths
+
+    def reach(theta2: float) -> float:
+        outer = theta2 * (1 + kappa)
+        return float(np.hypot(l1 + l2 * np.cos(theta2) + l3 * np.cos(outer), l2 * np.sin(theta2) + l3 * np.sin(outer)))
+
+    low, high = np.radians(-135.0), 0.0
+    assert reach(low) < distance < reach(high)
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if reach(middle) < distance else (low, middle)
+    return float((low + high) / 2)
