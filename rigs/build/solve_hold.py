@@ -92,9 +92,10 @@ def main() -> None:
     pose.update(solve_left(Grip(player, "left", stance, instrument, obstacles), trumpet))
     quaternions = whole_pose(player, pose)
     hold = {
+        "instrument": "trumpet",
         "player": "trumpeter",
         "pose": quaternions,
-        "instrument": {"name": "trumpet", "position": instrument[1].tolist(), "rotation": Rotation.from_matrix(instrument[0]).as_quat().tolist()},
+        "instrument_pose": {"position": instrument[1].tolist(), "rotation": Rotation.from_matrix(instrument[0]).as_quat().tolist()},
         "hips": stance.hips.tolist(),
     }
     (folder / "trumpeter" / "holds").mkdir(exist_ok=True)

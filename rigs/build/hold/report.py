@@ -18,8 +18,8 @@ def report(player: Rig, trumpet: Rig, hold: dict[str, Any]) -> None:
     """Print the fit of a hold as it would be written."""
     pose = {name: Rotation.from_quat(q).as_matrix() for name, q in hold["pose"].items()}
     world = player.world(pose, np.array(hold["hips"]))
-    turn = Rotation.from_quat(hold["instrument"]["rotation"]).as_matrix()
-    place = np.array(hold["instrument"]["position"])
+    turn = Rotation.from_quat(hold["instrument_pose"]["rotation"]).as_matrix()
+    place = np.array(hold["instrument_pose"]["position"])
 
     def in_trumpet(joint: str, offset: Any) -> Array:
         rotation, position = world[joint]

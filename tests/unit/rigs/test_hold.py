@@ -43,7 +43,7 @@ class Held:
 
     def in_trumpet(self, joint: str, offset: Any) -> Array:
         rotation, place = self.world[joint]
-        instrument = self.hold["instrument"]
+        instrument = self.hold["instrument_pose"]
         point: Array = matrix(instrument["rotation"]).T @ (place + rotation @ np.asarray(offset) - instrument["position"])
         return point
 
@@ -90,7 +90,7 @@ def test_feet_stand_flat_on_the_floor(side: str) -> None:
 
 
 def test_bell_points_forward_and_a_little_down() -> None:
-    bell = matrix(held().hold["instrument"]["rotation"])[:, 2]
+    bell = matrix(held().hold["instrument_pose"]["rotation"])[:, 2]
     assert 4 < np.degrees(np.arcsin(-bell[1])) < 9
     assert bell[2] > 0.98
 
@@ -114,7 +114,7 @@ def test_fingers_reach_their_buttons_within_limits_over_the_whole_stroke(valve: 
     chain = item(h.player["chains"], name)
     parts = [joints[joint] for joint in chain["joints"]]
     target = np.array(button["position"]) + stroke * np.array(button["travel"])
-    instrument = h.hold["instrument"]
+    instrument = h.hold["instrument_pose"]
     world = matrix(instrument["rotation"]) @ target + instrument["position"]
     hand_rotation, hand_place = h.world["rightHand"]
     knuckle = hand_place + hand_rotation @ np.array(parts[0]["translation"])
