@@ -59,7 +59,7 @@ class SongRequest:
     @property
     def progress(self) -> float:
         """Share of the work that is done, 0..1; 1 only when the song is ready."""
-        return 1.0 if self._rendering is None else self._rendering.progress
+        return 1.0 if self._rendering is None or self.ready else self._rendering.progress
 
     @property
     def ready(self) -> bool:

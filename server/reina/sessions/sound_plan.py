@@ -22,6 +22,8 @@ from reina.sessions.sound_events import (
 from reina.sessions.sound_programs import default_program
 
 LONGEST_S = 3600.0
+AFTER_LAST_NOTE_S = 20.0
+"""How long after the last note controls still count: a pedal is lifted after the keys."""
 SHORTEST_NOTE = SAMPLE_RATE // 50
 """A tap of no length still has to speak: 20 ms."""
 
@@ -149,8 +151,7 @@ def _plan_controls(score: Score, seats: NDArray[np.uint16], trumpet_part: int | 
                 tick = max(0, round(control.onset_s * SAMPLE_RATE))
                 rows.append((tick, port, status | channel, data1, data2))
     table = np.array(rows, dtype=CONTROL_DTYPE)
-    last = score.duration_s * SAMPLE_RATE
-    table = table[table["tick"] <= last]
+    table = table[table["tick"] <= (score.duration_s + AFTER_LAST_NOTE_S) * SAMPLE_RATE]
     return table[np.argsort(table["tick"], kind="stable")]
 
 

@@ -1,0 +1,158 @@
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.unit.sessions.sound_material import Row, a_controller, a_part, a_score
+
+from reina.errors import InputError
+from reina.music import Control
+from reina.sessions.sound_events import DRUM_CHANNEL, SAMPLE_RATE, SoundPlan
+from reina.sessions.sound_plan import LONGEST_S, SHORTEST_NOTE, plan_sound
+from reina.sessions.sound_programs import default_program
+
+
+def programs(plan: SoundPlan) -> dict[tuple[int, int], int]:
+    """The program at time 0 on each port and channel."""
+    rows = plan.controls[(plan.controls["status"] & 0xF0 == 0xC0) & (plan.controls["tick"] == 0)]
+    return {(int(row["port"]), int(row["status"]) & 0x0F): int(row["data1"]) for row in rows}
+
+
+def test_ticks_are_samples() -> None:
+    plan = plan_sound(a_score([(0, 1.23456789, 0.5, 60, 1.0)]))
+    assert plan.notes["on"].tolist() == [round(1.23456789 * SAMPLE_RATE)]
+    assert plan.notes["off"].tolist() == [round(1.73456789 * SAMPLE_RATE)]
+    assert plan.notes["velocity"].tolist() == [127]
+
+
+def test_a_tap_still_speaks() -> None:
+    plan = plan_sound(a_score([(0, 1.0, 1e-6, 60, 0.0)]))
+    assert plan.notes["off"][0] - plan.notes["on"][0] == SHORTEST_NOTE
+    assert plan.notes["velocity"][0] == 1
+
+
+def test_parts_that_collide_on_a_channel_sound_as_themselves() -> None:
+    parts = [a_part(0, "Trumpet", 56), a_part(1, "Flute", 73), a_part(2, "Kit", None, is_drums=True)]
+    rows: list[Row] = [(index, 0.0, 1.0, 60, 0.8) for index in range(3)]
+    plan = plan_sound(a_score(rows, parts))
+    seats = {int(note["channel"]) for note in plan.notes}
+    assert len(seats) == 3
+    assert DRUM_CHANNEL in seats
+    assert sorted(programs(plan).values()) == [0, 56, 73]
+
+
+def test_forty_parts_each_have_a_channel_and_no_tone_is_on_the_drums_channel() -> None:
+    parts = [a_part(index, f"Part {index}", index) for index in range(40)]
+    plan = plan_sound(a_score([(index, 0.0, 1.0, 60, 0.8) for index in range(40)], parts))
+    assert sorted(programs(plan).values()) == list(range(40))
+    assert set(plan.notes["port"].tolist()) == {0, 1, 2}
+    assert DRUM_CHANNEL not in plan.notes["channel"]
+
+
+def test_very_many_parts_of_one_program_share_a_channel() -> None:
+    parts = [a_part(index, f"Part {index}", index % 3) for index in range(300)]
+    plan = plan_sound(a_score([(index, 0.0, 1.0, index % 128, 0.8) for index in range(300)], parts))
+    assert len(programs(plan)) == 3
+
+
+def test_drums_of_several_tracks_share_one_kit() -> None:
+    parts = [a_part(0, "Hi-hat", None, is_drums=True), a_part(1, "Bass drum", None, is_drums=True)]
+    plan = plan_sound(a_score([(0, 0.0, 1.0, 42, 0.8), (1, 0.0, 1.0, 36, 0.8)], parts))
+    assert programs(plan) == {(0, DRUM_CHANNEL): 0}
+
+
+@pytest.mark.parametrize(
+    ("name", "chosen", "program"),
+    [
+        ("Trompete in B", False, 56),
+        ("Track 3", True, 56),
+        ("Track 3", False, 0),
+        ("Violin I", False, 40),
+        ("Bass Trombone", False, 57),
+    ],
+)
+def test_a_part_without_a_program_sounds_by_choice_or_name(name: str, chosen: bool, program: int) -> None:
+    part = a_part(0, name)
+    assert default_program(part, is_trumpet=chosen) == program
+    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8)], [part]), trumpet_part=0 if chosen else None)
+    assert list(programs(plan).values()) == [program]
+
+
+def test_the_file_s_program_wins_over_choice_and_name() -> None:
+    assert default_program(a_part(0, "Trumpet", 60), is_trumpet=True) == 60
+
+
+def test_program_changes_within_a_piece_are_kept() -> None:
+    muted = Control("program", 2.0, 2.0, 0, 0, 59)
+    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8), (0, 2.0, 1.0, 60, 0.8)], [a_part()], [muted]))
+    changes = plan.controls[plan.controls["status"] == 0xC0]
+    assert [(int(row["tick"]), int(row["data1"])) for row in changes] == [(0, 56), (2 * SAMPLE_RATE, 59)]
+
+
+def test_controls_go_with_every_part_of_their_channel() -> None:
+    parts = [a_part(0, "Right hand", 0), a_part(1, "Left hand", 0)]
+    controls = [
+        a_controller(64, 127, 1.0),
+        a_controller(123, 0, 1.0),
+        a_controller(20, 5, 1.0),
+        Control("pitch_bend", 1.5, 1.5, 0, 0, -8192),
+    ]
+    plan = plan_sound(a_score([(0, 0.0, 2.0, 60, 0.8), (1, 0.0, 2.0, 40, 0.8)], parts, controls))
+    heard = [
+        (int(row["status"]), int(row["data1"]), int(row["data2"]))
+        for row in plan.controls
+        if row["status"] & 0xF0 != 0xC0
+    ]
+    assert sorted(heard) == [(0xB0, 64, 127), (0xB1, 64, 127), (0xE0, 0, 0), (0xE1, 0, 0)]
+
+
+def test_more_than_an_hour_is_refused() -> None:
+    with pytest.raises(InputError, match="at most 60"):
+        plan_sound(a_score([(0, LONGEST_S, 1.0, 60, 0.8)]))
+
+
+def test_digest_tells_what_sounds_different_and_nothing_else() -> None:
+    row: Row = (0, 0.5, 1.0, 60, 0.8)
+    plan = plan_sound(a_score([row]))
+    assert plan.digest("font") == plan_sound(a_score([row], [a_part(0, "Trumpet solo")])).digest("font")
+    assert plan.digest("font") != plan.digest("another font")
+    assert plan.digest("font") != plan_sound(a_score([(0, 0.5, 1.0, 61, 0.8)])).digest("font")
+    assert plan.digest("font") != plan_sound(a_score([row], [a_part(0, "Flute")])).digest("font")
+
+
+ROWS = st.lists(
+    st.tuples(
+        st.integers(0, 1),
+        st.integers(0, 40).map(lambda step: step * 0.1),
+        st.sampled_from((0.05, 0.1, 0.3, 2.0)),
+        st.integers(60, 62),
+        st.sampled_from((0.2, 0.9)),
+    ),
+    min_size=1,
+    max_size=40,
+)
+
+
+@given(ROWS)
+def test_a_key_is_never_struck_while_it_sounds_and_nothing_falls_silent(rows: Sequence[Row]) -> None:
+    plan = plan_sound(a_score(rows, [a_part(0), a_part(1, "Flute")]))
+    assert np.all(np.diff(plan.notes["on"].astype(np.int64)) >= 0)
+    for part in (0, 1):
+        for pitch in range(60, 63):
+            wanted = [(row[1], row[1] + row[2]) for row in rows if row[0] == part and row[3] == pitch]
+            if not wanted:
+                continue
+            got = plan.notes[(plan.notes["key"] == pitch) & (plan.notes["channel"] == part)]
+            on, off = got["on"].astype(np.int64), got["off"].astype(np.int64)
+            assert np.all(off > on)
+            assert np.all(on[1:] >= off[:-1])
+            assert set(on.tolist()) == {round(begin * SAMPLE_RATE) for begin, _ in wanted}
+            assert off[-1] == max(
+                max(round(end * SAMPLE_RATE), round(begin * SAMPLE_RATE) + SHORTEST_NOTE)
+                for begin, end in wanted
+            )
+            # Wherever a note sounds in the score, its key is down in the plan.
+            for begin, end in wanted:
+                middle = (begin + end) / 2 * SAMPLE_RATE
+                assert np.any((on <= middle) & (middle <= off))
