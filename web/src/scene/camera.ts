@@ -14,7 +14,7 @@ export interface ShowPose {
   readonly target: Vector3;
   /** Vertical for 16:9, radians. */
   fov: number;
-  /** Clockwise as the picture is seen, radians. */
+  /** Radians; positive tips the picture's top to the left. */
   roll: number;
 }
 

@@ -87,5 +87,6 @@ export class ShowBinding {
     lights.arrange();
     room.keyColor.copy(lights.key.color).multiplyScalar(lights.key.intensity);
     fog.color.copy(background);
+    if (room.haze !== null) room.haze.value = fog.density;
   }
 }

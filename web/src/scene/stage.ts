@@ -9,7 +9,7 @@ import { StageCamera } from "./camera";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import { StageLights } from "./lights";
 import { createRenderer } from "./renderer";
-import { RoomReflections, createRoom, type Room } from "./room";
+import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show_binding";
 import { dressSurfaces } from "./surfaces";
@@ -123,6 +123,7 @@ export class Stage {
     }
     this.#models = models;
     this.#bell = findBell(models);
+    this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
   }
 
   /** Lay out the played part's notes. */
@@ -146,6 +147,7 @@ export class Stage {
     const scene = this.#scene;
     this.#camera.follow();
     scene.updateMatrixWorld();
+    this.#room.feet.follow();
     if (this.#bell !== null) {
       const { node, offset } = this.#bell;
       this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);

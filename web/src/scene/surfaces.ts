@@ -26,9 +26,9 @@ function softenSkin(material: MeshStandardMaterial): MeshStandardMaterial {
 function napCloth(material: MeshStandardMaterial): MeshStandardMaterial {
   const cloth = new MeshPhysicalMaterial();
   MeshStandardMaterial.prototype.copy.call(cloth, material);
-  cloth.sheen = 0.55;
+  cloth.sheen = 0.2;
   cloth.sheenRoughness = 0.45;
-  cloth.sheenColor.copy(material.color).lerp(cloth.sheenColor.set(0x8fa0c8), 0.5);
+  cloth.sheenColor.copy(material.color).lerp(cloth.sheenColor.set(0x8fa0c8), 0.35);
   return cloth;
 }
 

@@ -11,6 +11,8 @@ export interface TierSettings {
   readonly mirrorScale: number;
   /** Texels along a side of each face of the reflected room. */
   readonly environmentSize: number;
+  /** Draws the sun in the air. */
+  readonly shafts: boolean;
   /** Shades skin with light that passes under it, and cloth with its sheen. */
   readonly softSurfaces: boolean;
 }
@@ -22,6 +24,7 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     shadowMapSize: 2048,
     mirrorScale: 0.5,
     environmentSize: 512,
+    shafts: true,
     softSurfaces: true,
   },
   medium: {
@@ -30,6 +33,7 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     shadowMapSize: 1024,
     mirrorScale: 0,
     environmentSize: 256,
+    shafts: true,
     softSurfaces: true,
   },
   low: {
@@ -38,6 +42,7 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     shadowMapSize: 0,
     mirrorScale: 0,
     environmentSize: 128,
+    shafts: false,
     softSurfaces: false,
   },
 };

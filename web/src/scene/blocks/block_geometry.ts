@@ -60,7 +60,7 @@ export function createBlockGeometry(stations: number): InstancedBufferGeometry {
     for (let i = 0; i < around; i++) {
       const a = ring * around + i;
       const b = ring * around + ((i + 1) % around);
-      index.push(a, a + around, b, b, a + around, b + around);
+      index.push(a, b, a + around, b, b + around, a + around);
     }
   }
   for (const u of [0, 1]) {
@@ -70,7 +70,7 @@ export function createBlockGeometry(stations: number): InstancedBufferGeometry {
     for (let i = 0; i < around; i++) {
       const a = ring * around + i;
       const b = ring * around + ((i + 1) % around);
-      index.push(...(u === 0 ? [centre, a, b] : [centre, b, a]));
+      index.push(...(u === 0 ? [centre, b, a] : [centre, a, b]));
     }
   }
   const geometry = new InstancedBufferGeometry();

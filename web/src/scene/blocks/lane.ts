@@ -7,7 +7,7 @@ export const LANE = {
   /** Height of one diatonic step on the staff. */
   step: 0.033,
   /** toward_bell: the ribbon leaves the bell and turns to the player's left. */
-  bell: { side: 1, radius: 1.15, turn: 1.12, height: 1.2, funnel: 0.95, narrowest: 0.16, sight: 3.6 },
+  bell: { side: 1, radius: 1.15, turn: 1.12, height: 1.2, funnel: 0.6, narrowest: 0.42, sight: 3.6 },
   /** lane_below: a desk before the player; the moment that sounds stands at `now`. */
   below: { now: -0.55, near: 1.05, height: 0.42, lean: 0.5, past: 0.75, sight: 2.4 },
 } as const;
@@ -56,6 +56,10 @@ struct Place {
 const float STEP = ${f(LANE.step)};
 float laneStart() {
   return arrangement < 0.5 ? 0.0 : ${f(-LANE.below.past)};
+}
+// What sounds hangs just before the bell, where its marks can be seen.
+float laneGap() {
+  return arrangement < 0.5 ? 0.03 : 0.0;
 }
 float laneEnd() {
   return arrangement < 0.5 ? ${f(LANE.bell.sight)} : ${f(LANE.below.sight)};

@@ -12,8 +12,8 @@ float sounding() {
   return step(note.x, songTime + 1e-4) * step(songTime + 1e-4, note.x + note.y);
 }
 bool noteSpan(out float start, out float end) {
-  start = max((note.x - songTime) * speed, laneStart());
-  float full = (note.x + note.y - songTime) * speed;
+  start = max((note.x - songTime) * speed + laneGap(), laneStart() + laneGap());
+  float full = (note.x + note.y - songTime) * speed + laneGap();
   // A breath between two blocks, so that repeated notes stay two.
   end = min(full - min(0.012, 0.15 * note.y * speed), laneEnd());
   return end > start + 0.0015;
@@ -100,7 +100,7 @@ void main() {
   // Lacquer: a matt body under a clear coat that catches the window.
   float wrapped = 0.5 + 0.5 * dot(normal, toKey);
   float sky = 0.5 + 0.5 * normal.y;
-  vec3 light = vec3(1.0, 0.88, 0.72) * wrapped * wrapped * 1.5 + vec3(0.32, 0.36, 0.44) * sky;
+  vec3 light = vec3(1.0, 0.88, 0.72) * wrapped * wrapped * 0.9 + vec3(0.2, 0.22, 0.27) * sky;
   float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
   float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0) * 1.6;
   vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.35 * fresnel + glint);
@@ -113,29 +113,26 @@ void main() {
 
   // Lit from within: brightest in the core, and still bright at the rim.
   float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
-  vec3 lit = soundingColor * (0.75 + glow * (0.55 + 1.1 * core)) + 0.25 * shaded;
+  vec3 lit = soundingColor * (0.16 + glow * (0.1 + 0.34 * core)) + 0.35 * shaded;
   vec3 surface = mix(shaded, lit, vSounding);
 
   float pixel = max(fwidth(vInside.y), 1e-5);
-  // Three valves in a column at the note's beginning, the first on top; it holds from either side.
-  float column = min(0.0185, 0.5 * vLength);
+  // Three valves in a column at the note's beginning, the first on top: it holds from either side. They stand on ink,
+  // to be told apart on a block of any colour.
+  float radius = min(0.0078, 0.34 * vLength);
+  vec2 fromColumn = vInside - vec2(min(0.018, 0.5 * vLength), 0.0);
+  vec2 overColumn = vec2(fromColumn.x, fromColumn.y - clamp(fromColumn.y, -0.0192, 0.0192));
+  float plate = 1.0 - smoothstep(-pixel, pixel, length(overColumn) - radius - 0.0026);
+  if (playable) surface = mix(surface, INK, 0.9 * plate * facing);
   for (int valve = 0; valve < 3; valve++) {
-    vec2 from = vInside - vec2(column, (1.0 - float(valve)) * 0.0192);
-    float distance_ = length(from);
-    float radius = min(0.0082, 0.42 * vLength);
-    bool down = playable && mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
-    float disc = 1.0 - smoothstep(radius - pixel, radius + pixel, distance_);
-    float hole = 1.0 - smoothstep(radius - 0.0024 - pixel, radius - 0.0024 + pixel, distance_);
-    float ring = disc - hole;
-    float open = vMask > -0.5 && vMask < 0.5 ? 1.0 : 0.0;
-    vec3 mark = down ? mix(PAPER, valveColor(valve) * 1.35, hole) : PAPER;
-    float share = down ? disc : ring * mix(0.42, 1.0, open);
-    // On a lit block the marks stand on ink.
-    float plate = (1.0 - smoothstep(radius + 0.001, radius + 0.0022 + 2.0 * pixel, distance_)) * vSounding * 0.75;
-    if (playable) {
-      surface = mix(surface, INK, plate * facing);
-      surface = mix(surface, mark, share * facing);
-    }
+    float away = length(fromColumn - vec2(0.0, (1.0 - float(valve)) * 0.0192));
+    bool down = mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
+    float disc = 1.0 - smoothstep(-pixel, pixel, away - radius);
+    float ring = disc * smoothstep(-pixel, pixel, away - radius + 0.0018);
+    vec3 mark = down ? valveColor(valve) * 1.5 : PAPER;
+    // The rings of an open note are whole paper; beside a pressed valve they step back.
+    float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.5);
+    if (playable) surface = mix(surface, mark, share * facing);
   }
   // What cannot be played is an empty frame.
   if (!playable) {
@@ -189,7 +186,7 @@ varying vec2 vFrom;
 varying float vSight;
 void main() {
   float falloff = max(0.0, 1.0 - length(vFrom));
-  float light = falloff * falloff * falloff * glow * 0.55 * opacity * max(vSight, 0.35);
+  float light = falloff * falloff * falloff * glow * 0.13 * opacity * max(vSight, 0.35);
   gl_FragColor = vec4(soundingColor * light, 1.0);
   #include <tonemapping_fragment>
   #include <colorspace_fragment>

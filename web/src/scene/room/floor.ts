@@ -2,6 +2,7 @@
 
 import { Mesh, type MeshStandardMaterial, PlaneGeometry, type Vector3 } from "three";
 
+import { FOOT_SHADE, type Feet } from "./feet";
 import type { FloorMirror } from "./mirror";
 import { ROOM } from "./plan";
 import { createSurface } from "./surface";
@@ -48,7 +49,7 @@ export interface Floor {
 }
 
 /** @param mirror what the floor reflects, or null for the room's environment alone. */
-export function createFloor(toKey: Vector3, mirror: FloorMirror | null): Floor {
+export function createFloor(toKey: Vector3, mirror: FloorMirror | null, feet: Feet): Floor {
   const depth = ROOM.front - ROOM.back;
   const geometry = new PlaneGeometry(2 * ROOM.halfWidth, depth).rotateX(-Math.PI / 2);
   geometry.translate(0, 0, (ROOM.front + ROOM.back) / 2);
@@ -56,17 +57,17 @@ export function createFloor(toKey: Vector3, mirror: FloorMirror | null): Floor {
     { color: 0x6b4630, roughness: mirror === null ? 0.42 : 0.62, metalness: 0, envMapIntensity: 0.8 },
     toKey,
     {
-      declarations: PLANKS + (mirror === null ? "" : REFLECTION),
+      declarations: PLANKS + FOOT_SHADE + (mirror === null ? "" : REFLECTION),
       color: `layPlanks(vRoomPlace.xz);
-        diffuseColor.rgb *= (0.82 + 0.3 * plankTone) * (1.0 - 0.55 * plankSeam);`,
+        diffuseColor.rgb *= (0.82 + 0.3 * plankTone) * (1.0 - 0.55 * plankSeam) * footShade(vRoomPlace);`,
       roughness: "roughnessFactor = clamp(roughnessFactor + 0.14 * (plankTone - 0.5) + 0.2 * plankSeam, 0.05, 1.0);",
       ...(mirror === null
-        ? {}
+        ? { uniforms: feet.uniforms }
         : {
             light: `float grazing = 1.0 - saturate(dot(normal, geometryViewDir));
               float glint = (0.035 + 0.55 * pow(grazing, 4.0)) * (1.0 - plankSeam);
               outgoingLight += glint * reflectedRoom(vRoomPlace, 0.55 + 0.5 * plankTone);`,
-            uniforms: { mirrorImage: { value: mirror.texture }, mirrorMatrix: { value: mirror.matrix } },
+            uniforms: { ...feet.uniforms, mirrorImage: { value: mirror.texture }, mirrorMatrix: { value: mirror.matrix } },
           }),
     },
   );

@@ -7,28 +7,28 @@ import {
   InstancedMesh,
   type Material,
   Matrix4,
-  MeshStandardMaterial,
+  type Vector3,
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
+import { createSurface } from "./surface";
 
 /** x, z and heading about +y of each, metres and radians. */
 type Place = readonly [x: number, z: number, heading: number];
 
 const STANDS: readonly Place[] = [
-  [1.32, -1.05, -0.5],
-  [-1.55, -1.75, 0.45],
-  [0.35, -2.35, 0.05],
-  [2.6, -2.2, -0.6],
-  [-2.9, -2.5, 0.5],
+  [2.5, -2.25, -0.45],
+  [-2.2, -2.3, 0.4],
+  [3.5, -1.2, -0.8],
+  [-3.4, -1.4, 0.8],
 ];
 
 const CHAIRS: readonly Place[] = [
-  [1.75, -1.6, -0.5],
-  [-1.95, -2.3, 0.45],
-  [0.3, -2.95, 0.05],
-  [3.0, -2.75, -0.6],
-  [-3.25, -3.0, 0.5],
+  [2.78, -2.85, -0.45],
+  [-2.45, -2.9, 0.4],
+  [3.95, -1.65, -0.8],
+  [-3.85, -1.85, 0.8],
+  [0.9, -3.15, -0.1],
 ];
 
 function rod(from: [number, number, number], to: [number, number, number], radius: number): BufferGeometry {
@@ -45,12 +45,12 @@ function rod(from: [number, number, number], to: [number, number, number], radiu
 function standGeometry(): BufferGeometry {
   const desk = new BoxGeometry(0.5, 0.34, 0.006).translate(0, 0.17, 0);
   const lip = new BoxGeometry(0.5, 0.008, 0.055).translate(0, 0.004, -0.028);
-  const tilted = [desk, lip].map((part) => part.rotateX(0.42).translate(0, 0.98, 0));
+  const tilted = [desk, lip].map((part) => part.rotateX(0.8).translate(0, 0.9, -0.08));
   const feet = [0, 1, 2].map((i) => {
     const turn = (i * 2 * Math.PI) / 3 + Math.PI / 2;
     return rod([0, 0.24, 0], [0.27 * Math.cos(turn), 0.012, 0.27 * Math.sin(turn)], 0.009);
   });
-  return mergeGeometries([...tilted, rod([0, 0.2, 0], [0, 1.06, 0.03], 0.012), ...feet]);
+  return mergeGeometries([...tilted, rod([0, 0.2, 0], [0, 0.98, 0], 0.012), ...feet]);
 }
 
 /** A stacking chair that faces +z. */
@@ -75,8 +75,9 @@ function place(geometry: BufferGeometry, material: Material, places: readonly Pl
   return mesh;
 }
 
-export function createFurniture(): InstancedMesh[] {
-  const enamel = new MeshStandardMaterial({ color: 0x15161a, roughness: 0.45, metalness: 0.3 });
-  const wood = new MeshStandardMaterial({ color: 0x4a2c1a, roughness: 0.5 });
+/** @param toKey unit vector to the key, kept up to date by the lights. */
+export function createFurniture(toKey: Vector3): InstancedMesh[] {
+  const enamel = createSurface({ color: 0x2e2f33, roughness: 0.6, envMapIntensity: 0.5 }, toKey, {});
+  const wood = createSurface({ color: 0x4a2c1a, roughness: 0.7, envMapIntensity: 0.5 }, toKey, {});
   return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, CHAIRS)];
 }

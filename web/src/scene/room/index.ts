@@ -4,16 +4,22 @@ import { Color, Group, type Vector3 } from "three";
 
 import type { TierSettings } from "../tiers";
 import { createFloor, type Floor } from "./floor";
+import { Feet } from "./feet";
 import { createFurniture } from "./furniture";
 import { FloorMirror } from "./mirror";
+import { createShafts } from "./shafts";
 import { createWalls } from "./walls";
 
+export { FOOT_JOINTS } from "./feet";
 export { RoomReflections } from "./reflections";
 
 export interface Room {
   readonly object: Group;
   readonly floor: Floor["mesh"];
   readonly mirror: FloorMirror | null;
+  readonly feet: Feet;
+  /** How thick the air in the sun is, or null where it is not drawn. */
+  readonly haze: { value: number } | null;
   /** The key's colour times its intensity: what the windows shine with. */
   readonly keyColor: Color;
 }
@@ -21,9 +27,12 @@ export interface Room {
 /** @param toKey unit vector to the key, kept up to date by the lights. */
 export function createRoom(toKey: Vector3, tier: TierSettings): Room {
   const keyColor = new Color(3, 2.4, 1.7);
+  const feet = new Feet();
   const mirror = tier.mirrorScale > 0 ? new FloorMirror(tier.mirrorScale) : null;
-  const { mesh: floor } = createFloor(toKey, mirror);
+  const { mesh: floor } = createFloor(toKey, mirror, feet);
   const object = new Group();
-  object.add(floor, createWalls(toKey, keyColor), ...createFurniture());
-  return { object, floor, mirror, keyColor };
+  object.add(floor, createWalls(toKey, keyColor), ...createFurniture(toKey));
+  const shafts = tier.shafts ? createShafts(toKey, keyColor) : null;
+  if (shafts !== null) object.add(shafts.mesh);
+  return { object, floor, mirror, feet, haze: shafts?.density ?? null, keyColor };
 }

@@ -43,7 +43,7 @@ function panel(width: number, height: number, color: Color): Mesh {
 function box(): Mesh {
   const depth = ROOM.front - ROOM.back;
   const geometry = new BoxGeometry(2 * ROOM.halfWidth, ROOM.height, depth);
-  const sides = [RADIANCE.warmWall, RADIANCE.coolWall, RADIANCE.ceiling, RADIANCE.floor, RADIANCE.frontWall, RADIANCE.backWall];
+  const sides = [RADIANCE.coolWall, RADIANCE.warmWall, RADIANCE.ceiling, RADIANCE.floor, RADIANCE.frontWall, RADIANCE.backWall];
   const materials = sides.map((color) => new MeshBasicMaterial({ color, toneMapped: false, side: BackSide }));
   const mesh = new Mesh(geometry, materials);
   mesh.position.set(0, ROOM.height / 2, (ROOM.front + ROOM.back) / 2);
@@ -72,21 +72,21 @@ function windows(side: -1 | 1, color: Color): Group {
 
 function sunPatches(): Group {
   const group = new Group();
-  for (const x of [-0.9, 0.7, 2.3]) {
+  for (const x of [-2.3, -0.7, 0.9]) {
     const onFloor = panel(1.0, 2.2, RADIANCE.sunOnFloor);
-    onFloor.rotation.set(-Math.PI / 2, 0, 0.5);
-    onFloor.position.set(x, 0.01, -1.4 + x * 0.5);
+    onFloor.rotation.set(-Math.PI / 2, 0, -0.5);
+    onFloor.position.set(x, 0.01, -1.4 - x * 0.5);
     const onWall = panel(0.9, 1.5, RADIANCE.sunOnWall);
-    onWall.position.set(x + 1, 1.5, ROOM.back + 0.02);
+    onWall.position.set(x - 1, 1.5, ROOM.back + 0.02);
     group.add(onFloor, onWall);
   }
   return group;
 }
 
-/** The room as light, the sun at −x. */
+/** The room as light, the sun at the player's left as in the room's rest. */
 function createRadianceScene(): Scene {
   const scene = new Scene();
-  scene.add(box(), windows(-1, RADIANCE.sunWindow), windows(1, RADIANCE.skyWindow), sunPatches());
+  scene.add(box(), windows(1, RADIANCE.sunWindow), windows(-1, RADIANCE.skyWindow), sunPatches());
   return scene;
 }
 

@@ -14,6 +14,14 @@ const LIGHTS = ShaderChunk.lights_fragment_begin.replace(
    directLight.color *= roomShare( UNROLLED_LOOP_INDEX );`,
 );
 
+const PLACE = /* glsl */ `
+#ifdef USE_INSTANCING
+vRoomPlace = (modelMatrix * instanceMatrix * vec4(transformed, 1.0)).xyz;
+#else
+vRoomPlace = (modelMatrix * vec4(transformed, 1.0)).xyz;
+#endif
+`;
+
 const SHARE = /* glsl */ `
 varying vec3 vRoomPlace;
 uniform vec3 toKey;
@@ -51,7 +59,7 @@ export function createSurface(
     Object.assign(program.uniforms, { toKey: { value: toKey } }, shader.uniforms);
     program.vertexShader = program.vertexShader
       .replace("#include <common>", "#include <common>\nvarying vec3 vRoomPlace;")
-      .replace("#include <project_vertex>", "#include <project_vertex>\nvRoomPlace = (modelMatrix * vec4(transformed, 1.0)).xyz;");
+      .replace("#include <project_vertex>", `#include <project_vertex>\n${PLACE}`);
     program.fragmentShader = program.fragmentShader
       .replace("#include <common>", `#include <common>\n${SHARE}\n${shader.declarations ?? ""}`)
       .replace("#include <color_fragment>", `#include <color_fragment>\n${shader.color ?? ""}`)

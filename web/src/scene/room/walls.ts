@@ -64,8 +64,8 @@ function createWindows(toKey: Vector3, keyColor: Color): Mesh {
         float glass = windowPattern(vPlace.zy, 0.004 + 0.5 * length(fwidth(vPlace.zy)));
         float height = (vPlace.y - ${WINDOWS.sill.toFixed(2)}) / ${height.toFixed(2)};
         float sunny = smoothstep(-0.1, 0.4, toKey.x * sign(vPlace.x));
-        vec3 dusk = vec3(0.20, 0.27, 0.42) * mix(0.7, 1.0, height);
-        vec3 sun = keyColor * mix(0.9, 1.5, height) + vec3(0.1, 0.12, 0.16);
+        vec3 dusk = mix(vec3(0.52, 0.42, 0.36), vec3(0.16, 0.24, 0.42), smoothstep(0.0, 0.75, height));
+        vec3 sun = keyColor * mix(0.34, 0.62, height) + vec3(0.1, 0.12, 0.16);
         vec3 light = mix(dusk, sun, sunny);
         gl_FragColor = vec4(mix(vec3(0.05, 0.03, 0.02), light, glass), 1.0);
         #include <tonemapping_fragment>
@@ -89,7 +89,7 @@ export function createWalls(toKey: Vector3, keyColor: Color): Group {
     wall(depth, ROOM.height, -Math.PI / 2, ROOM.halfWidth, middle),
     new PlaneGeometry(2 * ROOM.halfWidth, depth).rotateX(Math.PI / 2).translate(0, ROOM.height, middle),
   ]);
-  const material = createSurface({ color: 0x9a8264, roughness: 0.92, metalness: 0, envMapIntensity: 0.4 }, toKey, {
+  const material = createSurface({ color: 0xb9ad9a, roughness: 0.92, metalness: 0, envMapIntensity: 0.3 }, toKey, {
     color: WALL_COLOR,
     roughness: "roughnessFactor = mix(0.5, 0.95, aboveRail);",
   });

@@ -26,13 +26,24 @@ float windowPattern(vec2 zy, float soft) {
 }
 `;
 
+/** `float playerShift(vec3 toKey)`: by how much the sun's row of windows stands off along z, so that the player is in its light. */
+export const PLAYER_SHIFT = /* glsl */ `
+float playerShift(vec3 toKey) {
+  float crossing = 0.1 + toKey.z * ${f(ROOM.halfWidth)} / max(abs(toKey.x), 0.05);
+  float cell = (crossing - ${f(WINDOWS.first)}) / ${f(WINDOWS.pitch)};
+  return (cell - floor(cell + 0.5)) * ${f(WINDOWS.pitch)};
+}
+`;
+
 /** `float windowLight(vec3 place, vec3 toKey)`: the share of the key that comes to a place of the room. */
 export const WINDOW_LIGHT = /* glsl */ `
 ${WINDOW_PATTERN}
+${PLAYER_SHIFT}
 float windowLight(vec3 place, vec3 toKey) {
   float side = toKey.x < 0.0 ? -1.0 : 1.0;
   float along = (side * ${f(ROOM.halfWidth)} - place.x) / (side * max(abs(toKey.x), 0.05) );
   vec3 crossing = place + toKey * along;
+  crossing.z -= playerShift(toKey);
   float pattern = windowPattern(crossing.zy, 0.012 + 0.017 * along);
   // A key that comes from the front is a lamp in the room, not the sun.
   return mix(1.0, pattern, smoothstep(0.12, 0.35, abs(toKey.x)));
