@@ -1,1 +1,50 @@
-"""The layer `keyframes`; docs/architecture.md says what it holds."""
+"""Parameters over time: keyframes, interpolations, tracks, shows. Knows neither music nor skeletons."""
+
+from reina.keyframes.eased_keyframe import CubicBezierKeyframe, EasedKeyframe
+from reina.keyframes.errors import KeyNotFoundError, ShowError
+from reina.keyframes.interpolations import InterpolationError, interpolations
+from reina.keyframes.keyframe import Keyframe
+from reina.keyframes.options import option
+from reina.keyframes.outside import Outside
+from reina.keyframes.parameter import Parameter
+from reina.keyframes.parameter_registry import ParameterRegistry
+from reina.keyframes.performance_event_emitter import PerformanceEventEmitter
+from reina.keyframes.show import Marker, Show
+from reina.keyframes.show_plan import ShowPlan
+from reina.keyframes.show_writer import keyframe_document, track_document
+from reina.keyframes.spaces import OKLAB, ORIENTATION
+from reina.keyframes.spline_keyframe import AutomaticKeyframe, ClampedKeyframe, SplineKeyframe
+from reina.keyframes.stage_parameters import STAGE_PARAMETERS, stage_registry
+from reina.keyframes.time_map import TimeMap, TimeUnit
+from reina.keyframes.track import Track, UnknownTrack
+
+__all__ = [
+    "OKLAB",
+    "ORIENTATION",
+    "STAGE_PARAMETERS",
+    "AutomaticKeyframe",
+    "ClampedKeyframe",
+    "CubicBezierKeyframe",
+    "EasedKeyframe",
+    "InterpolationError",
+    "KeyNotFoundError",
+    "Keyframe",
+    "Marker",
+    "Outside",
+    "Parameter",
+    "ParameterRegistry",
+    "PerformanceEventEmitter",
+    "Show",
+    "ShowError",
+    "ShowPlan",
+    "SplineKeyframe",
+    "TimeMap",
+    "TimeUnit",
+    "Track",
+    "UnknownTrack",
+    "interpolations",
+    "keyframe_document",
+    "option",
+    "stage_registry",
+    "track_document",
+]

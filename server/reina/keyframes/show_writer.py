@@ -1,0 +1,53 @@
+"""Writes shows as JSON: what `show_reader` reads, without what is so anyway."""
+
+from collections.abc import Mapping
+from typing import Any, cast
+
+from reina.keyframes.interpolations import interpolation_name
+from reina.keyframes.keyframe import Keyframe
+from reina.keyframes.options import options_of
+from reina.keyframes.time_map import TimeUnit
+from reina.keyframes.track import Track
+
+
+def keyframe_document(keyframe: Keyframe[Any]) -> dict[str, Any]:
+    """A keyframe as JSON."""
+    document: dict[str, Any] = {
+        "key": keyframe.key,
+        "time": keyframe.time,
+        "value": json_value(keyframe.value),
+        "interpolation": interpolation_name(keyframe),
+    }
+    for tangent in ("in_tangent", "out_tangent"):
+        if getattr(keyframe, tangent) is not None:
+            document[tangent] = json_value(getattr(keyframe, tangent))
+    for declared in options_of(type(keyframe)):
+        if getattr(keyframe, declared.name) != declared.default:
+            document[declared.name] = json_value(getattr(keyframe, declared.name))
+    return document
+
+
+def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:
+    """A track as JSON."""
+    document: dict[str, Any] = {"parameter": track.parameter}
+    if track.time != default_time:
+        document["time"] = track.time
+    if track.before != "hold":
+        document["before"] = track.before
+    if track.after != "hold":
+        document["after"] = track.after
+    if track.color_space != "oklab":
+        document["color_space"] = track.color_space
+    if track.muted:
+        document["muted"] = True
+    document["keyframes"] = [keyframe_document(keyframe) for keyframe in track.keyframes]
+    return document
+
+
+def json_value(value: Any) -> Any:
+    """A value as JSON has it: tuples become lists."""
+    if isinstance(value, tuple):
+        return [json_value(item) for item in cast("tuple[Any, ...]", value)]
+    if isinstance(value, Mapping):
+        return {name: json_value(item) for name, item in cast("Mapping[str, Any]", value).items()}
+    return value

@@ -1,0 +1,183 @@
+"""The parameters of stage, camera, lights and note blocks.
+
+The resting state is a band room after school: a low sun through tall windows at the player's right, a cool
+room around, a thin light from behind. Axes are metres, +Y up, the player at the origin faces +Z, her right
+hand is at -X. A light's intensity is its irradiance at the player where π brings a white surface that faces
+it to 1 before exposure.
+"""
+
+from reina.keyframes.parameter import Parameter
+from reina.keyframes.parameter_registry import ParameterRegistry
+
+ARRANGEMENTS = ("toward_bell", "lane_below")
+
+STAGE_PARAMETERS: tuple[Parameter, ...] = (
+    Parameter(
+        "camera/position",
+        "vector",
+        (-1.62, 1.52, 2.4),
+        unit="m",
+        minimum=-50.0,
+        maximum=50.0,
+        documentation="Where the camera stands.",
+    ),
+    Parameter(
+        "camera/target",
+        "vector",
+        (0.06, 1.24, 0.28),
+        unit="m",
+        minimum=-50.0,
+        maximum=50.0,
+        documentation="The point it looks at, in the middle of the picture.",
+    ),
+    Parameter(
+        "camera/fov",
+        "number",
+        0.5,
+        unit="rad",
+        minimum=0.05,
+        maximum=2.0,
+        documentation="Vertical angle of view at 16:9: 0.56 is a 35 mm lens, 0.40 a 50, 0.24 an 85.",
+    ),
+    Parameter(
+        "camera/roll",
+        "number",
+        0.0,
+        unit="rad",
+        minimum=-3.1416,
+        maximum=3.1416,
+        documentation="Turn about the line of sight; positive tips the picture's top to the left.",
+    ),
+    Parameter(
+        "lights/key/intensity",
+        "number",
+        3.2,
+        minimum=0.0,
+        maximum=20.0,
+        documentation="Strength of the sun from the window side, which draws the shadows.",
+    ),
+    Parameter(
+        "lights/key/color", "color", "#FFD3A1", documentation="Colour of the sun; at rest about 4,300 K."
+    ),
+    Parameter(
+        "lights/key/position",
+        "vector",
+        (-3.2, 2.7, 1.6),
+        unit="m",
+        minimum=-50.0,
+        maximum=50.0,
+        documentation="Where the sun comes from; it shines on the player.",
+    ),
+    Parameter(
+        "lights/fill/intensity",
+        "number",
+        0.55,
+        minimum=0.0,
+        maximum=20.0,
+        documentation="Strength of the room's cool light on the side away from the window.",
+    ),
+    Parameter("lights/fill/color", "color", "#9FB6DC", documentation="Colour of the room's light."),
+    Parameter(
+        "lights/rim/intensity",
+        "number",
+        2.2,
+        minimum=0.0,
+        maximum=20.0,
+        documentation="Strength of the light from behind that draws hair, shoulder and bell.",
+    ),
+    Parameter("lights/rim/color", "color", "#FFE6C4", documentation="Colour of the light from behind."),
+    Parameter(
+        "lights/rim/position",
+        "vector",
+        (1.6, 2.6, -2.2),
+        unit="m",
+        minimum=-50.0,
+        maximum=50.0,
+        documentation="Where the light from behind stands.",
+    ),
+    Parameter(
+        "lights/ambient/intensity",
+        "number",
+        0.15,
+        minimum=0.0,
+        maximum=20.0,
+        documentation="Strength of the light that comes from everywhere.",
+    ),
+    Parameter(
+        "lights/ambient/color", "color", "#C9B9A6", documentation="Colour of the light from everywhere."
+    ),
+    Parameter(
+        "lights/environment/intensity",
+        "number",
+        0.7,
+        minimum=0.0,
+        maximum=10.0,
+        documentation="Strength of the room that metal reflects: bright window, dark floor, warm wall.",
+    ),
+    Parameter(
+        "stage/exposure",
+        "number",
+        1.0,
+        minimum=0.0,
+        maximum=10.0,
+        documentation="Brightness of the whole picture, before tone mapping.",
+    ),
+    Parameter("stage/background", "color", "#1B1714", documentation="Colour of the air behind everything."),
+    Parameter("stage/floor_color", "color", "#3A2A1E", documentation="Colour of the floor."),
+    Parameter(
+        "stage/fog/density",
+        "number",
+        0.03,
+        unit="1/m",
+        minimum=0.0,
+        maximum=1.0,
+        documentation="How fast the background's colour swallows what is far away.",
+    ),
+    Parameter(
+        "blocks/visible",
+        "boolean",
+        True,
+        blend=False,
+        documentation="Whether the note blocks and their staff are drawn.",
+    ),
+    Parameter("blocks/color", "color", "#D9A441", documentation="Colour of the notes to come."),
+    Parameter("blocks/sounding_color", "color", "#FFE3A6", documentation="Colour of the note that sounds."),
+    Parameter(
+        "blocks/opacity",
+        "number",
+        0.92,
+        minimum=0.0,
+        maximum=1.0,
+        documentation="How solid the note blocks are.",
+    ),
+    Parameter(
+        "blocks/glow",
+        "number",
+        1.2,
+        minimum=0.0,
+        maximum=4.0,
+        documentation="How strongly the sounding note is lit from within.",
+    ),
+    Parameter(
+        "blocks/speed",
+        "number",
+        0.9,
+        unit="m/s",
+        minimum=0.05,
+        maximum=10.0,
+        documentation="How fast the notes come, and so how long they are.",
+    ),
+    Parameter(
+        "blocks/arrangement",
+        "choice",
+        "toward_bell",
+        choices=ARRANGEMENTS,
+        blend=False,
+        documentation="Whether the notes come toward the bell or lie as a lane below.",
+    ),
+)
+
+
+def stage_registry() -> ParameterRegistry:
+    """The registry of the stage's parameters."""
+    return ParameterRegistry(STAGE_PARAMETERS)

@@ -1,0 +1,101 @@
+"""A track: the keyframes of one parameter, and what it does where there are none."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from reina.keyframes.errors import KeyNotFoundError, ShowError
+from reina.keyframes.keyframe import Keyframe
+from reina.keyframes.outside import Outside
+from reina.keyframes.spaces import ColorSpace
+from reina.keyframes.time_map import TimeUnit
+
+
+@dataclass(frozen=True)
+class Track:
+    """The keyframes of one parameter.
+
+    Attributes:
+        parameter: The parameter's path.
+        keyframes: In the order of their times, no two at one time, no two with one key. Their values are as
+            JSON writes
+            them (`reina.keyframes.value_types.Value`).
+        time: The unit of the keyframes' times.
+        before: What happens before the first keyframe.
+        after: What happens after the last.
+        color_space: What colours are mixed in.
+        muted: Whether the show leaves the track out.
+    """
+
+    parameter: str
+    keyframes: tuple[Keyframe[Any], ...]
+    time: TimeUnit = "seconds"
+    before: Outside = "hold"
+    after: Outside = "hold"
+    color_space: ColorSpace = "oklab"
+    muted: bool = False
+
+    def __post_init__(self) -> None:
+        ordered = tuple(sorted(self.keyframes, key=lambda keyframe: keyframe.time))
+        seen: set[str] = set()
+        for index, keyframe in enumerate(ordered):
+            if index and ordered[index - 1].time == keyframe.time:
+                raise ShowError(
+                    f"{ordered[index - 1].key} stands at {keyframe.time:g} {self.time} already;"
+                    " keys have times of their own, and a step makes a jump",
+                    track=self.parameter,
+                    key=keyframe.key,
+                    field="time",
+                )
+            if keyframe.key in seen:
+                raise ShowError(
+                    f"the key {keyframe.key} is given twice; every key of a track has its own",
+                    track=self.parameter,
+                    key=keyframe.key,
+                    field="key",
+                )
+            seen.add(keyframe.key)
+        object.__setattr__(self, "keyframes", ordered)
+
+    def keyframe(self, key: str) -> Keyframe[Any]:
+        """The keyframe of a key.
+
+        Raises:
+            KeyNotFoundError: The track has none.
+        """
+        for keyframe in self.keyframes:
+            if keyframe.key == key:
+                return keyframe
+        raise KeyNotFoundError("there is no such keyframe", track=self.parameter, key=key)
+
+    def next_key(self) -> str:
+        """A key that no keyframe has yet: ``k`` and the number after the greatest."""
+        numbers = [int(k.key[1:]) for k in self.keyframes if k.key[:1] == "k" and k.key[1:].isdecimal()]
+        return f"k{max(numbers, default=0) + 1}"
+
+    def with_keyframe(self, keyframe: Keyframe[Any]) -> "Track":
+        """The track with one more keyframe, or with another in the place of the one with its key."""
+        others = tuple(other for other in self.keyframes if other.key != keyframe.key)
+        return replace(self, keyframes=(*others, keyframe))
+
+    def without_keyframe(self, key: str) -> "Track":
+        """The track with one keyframe less.
+
+        Raises:
+            KeyNotFoundError: The track has no keyframe of that key.
+        """
+        gone = self.keyframe(key)
+        return replace(self, keyframes=tuple(other for other in self.keyframes if other is not gone))
+
+
+@dataclass(frozen=True)
+class UnknownTrack:
+    """A track of a parameter that is not in the registry: kept as it came, without effect.
+
+    Attributes:
+        parameter: The path that nobody knows.
+        document: The track as JSON.
+    """
+
+    parameter: str
+    document: Mapping[str, Any]
