@@ -1,0 +1,223 @@
+"""A valved brass instrument: whatever its table says, it chooses a part, makes it playable and fingers it."""
+
+from functools import cached_property
+
+import numpy as np
+
+from reina.instruments.brass.chart import ChartEntry
+from reina.instruments.brass.model import BrassModel
+from reina.instruments.brass.phrase import Choice, Costs, choose
+from reina.instruments.brass.reasons import why
+from reina.instruments.line import playable_line
+from reina.instruments.octaves import fitting_octaves
+from reina.instruments.pitch_names import pitch_name
+from reina.instruments.played import Fingering, Line, PlayedPart
+from reina.instruments.ranking import PartRanking, rank_parts
+from reina.keyframes.parameter import Parameter
+from reina.music.arrays import read_only
+from reina.music.errors import ScoreError
+from reina.music.score import Score
+from reina.music.warnings import WarningLog
+
+SLIDE_FROM_S = 0.15
+"""A note has to last this long for the slide to go out for it."""
+
+SLIDE_FROM_CENTS = 10.0
+"""What is less sharp is left to the lips."""
+
+
+class ValvedBrass:
+    """An `Instrument` made from a `BrassModel`."""
+
+    def __init__(self, model: BrassModel, costs: Costs | None = None) -> None:
+        self.model = model
+        self._costs = costs or Costs()
+        self._parameters = _parameters(model)
+
+    def __repr__(self) -> str:
+        return f"ValvedBrass({self.model.name!r})"
+
+    @property
+    def name(self) -> str:
+        """Its name, the first word of its parameters' paths."""
+        return self.model.name
+
+    @property
+    def title(self) -> str:
+        """Its name for people."""
+        return self.model.title
+
+    @property
+    def rig(self) -> str:
+        """Name of its folder under rigs/; empty if it has none yet."""
+        return self.model.rig
+
+    @property
+    def valve_count(self) -> int:
+        """How many valves it has."""
+        return self.model.valve_count
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Its valves, 0 up and 1 down, and the third valve's slide, 0 in and 1 out."""
+        return self._parameters
+
+    def written_pitch(self, sounding_pitch: int) -> int:
+        """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
+        return sounding_pitch + self.model.written_above_sounding
+
+    def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
+        """Rank the parts of a score by how well they suit it, the best first."""
+        return rank_parts(score, self.model.suitability)
+
+    def play(
+        self,
+        score: Score,
+        part: int,
+        transposition: int = 0,
+        *,
+        written: bool = False,
+        octave_fit: bool = False,
+    ) -> PlayedPart:
+        """Make a part playable and finger it.
+
+        Args:
+            score: The score.
+            part: Index of the part.
+            transposition: Semitones to add to its pitches.
+            written: Whether its pitches are the written ones of this instrument and not those that sound.
+            octave_fit: Whether to move it by the octaves that bring most of its notes into range.
+
+        Raises:
+            ScoreError: If the score has no such part.
+        """
+        if not 0 <= part < len(score.parts):
+            raise ScoreError(f"there is no part {part}; there are 0 to {len(score.parts) - 1}", where="part")
+        log = WarningLog()
+        place = f"part {part}"
+        if written:
+            transposition -= self.model.written_above_sounding
+            log.add(
+                "written_pitch",
+                place,
+                f"read as written for {self.title}: it sounds {_semitones(transposition)}",
+            )
+        pitches = score.notes.sounding_pitch[score.note_indices(part)].astype(np.int64) + transposition
+        octaves = fitting_octaves(pitches, self.model.lowest, self.model.highest)
+        if octaves and octave_fit:
+            transposition += 12 * octaves
+            log.add("octave_fit", place, f"moved by {_octaves(octaves)} to come into range")
+        elif octaves:
+            log.add(
+                "octave_fit_possible",
+                place,
+                f"moved by {_octaves(octaves)}, more of its notes would be in range",
+            )
+        line = playable_line(score, part, transposition, log)
+        fingering = self.finger(line)
+        for note in np.flatnonzero(~fingering.playable).tolist():
+            where = f"{place}, note {line.note_index[note]} at {line.onset_s[note]:.3f} s"
+            log.add("not_playable", where, fingering.reasons[note])
+        return PlayedPart(part, transposition, line, fingering, log.warnings())
+
+    def finger(self, line: Line) -> Fingering:
+        """Finger a line, phrase by phrase; what is out of range ends a phrase."""
+        count = len(line)
+        pitches: list[int] = line.sounding_pitch.tolist()
+        onset_s: list[float] = line.onset_s.tolist()
+        end_s: list[float] = line.end_s.tolist()
+        phrases: list[int] = line.phrase.tolist()
+        valves = np.zeros((count, self.valve_count), dtype=np.bool_)
+        playable = np.array([pitch in self.model.chart for pitch in pitches], dtype=np.bool_)
+        primary = np.zeros(count, dtype=np.bool_)
+        cents, slide = np.zeros(count), np.zeros(count)
+        reasons = [self._out_of_range(pitch) for pitch in pitches]
+        begin = 0
+        while begin < count:
+            if not playable[begin]:
+                begin += 1
+                continue
+            end = begin + 1
+            while end < count and playable[end] and phrases[end] == phrases[begin]:
+                end += 1
+            span = slice(begin, end)
+            choices = [
+                self._choices(pitch, until - onset >= SLIDE_FROM_S)
+                for pitch, onset, until in zip(pitches[span], onset_s[span], end_s[span], strict=True)
+            ]
+            taken = [
+                of_note[index]
+                for of_note, index in zip(
+                    choices, choose(choices, onset_s[span], end_s[span], self._costs), strict=True
+                )
+            ]
+            primaries = [of_note[0] for of_note in choices]
+            written = [self.written_pitch(pitch) for pitch in pitches[span]]
+            for index, choice in enumerate(taken):
+                note = begin + index
+                valves[note, [valve - 1 for valve in choice.valves]] = True
+                primary[note] = choice.rank == 0
+                cents[note] = choice.cents
+                slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
+                reasons[note] = why(index, taken, primaries, written, onset_s[span])
+            begin = end
+        return Fingering(
+            valves=read_only(valves),
+            playable=read_only(playable),
+            reasons=tuple(reasons),
+            primary=read_only(primary),
+            cents=read_only(cents),
+            slide=read_only(slide),
+        )
+
+    @cached_property
+    def _all_choices(self) -> dict[tuple[int, bool], tuple[Choice, ...]]:
+        return {
+            (pitch, long): self._make_choices(pitch, entry, long)
+            for pitch, entry in self.model.chart.items()
+            for long in (False, True)
+        }
+
+    def _choices(self, pitch: int, long: bool) -> tuple[Choice, ...]:
+        return self._all_choices[pitch, long]
+
+    def _make_choices(self, pitch: int, entry: ChartEntry, long: bool) -> tuple[Choice, ...]:
+        tube = self.model.tube
+        choices: list[Choice] = []
+        for rank, valves in enumerate((entry.primary, *entry.alternates)):
+            choice = Choice(valves, rank, tube.harmonic(pitch, valves), tube.cents(pitch, valves))
+            slide = self._slide(pitch, choice, long)
+            choices.append(Choice(valves, rank, choice.harmonic, tube.cents(pitch, valves, slide)))
+        return tuple(choices)
+
+    def _slide(self, pitch: int, choice: Choice, long: bool) -> float:
+        sharp = self.model.tube.cents(pitch, choice.valves)
+        if not long or sharp < SLIDE_FROM_CENTS:
+            return 0.0
+        return self.model.tube.slide_for(pitch, choice.valves)
+
+    def _out_of_range(self, pitch: int) -> str:
+        below = pitch < self.model.lowest
+        limit = self.model.lowest if below else self.model.highest
+        side, which = ("below", "lowest") if below else ("above", "highest")
+        return f"{pitch_name(pitch)} lies {side} the {which} note of the {self.title}, {pitch_name(limit)}"
+
+
+def _semitones(number: int) -> str:
+    return f"{abs(number)} semitone{'' if abs(number) == 1 else 's'} {'higher' if number > 0 else 'lower'}"
+
+
+def _octaves(number: int) -> str:
+    return f"{abs(number)} octave{'' if abs(number) == 1 else 's'} {'up' if number > 0 else 'down'}"
+
+
+def _parameters(model: BrassModel) -> tuple[Parameter, ...]:
+    documentation = {
+        f"{model.name}/valve/{valve}": f"Valve {valve}: 0 up, 1 down."
+        for valve in range(1, model.valve_count + 1)
+    }
+    documentation[f"{model.name}/slide/3"] = "The third valve's slide: 0 in, 1 out as far as it goes."
+    return tuple(
+        Parameter(path=path, type="number", default=0.0, minimum=0.0, maximum=1.0, documentation=text)
+        for path, text in documentation.items()
+    )

@@ -1,0 +1,118 @@
+"""A score and its fingering as plain data, for JSON and for tables."""
+
+from typing import Any
+
+import numpy as np
+
+from reina.instruments.instrument import Instrument
+from reina.instruments.played import PlayedPart
+from reina.instruments.ranking import PartRanking
+from reina.music.score import Score
+
+
+def describe_score(
+    score: Score,
+    instrument: Instrument,
+    played: PlayedPart,
+    *,
+    rankings: tuple[PartRanking, ...] | None = None,
+    part: int | None = None,
+) -> dict[str, Any]:
+    """Return a score and how one of its parts is played, as JSON has it.
+
+    Args:
+        score: The score.
+        instrument: What plays.
+        played: How it plays its part.
+        rankings: How well each part suits it, if known; else they are made.
+        part: The part whose notes are listed; all parts' by default.
+    """
+    ranking_of = {ranking.part: ranking for ranking in rankings or instrument.rank_parts(score)}
+    counts = np.bincount(score.notes.part, minlength=len(score.parts)).tolist()
+    bar_lines = score.metre_map.bar_lines(score.duration_beats)
+    return {
+        "title": score.title,
+        "duration_s": score.duration_s,
+        "sequence": score.sequence,
+        "sequences": score.sequences,
+        "instrument": instrument.name,
+        "part": played.part,
+        "transposition": played.transposition,
+        "parts": [
+            {
+                "index": known.index,
+                "name": known.name,
+                "program": known.program,
+                "is_drums": known.is_drums,
+                "notes": counts[known.index],
+                "score": ranking_of[known.index].score,
+                "reasons": list(ranking_of[known.index].reasons),
+            }
+            for known in score.parts
+        ],
+        "tempo": [
+            {"onset_beats": tempo.onset_beats, "onset_s": tempo.onset_s, "bpm": tempo.beats_per_minute}
+            for tempo in score.tempo_map.tempos
+        ],
+        "metre": [
+            {
+                "onset_beats": signature.onset_beats,
+                "onset_s": score.tempo_map.seconds(signature.onset_beats),
+                "numerator": signature.numerator,
+                "denominator": signature.denominator,
+            }
+            for signature in score.metre_map.signatures
+        ],
+        "pickup_beats": score.metre_map.pickup_beats,
+        "bar_lines_s": score.tempo_map.seconds(bar_lines).tolist(),
+        "notes": describe_notes(score, instrument, played, part),
+        "warnings": [
+            {"kind": warning.kind, "place": warning.place, "message": warning.message}
+            for warning in (*score.warnings, *played.warnings)
+        ],
+    }
+
+
+def describe_notes(
+    score: Score, instrument: Instrument, played: PlayedPart, part: int | None = None
+) -> list[dict[str, Any]]:
+    """Return the notes of a score, or of one part; those that are played with their fingering.
+
+    A note of the played part has the pitch it is played at. A note that is not played has no valves (None),
+    with the reason.
+    """
+    line, fingering = played.line, played.fingering
+    place_in_line = {note: place for place, note in enumerate(line.note_index.tolist())}
+    shortened = set(line.shortened.tolist())
+    described: list[dict[str, Any]] = []
+    for index in range(len(score.notes)) if part is None else score.note_indices(part).tolist():
+        note = score.notes[index]
+        place = place_in_line.get(index)
+        own = note.part == played.part
+        pitch = note.sounding_pitch + (played.transposition if own else 0)
+        valves: list[int] | None = None
+        reason = "another part than the player's"
+        if place is not None:
+            valves, reason = fingering.pressed(place), fingering.reasons[place]
+        elif own:
+            reason = "not in the playable line: another note of the part sounds at its time"
+        described.append(
+            {
+                "index": index,
+                "part": note.part,
+                "onset_s": note.onset_s,
+                "duration_s": note.duration_s,
+                "onset_beats": note.onset_beats,
+                "duration_beats": note.duration_beats,
+                "sounding_pitch": pitch,
+                "written_pitch": instrument.written_pitch(pitch),
+                "velocity": note.velocity,
+                "valves": valves,
+                "reason": reason,
+                "played_duration_s": None
+                if place is None
+                else float(line.end_s[place] - line.onset_s[place]),
+                "shortened": index in shortened,
+            }
+        )
+    return described
