@@ -1,1 +1,37 @@
-"""The layer `protocol`; docs/architecture.md says what it holds."""
+"""The wire: control messages, HTTP bodies, the binary frame, and the TypeScript generated from them."""
+
+from reina.protocol.frame import (
+    HEADER,
+    FrameError,
+    FrameFlag,
+    Frames,
+    build_manifest,
+    decode,
+    encode_block,
+    frame_dtype,
+    stamp,
+)
+from reina.protocol.manifest import (
+    PROTOCOL_VERSION,
+    SUBPROTOCOL,
+    Manifest,
+    ParameterManifest,
+    SkeletonManifest,
+)
+
+__all__ = [
+    "HEADER",
+    "PROTOCOL_VERSION",
+    "SUBPROTOCOL",
+    "FrameError",
+    "FrameFlag",
+    "Frames",
+    "Manifest",
+    "ParameterManifest",
+    "SkeletonManifest",
+    "build_manifest",
+    "decode",
+    "encode_block",
+    "frame_dtype",
+    "stamp",
+]

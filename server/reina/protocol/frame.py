@@ -1,14 +1,14 @@
 """The binary half of the stream: the one declaration of a frame's layout, and its encoding.
 
-A frame is a fixed header, then every skeleton's joint quaternions, the root positions and the parameter values,
-each section padded with zeros to eight bytes. `_dtype` is where that is said; the manifest's offsets, the page's
-reader and the documentation are derived from it.
+A frame is a fixed header, then every skeleton's joint quaternions, the root positions and the parameter
+values, each section padded with zeros to eight bytes. `_dtype` is where that is said; the manifest's offsets,
+the page's reader and the documentation are derived from it.
 """
 
 from __future__ import annotations
 
 from enum import IntFlag
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from reina.errors import InputError
 from reina.protocol.manifest import PROTOCOL_VERSION, Manifest, ParameterManifest, SkeletonManifest
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from reina.performance import FrameBlock, FrameLayout
@@ -59,7 +61,7 @@ def _aligned(offset: int) -> int:
 
 
 def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
-    """The layout of a frame with so many joints (of all skeletons together), skeletons and parameter floats."""
+    """The layout of a frame with so many joints (of all skeletons), skeletons and parameter floats."""
     fields: list[tuple[str, Any, int]] = [
         (name, HEADER[name], _offset(HEADER, name)) for name in HEADER.names or ()
     ]
@@ -83,14 +85,15 @@ def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
 
 def _offset(dtype: np.dtype[np.void], field: str) -> int:
     """Bytes from the frame's start to a field."""
-    return int((dtype.fields or {})[field][1])
+    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
+    return fields[field][1]
 
 
 def build_manifest(layout: FrameLayout) -> Manifest:
     """The manifest of the frames that a performance evaluates to.
 
     Args:
-        layout: Frame rate, skeletons (name, rig, joints) and parameters (path, type, length in floats, blend).
+        layout: Frame rate, skeletons (name, rig, joints), parameters (path, type, length in floats, blend).
     """
     dtype = _dtype(
         sum(len(skeleton.joints) for skeleton in layout.skeletons),
@@ -142,7 +145,7 @@ def frame_dtype(manifest: Manifest) -> np.dtype[np.void]:
 
 
 def encode_block(manifest: Manifest, block: FrameBlock) -> Frames:
-    """Encode a block once for all viewers; epoch, due time and the other flags are stamped as frames are sent.
+    """Encode a block once for all viewers; `stamp` adds epoch, due time and the other flags as it is sent.
 
     Returns:
         (F,) frames with padding zero, epoch 0, due time 0, and no flag but `CUT`: as they stand over HTTP.

@@ -4,12 +4,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from reina.keyframes.value_types import TypeName
 from reina.protocol.model import WireModel
 
 PROTOCOL_VERSION = 1
-SUBPROTOCOL = f"reina.v{PROTOCOL_VERSION}"
-
-ParameterType = Literal["boolean", "number", "vector", "color", "orientation", "choice"]
+SUBPROTOCOL: Literal["reina.v1"] = "reina.v1"
 
 
 class SkeletonManifest(WireModel):
@@ -31,7 +30,7 @@ class ParameterManifest(WireModel):
     """One parameter of the frame."""
 
     path: str
-    type: ParameterType
+    type: TypeName
     offset: int
     """Bytes from the frame's start to its value."""
     length: Annotated[int, Field(ge=1)]

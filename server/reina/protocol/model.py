@@ -6,8 +6,8 @@ from pydantic import BaseModel, ConfigDict
 class WireModel(BaseModel):
     """Immutable, and strict about fields that the contract does not name.
 
-    A default is for whoever builds the model in Python; what the server sends always holds every field, so the
-    generated TypeScript marks none of them optional (see `reina.protocol.typescript`).
+    A default is for whoever builds the model in Python; what the server sends always holds every field,
+    so the generated TypeScript marks none of them optional (see `reina.protocol.typescript`).
     """
 
     model_config = ConfigDict(

@@ -30,5 +30,5 @@ class WireNote(WireModel):
     """0 to 1."""
     valves: list[int] | None
     """The valves that are down, ascending; [] is open, null is not playable (or not played by the player)."""
-    reason: str | None = None
-    """Why `valves` is null; null where it is not."""
+    reason: str
+    """Why these valves, or why none can be said."""

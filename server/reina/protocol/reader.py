@@ -49,7 +49,8 @@ def frame_reader() -> str:
         _getter(name, dtype, offset) for name, (dtype, offset, *_) in (HEADER.fields or {}).items()
     )
     predicates = "\n\n".join(
-        f"  get {str(flag.name).lower()}(): boolean {{\n    return (this.flags & FLAG_{flag.name}) !== 0\n  }}"
+        f"  get {str(flag.name).lower()}(): boolean {{\n"
+        f"    return (this.flags & FLAG_{flag.name}) !== 0\n  }}"
         for flag in FrameFlag
     )
     return f"""export const PROTOCOL_VERSION = {PROTOCOL_VERSION}
@@ -100,7 +101,7 @@ export class Frame {
 
 _READER = """\
 /**
- * Reads binary messages: one or more whole frames, back to back. Open a message, then read its frames in turn:
+ * Reads binary messages: one or more whole frames, back to back. Open one, then read its frames in turn:
  *
  *     const count = reader.open(event.data)
  *     for (let number = 0; number < count; number++) reader.read(number, queue.next())

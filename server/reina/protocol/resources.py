@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from reina.protocol.manifest import ParameterType
+from reina.keyframes.value_types import TypeName
 from reina.protocol.messages import SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
@@ -16,7 +16,7 @@ class Fault(WireModel):
     """One of several things that were wrong."""
 
     detail: str
-    where: str | None
+    location: str | None
     """The place in the input."""
 
 
@@ -27,7 +27,7 @@ class Problem(WireModel):
     title: str
     status: int
     detail: str
-    errors: list[Fault] = []
+    errors: list[Fault] = Field(default_factory=list[Fault])
     """Each fault, where there are several; else empty."""
 
 
@@ -110,7 +110,6 @@ class SessionSummary(WireModel):
     id: str
     title: str
     created_at: str
-    duration_s: float
     links: SessionLinks
 
 
@@ -127,6 +126,15 @@ class SessionChange(WireModel):
     public: bool | None = None
     part: Annotated[int, Field(ge=0)] | None = None
     transposition: Annotated[int, Field(ge=-48, le=48)] | None = None
+
+
+class SessionFields(WireModel):
+    """What the form of POST /sessions may say beside its files."""
+
+    title: Title | None = None
+    public: bool = False
+    part: Annotated[int, Field(ge=0)] | None = None
+    transposition: Annotated[int, Field(ge=-48, le=48)] = 0
 
 
 class Tempo(WireModel):
@@ -180,21 +188,45 @@ class ShowParameter(WireModel):
     """A parameter that keyframes can move."""
 
     path: str
-    type: ParameterType
+    type: TypeName
     unit: str
     minimum: float | None
     maximum: float | None
     default: Any
     choices: list[str]
+    length: int
+    """How many floats it is in a frame."""
     blend: bool
     interpolations: list[str]
+    """What its keyframes may name."""
     documentation: str
 
 
+class InterpolationOption(WireModel):
+    """A number, or several, that a keyframe of an interpolation may set."""
+
+    name: str
+    default: float | list[float]
+    minimum: list[float | None]
+    maximum: list[float | None]
+    documentation: str
+
+
+class Interpolation(WireModel):
+    """A way to come to a keyframe from the one before."""
+
+    name: str
+    documentation: str
+    options: list[InterpolationOption]
+    tangents: str | None
+    """Where its slopes come from, for splines."""
+
+
 class ShowParameterList(WireModel):
-    """Every show parameter, in the frame's order."""
+    """Every show parameter in the frame's order, and every interpolation."""
 
     parameters: list[ShowParameter]
+    interpolations: list[Interpolation]
 
 
 class Example(WireModel):

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel
 from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
 from reina.protocol.model import WireModel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from pydantic import BaseModel
 
 Schema = dict[str, Any]
 
@@ -31,9 +32,10 @@ def interfaces(sent: Sequence[type[BaseModel]], received: Sequence[type[BaseMode
         sent: Models that the server sends; all their fields are there.
         received: Models that it is sent; fields with a default are optional.
     """
-    modes: list[tuple[type[BaseModel], JsonSchemaMode]] = [(model, "serialization") for model in sent]
-    modes += [(model, "validation") for model in received]
-    modes = [(base, mode) for model, mode in modes if (base := _base(model))] + modes
+    modes: list[tuple[type[BaseModel], JsonSchemaMode]] = []
+    modes.extend((base, "serialization") for model in sent if (base := _base(model)))
+    modes.extend((model, "serialization") for model in sent)
+    modes.extend((model, "validation") for model in received)
     _, schema = models_json_schema(modes)
     definitions: dict[str, Schema] = schema["$defs"]
     bases = {model.__name__: base.__name__ for model, _ in modes if (base := _base(model))}
@@ -41,7 +43,7 @@ def interfaces(sent: Sequence[type[BaseModel]], received: Sequence[type[BaseMode
     texts: list[str] = []
     for name in order:
         base = bases.get(name)
-        inherited = definitions[base]["properties"] if base else {}
+        inherited: Schema = definitions[base]["properties"] if base else {}
         texts.append(_definition(name, definitions[name], base, inherited))
     return "\n\n".join(texts) + "\n"
 
@@ -105,7 +107,7 @@ def type_of(schema: Schema) -> str:
             return f"({item})[]" if " " in item else f"{item}[]"
         case "object":
             values = schema.get("additionalProperties")
-            return f"Record<string, {type_of(values) if isinstance(values, dict) else 'unknown'}>"
+            return f"Record<string, {'unknown' if values in (None, True) else type_of(values)}>"
         case None:
             return "unknown"
         case name if name in _PRIMITIVES:

@@ -81,7 +81,7 @@ export class Frame {
 }
 
 /**
- * Reads binary messages: one or more whole frames, back to back. Open a message, then read its frames in turn:
+ * Reads binary messages: one or more whole frames, back to back. Open one, then read its frames in turn:
  *
  *     const count = reader.open(event.data)
  *     for (let number = 0; number < count; number++) reader.read(number, queue.next())
@@ -176,8 +176,8 @@ export interface WireNote {
   velocity: number
   /** The valves that are down, ascending; [] is open, null is not playable (or not played by the player). */
   valves: number[] | null
-  /** Why valves is null; null where it is not. */
-  reason: string | null
+  /** Why these valves, or why none can be said. */
+  reason: string
 }
 
 /** One session: a score, its player, its show and its clock. */
@@ -301,9 +301,10 @@ export interface RigList {
   rigs: RigSummary[]
 }
 
-/** Every show parameter, in the frame's order. */
+/** Every show parameter in the frame's order, and every interpolation. */
 export interface ShowParameterList {
   parameters: ShowParameter[]
+  interpolations: Interpolation[]
 }
 
 /** The bundled pieces; the first is the one for a first visit. */
@@ -388,7 +389,25 @@ export interface Example {
 export interface Fault {
   detail: string
   /** The place in the input. */
-  where: string | null
+  location: string | null
+}
+
+/** A way to come to a keyframe from the one before. */
+export interface Interpolation {
+  name: string
+  documentation: string
+  options: InterpolationOption[]
+  /** Where its slopes come from, for splines. */
+  tangents: string | null
+}
+
+/** A number, or several, that a keyframe of an interpolation may set. */
+export interface InterpolationOption {
+  name: string
+  default: number | number[]
+  minimum: (number | null)[]
+  maximum: (number | null)[]
+  documentation: string
 }
 
 /** The span of song time that is played over and over. */
@@ -408,7 +427,7 @@ export interface Metre {
 /** One parameter of the frame. */
 export interface ParameterManifest {
   path: string
-  type: "boolean" | "number" | "vector" | "color" | "orientation" | "choice"
+  type: "number" | "boolean" | "choice" | "color" | "vector" | "orientation" | "transform"
   /** Bytes from the frame's start to its value. */
   offset: number
   /** How many float32 the value has. */
@@ -459,20 +478,22 @@ export interface SessionSummary {
   id: string
   title: string
   created_at: string
-  duration_s: number
   links: SessionLinks
 }
 
 /** A parameter that keyframes can move. */
 export interface ShowParameter {
   path: string
-  type: "boolean" | "number" | "vector" | "color" | "orientation" | "choice"
+  type: "number" | "boolean" | "choice" | "color" | "vector" | "orientation" | "transform"
   unit: string
   minimum: number | null
   maximum: number | null
   default: unknown
   choices: string[]
+  /** How many floats it is in a frame. */
+  length: number
   blend: boolean
+  /** What its keyframes may name. */
   interpolations: string[]
   documentation: string
 }
