@@ -152,3 +152,11 @@ def test_the_shipped_rigs_load(name: str) -> None:
     rig = load_rig(Path(__file__).parents[3] / "rigs" / name)
     assert rig.name == name
     assert len(rig.nodes) == len(rig.skeleton)
+
+
+def test_the_shipped_hold_names_joints_of_its_rig() -> None:
+    folder = Path(__file__).parents[3] / "rigs" / "trumpeter"
+    hold = load_hold(folder, "trumpet")
+    assert (hold.player, hold.instrument) == ("trumpeter", "trumpet")
+    rotations = hold.rotations(load_rig(folder))
+    np.testing.assert_allclose(np.linalg.norm(rotations, axis=1), 1.0, atol=1e-12)
