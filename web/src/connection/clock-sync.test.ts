@@ -32,6 +32,15 @@ describe("ClockSync", () => {
     expect(sync.roundTrip).toBeCloseTo(0.02, 9);
   });
 
+  it("keeps its offset over a reconnection until the first new probe, which alone counts then", () => {
+    const sync = new ClockSync();
+    sync.add(probe(0, 0.001, 0.001));
+    sync.reset();
+    expect(sync.offset).toBeCloseTo(TRUE_OFFSET, 6);
+    sync.add({ sentAt: 9, receivedAt: 9.2, serverTime: 12.1 });
+    expect(sync.offset).toBeCloseTo(3, 6);
+  });
+
   it("drops absurd probes", () => {
     const sync = new ClockSync();
     expect(sync.add({ sentAt: 5, receivedAt: 4, serverTime: 0 })).toBe(false);

@@ -18,6 +18,7 @@ export class ClockSync {
   readonly #window: ClockProbe[] = [];
   readonly #windowLength: number;
   #best: ClockProbe | null = null;
+  #stale = false;
 
   /** @param windowLength how many probes are remembered; older ones are forgotten, so that a drifting clock is followed */
   constructor(windowLength = 16) {
@@ -28,6 +29,8 @@ export class ClockSync {
   add(probe: ClockProbe): boolean {
     const roundTrip = probe.receivedAt - probe.sentAt;
     if (!(roundTrip >= 0 && roundTrip <= LONGEST_ROUND_TRIP_S && Number.isFinite(probe.serverTime))) return false;
+    if (this.#stale) this.#window.length = 0;
+    this.#stale = false;
     this.#window.push(probe);
     if (this.#window.length > this.#windowLength) this.#window.shift();
     this.#best = this.#window.reduce((best, each) => (roundTripOf(each) <= roundTripOf(best) ? each : best));
@@ -55,10 +58,9 @@ export class ClockSync {
     return pageTime + this.offset;
   }
 
-  /** Forget everything, as after a reconnection (the server may be another one). */
+  /** Forget what is known as soon as a new probe comes, as after a reconnection (the server may be another one). */
   reset(): void {
-    this.#window.length = 0;
-    this.#best = null;
+    this.#stale = true;
   }
 }
 

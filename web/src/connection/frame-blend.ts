@@ -1,4 +1,4 @@
-import { HEADER_SIZE, type Manifest } from "../generated/protocol";
+import { HEADER_SIZE, type Manifest, type ParameterManifest } from "../generated/protocol";
 
 const FLOAT_BYTES = 4;
 
@@ -10,6 +10,16 @@ interface Span {
   readonly start: number;
   end: number;
 }
+
+/** What a parameter's floats are, in their order, where it is blended; a type that is not here is all numbers. */
+const PIECES: Partial<Record<ParameterManifest["type"], readonly (readonly [kind: Kind, length: number])[]>> = {
+  orientation: [["quaternions", 4]],
+  transform: [
+    ["numbers", 3],
+    ["quaternions", 4],
+    ["numbers", 3],
+  ],
+};
 
 /**
  * Blends two neighbouring frames for displays whose refresh falls between them.
@@ -26,9 +36,13 @@ export class FrameBlend {
     this.length = (manifest.frame_size - HEADER_SIZE) / FLOAT_BYTES;
     for (const skeleton of manifest.skeletons) this.#add("quaternions", skeleton.offset, 4 * skeleton.joints.length);
     for (const skeleton of manifest.skeletons) this.#add("numbers", skeleton.root_offset, 3);
-    for (const parameter of manifest.parameters) {
-      const kind = parameter.type === "orientation" ? "quaternions" : "numbers";
-      this.#add(parameter.blend ? kind : "held", parameter.offset, parameter.length);
+    for (const { type, blend, offset, length } of manifest.parameters) {
+      const pieces = blend ? (PIECES[type] ?? [["numbers", length]]) : [["held", length] as const];
+      let at = offset;
+      for (const [kind, floats] of pieces) {
+        this.#add(kind, at, floats);
+        at += floats * FLOAT_BYTES;
+      }
     }
   }
 

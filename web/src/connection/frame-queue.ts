@@ -61,6 +61,11 @@ export class FrameQueue {
     return this.#count;
   }
 
+  /** What `frameAt` gave last; null before the first frame. */
+  get drawn(): QueuedFrame | null {
+    return this.#shown ? this.#drawn : null;
+  }
+
   /** The epoch of the frames held, modulo 256. */
   get epoch(): number {
     return this.#epoch;

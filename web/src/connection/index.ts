@@ -3,4 +3,4 @@ export { FrameQueue, type QueuedFrame } from "./frame-queue";
 export { ProblemError } from "./problem";
 export { ReinaApi, type SessionFiles } from "./rest";
 export { songTimeAt } from "./song-time";
-export { Stream, type StreamListener, type StreamState } from "./stream";
+export { Stream, streamAddress, type StreamListener, type StreamState } from "./stream";

@@ -8,9 +8,9 @@ import type { TransportState } from "../generated/protocol";
 export function songTimeAt(transport: TransportState, serverTime: number, duration: number): number {
   const { playing, song_time_s: from, server_time_s: at, rate, loop } = transport;
   if (!playing) return from;
-  const time = from + (serverTime - at) * rate;
+  const time = from + Math.max(serverTime - at, 0) * rate;
   if (loop !== null && from < loop.end_s && time >= loop.end_s) {
     return loop.start_s + ((time - loop.start_s) % (loop.end_s - loop.start_s));
   }
-  return Math.min(Math.max(time, 0), Math.max(duration, from));
+  return Math.min(time, Math.max(duration, from));
 }

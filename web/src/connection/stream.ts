@@ -37,6 +37,14 @@ const browserWorld: StreamWorld = {
   random: () => Math.random(),
 };
 
+/** The WebSocket's address of a session's link to its stream. */
+export function streamAddress(href: string): string {
+  const address = new URL(href, location.href);
+  address.protocol = address.protocol.replace("http", "ws");
+  address.searchParams.set("frames_per_message", String(FRAMES_PER_MESSAGE));
+  return address.href;
+}
+
 /**
  * The session's WebSocket: connects, comes back after a loss with growing pauses, and keeps the offset to the server's
  * clock by pings in pairs (the first of a pair wakes whatever sleeps on the way, the second measures).
@@ -57,9 +65,7 @@ export class Stream {
   #probing: ReturnType<typeof setTimeout> | undefined;
 
   constructor(url: string, listener: StreamListener, world: StreamWorld = browserWorld) {
-    const address = new URL(url);
-    address.searchParams.set("frames_per_message", String(FRAMES_PER_MESSAGE));
-    this.#url = address.href;
+    this.#url = url;
     this.#listener = listener;
     this.#world = world;
     this.#connect();

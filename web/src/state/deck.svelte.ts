@@ -1,0 +1,140 @@
+import { nextRate } from "./rates";
+import { phrasesOf } from "./overview";
+import type { Reina } from "./reina.svelte";
+import { neighbouringBarLine } from "./score-time";
+import { shortcutOf, type Action } from "./shortcuts";
+import type { SessionView } from "./session-view.svelte";
+import { remember, remembered } from "./storage";
+
+const STEP_S = 2;
+const VOLUME_STEP = 0.05;
+const SHORTEST_LOOP_S = 0.25;
+
+/** What the deck asks of the stage and the page around it. */
+export interface DeckHands {
+  giveBackCamera(): void;
+  toggleFullscreen(): void;
+  openFilePicker(): void;
+  addKeyframe(): void;
+}
+
+/** What lies over the stage: which panels are open, and what each action does. */
+export class Deck {
+  readonly reina: Reina;
+  pieceOpen = $state(remembered().pieceOpen);
+  showOpen = $state(remembered().showOpen);
+  helpOpen = $state(false);
+  cameraTaken = $state(false);
+  /** Filled by the components that can do these things. */
+  readonly hands: Partial<DeckHands> = {};
+  #loopStart: number | null = null;
+
+  readonly #actions: Readonly<Record<Action, (view: SessionView) => unknown>> = {
+    toggle: () => this.reina.toggle(),
+    back: (view) => view.seek(view.songTime - STEP_S),
+    forward: (view) => view.seek(view.songTime + STEP_S),
+    barBack: (view) => view.seek(neighbouringBarLine(view.score, view.songTime, -1, view.duration)),
+    barForward: (view) => view.seek(neighbouringBarLine(view.score, view.songTime, 1, view.duration)),
+    begin: (view) => view.seek(0),
+    end: (view) => view.seek(view.duration),
+    slower: (view) => view.setRate(nextRate(view.transport.rate, -1)),
+    faster: (view) => view.setRate(nextRate(view.transport.rate, 1)),
+    loopStart: (view) => this.#setLoopStart(view),
+    loopEnd: (view) => this.#setLoopEnd(view),
+    loopOff: (view) => view.setLoop(view.transport.loop === null ? phraseAt(view) : null),
+    louder: () => this.#changeVolume(VOLUME_STEP),
+    quieter: () => this.#changeVolume(-VOLUME_STEP),
+    mute: () => this.reina.setVolume(this.reina.volume, !this.reina.muted),
+    camera: () => this.hands.giveBackCamera?.(),
+    fullscreen: () => this.hands.toggleFullscreen?.(),
+    piece: () => this.togglePiece(),
+    show: () => this.toggleShow(),
+    keyframe: () => this.hands.addKeyframe?.(),
+    open: () => this.hands.openFilePicker?.(),
+    help: () => (this.helpOpen = !this.helpOpen),
+  };
+
+  constructor(reina: Reina) {
+    this.reina = reina;
+  }
+
+  /** Do what a control or a key asks for. */
+  run(action: Action): void {
+    const { view } = this.reina;
+    if (view !== null) this.#actions[action](view);
+    else if (action === "open") this.hands.openFilePicker?.();
+    else if (action === "help") this.helpOpen = !this.helpOpen;
+  }
+
+  /** Take a key press; returns whether it was one of the page's own. */
+  press(event: KeyboardEvent): boolean {
+    if (isTyping(event.target) || event.defaultPrevented) return false;
+    if (event.key === "Escape") return this.#escape();
+    if ((event.key === "Enter" || event.key === " ") && isPressable(event.target)) return false;
+    const shortcut = shortcutOf(event);
+    if (shortcut === null) return false;
+    const { view } = this.reina;
+    if (shortcut.controls === true && view?.canControl === false) {
+      this.reina.word("You are watching", "Only whoever opened this session can play, stop or move it.");
+      return true;
+    }
+    this.run(shortcut.action);
+    return true;
+  }
+
+  togglePiece(open = !this.pieceOpen): void {
+    this.pieceOpen = open;
+    remember({ pieceOpen: open });
+  }
+
+  toggleShow(open = !this.showOpen): void {
+    this.showOpen = open;
+    remember({ showOpen: open });
+  }
+
+  #escape(): boolean {
+    if (this.helpOpen) this.helpOpen = false;
+    else if (this.showOpen) this.toggleShow(false);
+    else if (this.pieceOpen) this.togglePiece(false);
+    else return false;
+    return true;
+  }
+
+  #setLoopStart(view: SessionView): unknown {
+    this.#loopStart = view.songTime;
+    const end = view.transport.loop?.end_s;
+    if (end !== undefined && end > view.songTime + SHORTEST_LOOP_S) {
+      return view.setLoop({ start: view.songTime, end });
+    }
+    this.reina.word("The loop begins here", "Press ] where it should end.");
+    return undefined;
+  }
+
+  #setLoopEnd(view: SessionView): unknown {
+    const start = this.#loopStart ?? view.transport.loop?.start_s ?? 0;
+    if (view.songTime > start + SHORTEST_LOOP_S) return view.setLoop({ start, end: view.songTime });
+    this.reina.word("The loop must end after it begins", "Move on a little, then press ] again.");
+    return undefined;
+  }
+
+  #changeVolume(step: number): void {
+    this.reina.setVolume(this.reina.volume + step, false);
+  }
+}
+
+/** The phrase that is played, or the next one; the whole piece without any. */
+function phraseAt(view: SessionView): { start: number; end: number } {
+  const phrase = phrasesOf(view.playedNotes).find(({ end }) => end > view.songTime + 0.02);
+  const { start, end } = phrase ?? { start: 0, end: view.duration };
+  return { start, end: Math.min(Math.max(end, start + SHORTEST_LOOP_S), view.duration) };
+}
+
+function isTyping(target: EventTarget | null): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target instanceof HTMLInputElement) return target.type !== "checkbox" && target.type !== "radio";
+  return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || target.isContentEditable;
+}
+
+function isPressable(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.closest("button, a, summary, label, input") !== null;
+}

@@ -1,0 +1,73 @@
+import type { Stage } from "../scene";
+import type { SessionView } from "./session-view.svelte";
+
+/** Where the figures come from. */
+export interface Measures {
+  readonly stage: Stage;
+  readonly view: () => SessionView | null;
+  readonly drawn: () => boolean;
+}
+
+/** What the page says about itself, for tests and for whoever opens the console: `window.reina`. */
+export interface PageMeasures {
+  /** A picture of the open session has been drawn. */
+  readonly drawn: boolean;
+  readonly session: string | null;
+  readonly drawnIndex: number;
+  readonly songTime: number;
+  readonly epoch: number;
+  readonly playing: boolean;
+  readonly sound: string;
+  /** Seconds from the page's clock to the server's, and the round trip of the probe that says so. */
+  readonly clockOffset: number;
+  readonly clockRoundTrip: number;
+  /** Picture less sound, seconds: how many readings, their mean, and what 95 % of them stay within. */
+  readonly sync: { readonly readings: number; readonly mean: number; readonly p95: number };
+  /** Local joint rotations as three.js has them, x y z w. */
+  boneQuaternions(): Record<string, [number, number, number, number]>;
+}
+
+declare global {
+  interface Window {
+    reina?: PageMeasures;
+  }
+}
+
+/** Put the figures on the window; returns what takes them away again. */
+export function publishMeasures({ stage, view, drawn }: Measures): () => void {
+  window.reina = {
+    get drawn() {
+      return drawn();
+    },
+    get session() {
+      return view()?.id ?? null;
+    },
+    get drawnIndex() {
+      return stage.drawnIndex;
+    },
+    get songTime() {
+      return view()?.songTime ?? 0;
+    },
+    get epoch() {
+      return view()?.transport.epoch ?? 0;
+    },
+    get playing() {
+      return view()?.playing ?? false;
+    },
+    get sound() {
+      return view()?.sound ?? "silent";
+    },
+    get clockOffset() {
+      return view()?.clock.offset ?? 0;
+    },
+    get clockRoundTrip() {
+      return view()?.clock.roundTrip ?? Infinity;
+    },
+    get sync() {
+      const sync = view()?.sync;
+      return { readings: sync?.count ?? 0, mean: sync?.mean ?? 0, p95: sync?.within(0.95) ?? 0 };
+    },
+    boneQuaternions: () => stage.boneQuaternions(),
+  };
+  return () => delete window.reina;
+}

@@ -1,0 +1,28 @@
+/** Minutes and seconds as on a clock: `0:07`, `12:30`; with tenths where asked. */
+export function clockTime(seconds: number, tenths = false): string {
+  const unit = tenths ? 10 : 1;
+  const whole = Math.max(Math.floor(seconds * unit + 1e-6), 0);
+  const minutes = Math.floor(whole / (60 * unit));
+  const rest = whole - minutes * 60 * unit;
+  const shown = tenths ? `${Math.floor(rest / 10)}`.padStart(2, "0") + `.${rest % 10}` : `${rest}`.padStart(2, "0");
+  return `${minutes}:${shown}`;
+}
+
+const NAMES = ["C", "C♯", "D", "E♭", "E", "F", "F♯", "G", "A♭", "A", "B♭", "B"];
+
+/** A pitch's name with its octave, middle C (MIDI 60) being C4: `B♭4`. */
+export function pitchName(pitch: number): string {
+  return `${NAMES[((pitch % 12) + 12) % 12] ?? ""}${Math.floor(pitch / 12) - 1}`;
+}
+
+/** Valves as a player says them: `open`, `1`, `1 and 3`; `not playable` for null. */
+export function valveNames(valves: readonly number[] | null): string {
+  if (valves === null) return "not playable";
+  if (valves.length === 0) return "open";
+  return valves.length === 1 ? `${valves[0] ?? ""}` : `${valves.slice(0, -1).join(", ")} and ${valves.at(-1) ?? ""}`;
+}
+
+/** A rate as a percentage of the written tempo: `75 %`. */
+export function percent(share: number): string {
+  return `${Math.round(share * 100)} %`;
+}

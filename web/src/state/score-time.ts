@@ -1,0 +1,68 @@
+import type { Metre, Score, Tempo } from "../generated/protocol";
+
+/** A place in the score as musicians say it: bar and beat, both counted from 1; a pickup is bar 0. */
+export interface BarBeat {
+  readonly bar: number;
+  readonly beat: number;
+}
+
+type ScoreGrid = Pick<Score, "tempi" | "metres" | "bar_lines_s">;
+
+/** Quarter notes from the score's beginning at a song time, seconds. */
+export function beatsAt(tempi: readonly Tempo[], songTime: number): number {
+  const tempo = lastBegun(tempi, songTime);
+  return tempo === undefined ? songTime * 2 : tempo.onset_beats + ((songTime - tempo.onset_s) * tempo.bpm) / 60;
+}
+
+/** The index of the bar that a song time, seconds, falls in; behind the last bar line it is the last bar. */
+export function barIndexAt(barLines: readonly number[], songTime: number): number {
+  let low = 0;
+  let high = barLines.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((barLines[middle] ?? Infinity) <= songTime + 1e-6) low = middle + 1;
+    else high = middle;
+  }
+  return Math.max(low - 1, 0);
+}
+
+/** The number that the score's first bar goes by: 0 for a pickup, else 1. */
+export function firstBarNumber(score: ScoreGrid): number {
+  const [first, second] = score.bar_lines_s;
+  if (first === undefined || second === undefined) return 1;
+  const length = beatsAt(score.tempi, second) - beatsAt(score.tempi, first);
+  return length < barLength(metreAt(score.metres, second)) - 1e-6 ? 0 : 1;
+}
+
+/** Bar and beat at a song time, seconds; the beat counts the metre's own note values (eighths in 6/8). */
+export function barBeatAt(score: ScoreGrid, songTime: number): BarBeat {
+  const index = barIndexAt(score.bar_lines_s, songTime);
+  const barBegin = score.bar_lines_s[index] ?? 0;
+  const quarters = beatsAt(score.tempi, songTime) - beatsAt(score.tempi, barBegin);
+  const { denominator } = metreAt(score.metres, songTime);
+  return { bar: index + firstBarNumber(score), beat: Math.floor((quarters * denominator) / 4 + 1e-6) + 1 };
+}
+
+/**
+ * The bar line to go to from a song time: the next one, or the one before (from within a bar first its own).
+ *
+ * @param direction 1 forward, -1 back
+ */
+export function neighbouringBarLine(score: ScoreGrid, songTime: number, direction: 1 | -1, duration: number): number {
+  const lines = score.bar_lines_s;
+  if (direction === 1) return lines.find((line) => line > songTime + 0.02) ?? duration;
+  // While it plays, a second press must reach the bar before: leave a little time for it.
+  return lines.findLast((line) => line < songTime - 0.25) ?? 0;
+}
+
+function metreAt(metres: readonly Metre[], songTime: number): Metre {
+  return lastBegun(metres, songTime) ?? { onset_beats: 0, onset_s: 0, numerator: 4, denominator: 4 };
+}
+
+function barLength(metre: Metre): number {
+  return (metre.numerator * 4) / metre.denominator;
+}
+
+function lastBegun<T extends { onset_s: number }>(entries: readonly T[], songTime: number): T | undefined {
+  return entries.findLast((entry) => entry.onset_s <= songTime + 1e-6) ?? entries[0];
+}

@@ -1,0 +1,284 @@
+import { FrameQueue, ProblemError, songTimeAt, Stream, streamAddress, type QueuedFrame, type ReinaApi, type StreamState } from "../connection";
+import type {
+  Hello,
+  Score,
+  ServerMessage,
+  Session,
+  SessionChange,
+  TransportCommand,
+  TransportState,
+  WireNote,
+} from "../generated/protocol";
+import { loadSong, SongPlayer, type SoundState } from "../sound";
+import { SyncMeasure } from "./sync-measure";
+
+const CHECK_INTERVAL_MS = 100;
+/** A picture drawn now is seen at the display's next refresh. */
+const PRESENTATION_S = 1 / 60;
+/** The last frame of a song stands up to this much before its end. */
+const END_TOLERANCE_S = 0.025;
+
+/** What a session view needs of the page around it. */
+export interface Surroundings {
+  readonly api: ReinaApi;
+  /** Show what went wrong. */
+  tell(error: unknown): void;
+  /** The session is gone from the server. */
+  gone(): void;
+}
+
+/** One session as this page sees it: what it is, its clock, its frames and its sound. */
+export class SessionView {
+  readonly id: string;
+  /** What changes the session; null where this browser did not make it and may only watch. */
+  readonly token: string | null;
+  readonly sync = new SyncMeasure();
+
+  session: Session;
+  score: Score;
+  hello = $state.raw<Hello | null>(null);
+  transport: TransportState;
+  connection = $state<StreamState>("connecting");
+  /** Song time of the picture, seconds. */
+  songTime = $state(0);
+  sound = $state<SoundState>("silent");
+  /** The share of the song's making that is done, while it is being made; null once it is there. */
+  soundShare = $state<number | null>(0);
+  soundError = $state<string | null>(null);
+  /** Raised by every change of the show that the server tells of. */
+  showRevision = $state(0);
+
+  readonly duration = $derived.by(() => this.hello?.duration_s ?? this.session.duration_s);
+  /** Whether the music runs; at its end it has stopped by itself. */
+  readonly playing = $derived.by(
+    () => this.transport.playing && (this.transport.loop !== null || this.songTime < this.duration - END_TOLERANCE_S),
+  );
+  /** The notes of the part that the player plays, by onset. */
+  readonly playedNotes: readonly WireNote[] = $derived.by(() =>
+    this.score.notes.filter((note) => note.part === this.score.part),
+  );
+
+  readonly #surroundings: Surroundings;
+  readonly #stream: Stream;
+  readonly #player: SongPlayer;
+  readonly #checking: ReturnType<typeof setInterval>;
+  readonly #ended = new AbortController();
+  #queue: FrameQueue | null = null;
+  #followed: TransportState | null = null;
+  #songHref: string | null = null;
+
+  /** Get a session's score and clock and join its stream. Throws ProblemError when there is none. */
+  static async open(id: string, token: string | null, surroundings: Surroundings): Promise<SessionView> {
+    const { api } = surroundings;
+    const [session, score, transport] = await Promise.all([api.session(id), api.score(id), api.transport(id)]);
+    return new SessionView(session, score, transport, token, surroundings);
+  }
+
+  private constructor(
+    session: Session,
+    score: Score,
+    transport: TransportState,
+    token: string | null,
+    surroundings: Surroundings,
+  ) {
+    this.id = session.id;
+    this.token = token;
+    this.session = $state.raw(session);
+    this.score = $state.raw(score);
+    this.transport = $state.raw(transport);
+    this.songTime = transport.song_time_s;
+    this.#surroundings = surroundings;
+    this.#player = new SongPlayer(
+      { pageNow: () => performance.now() / 1000, songTimeAt: (pageTime) => this.#songTimeAt(pageTime) },
+      (state) => (this.sound = state),
+    );
+    this.#stream = new Stream(streamAddress(session.links.stream), {
+      message: (message) => this.#receive(message),
+      frames: (bytes) => this.#queue?.push(bytes),
+      connection: (state) => this.#connected(state),
+    });
+    this.#checking = setInterval(() => this.#check(), CHECK_INTERVAL_MS);
+  }
+
+  get canControl(): boolean {
+    return this.token !== null;
+  }
+
+  /** The picture to be drawn now; null until the first frame has come. */
+  frameNow(): QueuedFrame | null {
+    const frame = this.#queue?.frameAt(this.#stream.serverNow() + PRESENTATION_S) ?? null;
+    if (frame === null) return null;
+    if (frame.songTime !== this.songTime) this.songTime = frame.songTime;
+    const heard = frame.playing ? this.#player.heardSongTime() : null;
+    if (heard !== null) this.sync.add(frame.songTime - PRESENTATION_S * this.transport.rate - heard);
+    return frame;
+  }
+
+  /** The floats of the picture that was drawn last; null before the first. Read, never kept. */
+  get floats(): Float32Array | null {
+    return this.#queue?.drawn?.floats ?? null;
+  }
+
+  /** Seconds from the page's clock to the server's, and the round trip that this rests on. */
+  get clock(): { offset: number; roundTrip: number; ready: boolean } {
+    return this.#stream.clock;
+  }
+
+  async play(): Promise<void> {
+    void this.unlockSound();
+    await this.#control({ action: "play" });
+  }
+
+  async pause(): Promise<void> {
+    await this.#control({ action: "pause" });
+  }
+
+  toggle(): Promise<void> {
+    return this.playing ? this.pause() : this.play();
+  }
+
+  async seek(songTime: number): Promise<void> {
+    const within = Math.min(Math.max(songTime, 0), this.duration);
+    await this.#control({ action: "seek", song_time_s: within });
+  }
+
+  async setRate(rate: number): Promise<void> {
+    await this.#control({ action: "rate", rate });
+  }
+
+  /** Loop over a span of song time, seconds; null ends the loop. */
+  async setLoop(loop: { start: number; end: number } | null): Promise<void> {
+    await this.#control({ action: "loop", start_s: loop?.start ?? null, end_s: loop?.end ?? null });
+  }
+
+  async change(change: SessionChange): Promise<void> {
+    const { token } = this;
+    if (token === null) return;
+    await this.#attempt(async () => {
+      this.session = await this.#surroundings.api.changeSession(this.id, change, token);
+    });
+  }
+
+  /** Let the sound out; call it from a click or a key. */
+  unlockSound(): Promise<void> {
+    return this.#player.unlock();
+  }
+
+  setVolume(volume: number, muted: boolean): void {
+    this.#player.setVolume(volume, muted);
+  }
+
+  async close(): Promise<void> {
+    clearInterval(this.#checking);
+    this.#ended.abort();
+    this.#stream.close();
+    await this.#player.close();
+  }
+
+  async #control(command: TransportCommand): Promise<void> {
+    const { token } = this;
+    if (token === null) return;
+    await this.#attempt(async () => {
+      this.#setTransport(await this.#surroundings.api.control(this.id, command, token));
+    });
+  }
+
+  async #attempt(action: () => Promise<void>): Promise<void> {
+    try {
+      await action();
+    } catch (error) {
+      if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
+    }
+  }
+
+  #receive(message: ServerMessage): void {
+    switch (message.type) {
+      case "hello":
+        this.#queue = new FrameQueue(message, message.transport.epoch);
+        this.hello = message;
+        this.#setTransport(message.transport, true);
+        this.#loadSong(message.song.href);
+        break;
+      case "transport":
+        this.#setTransport(message);
+        break;
+      case "score_changed":
+        void this.#attempt(() => this.#readAnew());
+        break;
+      case "show_changed":
+        this.showRevision += 1;
+        break;
+      case "song_ready":
+        this.#loadSong(message.song.href);
+        break;
+      case "error":
+        this.#surroundings.tell(
+          new ProblemError({ status: 0, title: message.title, detail: message.detail, errors: [] }),
+        );
+        break;
+      default:
+        break;
+    }
+  }
+
+  #setTransport(transport: TransportState, anew = false): void {
+    if (!anew && transport.epoch < this.transport.epoch) return;
+    this.transport = transport;
+    this.#queue?.enterEpoch(transport.epoch);
+    this.#check();
+  }
+
+  #connected(state: StreamState): void {
+    this.connection = state;
+    if (state === "lost") void this.#lookWhetherGone();
+  }
+
+  async #lookWhetherGone(): Promise<void> {
+    try {
+      this.session = await this.#surroundings.api.session(this.id);
+    } catch (error) {
+      if (error instanceof ProblemError && error.isUnknown && !this.#ended.signal.aborted) this.#surroundings.gone();
+    }
+  }
+
+  async #readAnew(): Promise<void> {
+    const { api } = this.#surroundings;
+    [this.session, this.score] = await Promise.all([api.session(this.id), api.score(this.id)]);
+  }
+
+  /** Follow the transport once the server's clock is known, and keep the sound in its place. */
+  #check(): void {
+    if (!this.#stream.clock.ready) return;
+    if (this.#followed !== this.transport) {
+      this.#followed = this.transport;
+      this.#player.follow(this.transport);
+    }
+    this.#player.check();
+  }
+
+  #songTimeAt(pageTime: number): number {
+    return songTimeAt(this.transport, this.#stream.clock.serverTime(pageTime), this.duration);
+  }
+
+  #loadSong(href: string): void {
+    if (this.#songHref === href) return;
+    this.#songHref = href;
+    void this.#takeSong(href);
+  }
+
+  async #takeSong(href: string): Promise<void> {
+    this.soundShare = 0;
+    this.soundError = null;
+    const { signal } = this.#ended;
+    try {
+      const bytes = await loadSong(this.#surroundings.api, href, signal, (share) => (this.soundShare = share));
+      if (!signal.aborted) await this.#player.setSong(bytes);
+    } catch (error) {
+      if (signal.aborted) return;
+      this.#songHref = null;
+      this.soundError =
+        error instanceof ProblemError ? error.message : "This browser cannot play the song's audio format.";
+    }
+    this.soundShare = null;
+  }
+}

@@ -1,0 +1,93 @@
+/** Everything that a key does; `?` lists it. */
+export type Action =
+  | "toggle"
+  | "back"
+  | "forward"
+  | "barBack"
+  | "barForward"
+  | "begin"
+  | "end"
+  | "slower"
+  | "faster"
+  | "loopStart"
+  | "loopEnd"
+  | "loopOff"
+  | "louder"
+  | "quieter"
+  | "mute"
+  | "camera"
+  | "fullscreen"
+  | "piece"
+  | "show"
+  | "keyframe"
+  | "open"
+  | "help";
+
+export interface Shortcut {
+  readonly action: Action;
+  /** As KeyboardEvent.key says it, Shift included in what it makes. */
+  readonly keys: readonly string[];
+  readonly shift?: boolean;
+  /** What stands on the key, as the list and the hints show it. */
+  readonly shown: string;
+  readonly says: string;
+  /** It changes the session, which takes its token. */
+  readonly controls?: boolean;
+  /** Holding the key repeats it. */
+  readonly repeats?: boolean;
+}
+
+export const SHORTCUTS: readonly Shortcut[] = [
+  { action: "toggle", keys: [" ", "k"], shown: "Space", says: "Play or pause", controls: true },
+  { action: "back", keys: ["ArrowLeft"], shown: "←", says: "Two seconds back", controls: true, repeats: true },
+  { action: "forward", keys: ["ArrowRight"], shown: "→", says: "Two seconds on", controls: true, repeats: true },
+  { action: "barBack", keys: ["ArrowLeft"], shift: true, shown: "Shift ←", says: "To the bar before", controls: true, repeats: true },
+  { action: "barForward", keys: ["ArrowRight"], shift: true, shown: "Shift →", says: "To the next bar", controls: true, repeats: true },
+  { action: "begin", keys: ["Home"], shown: "Home", says: "To the beginning", controls: true },
+  { action: "end", keys: ["End"], shown: "End", says: "To the end", controls: true },
+  { action: "slower", keys: ["-"], shown: "−", says: "Slower", controls: true },
+  { action: "faster", keys: ["+", "="], shown: "+", says: "Faster", controls: true },
+  { action: "loopStart", keys: ["["], shown: "[", says: "Loop from here", controls: true },
+  { action: "loopEnd", keys: ["]"], shown: "]", says: "Loop to here", controls: true },
+  { action: "loopOff", keys: ["l"], shown: "L", says: "Loop this phrase, or end the loop", controls: true },
+  { action: "louder", keys: ["ArrowUp"], shown: "↑", says: "Louder", repeats: true },
+  { action: "quieter", keys: ["ArrowDown"], shown: "↓", says: "Quieter", repeats: true },
+  { action: "mute", keys: ["m"], shown: "M", says: "Sound off or on" },
+  { action: "camera", keys: ["c"], shown: "C", says: "Give the camera back to the show" },
+  { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
+  { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
+  { action: "show", keys: ["s"], shown: "S", says: "The show" },
+  { action: "keyframe", keys: ["Enter"], shown: "Enter", says: "Keyframe here, on the chosen track", controls: true },
+  { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },
+  { action: "help", keys: ["?"], shown: "?", says: "This list" },
+];
+
+const BY_ACTION = new Map(SHORTCUTS.map((shortcut) => [shortcut.action, shortcut]));
+
+/** What `title` says of a control: what it does, and its key. */
+export function hint(action: Action, says?: string): string {
+  const shortcut = BY_ACTION.get(action);
+  return shortcut === undefined ? (says ?? "") : `${says ?? shortcut.says} (${shortcut.shown})`;
+}
+
+/** The value of `aria-keyshortcuts` for a control. */
+export function ariaKeys(action: Action): string {
+  const shortcut = BY_ACTION.get(action);
+  const key = shortcut?.keys[0] ?? "";
+  const name = key === " " ? "Space" : key === "+" ? "Plus" : key;
+  return shortcut?.shift === true ? `Shift+${name}` : name;
+}
+
+/** A key press as far as it matters here. */
+export type KeyPress = Pick<KeyboardEvent, "key" | "shiftKey" | "ctrlKey" | "metaKey" | "altKey" | "repeat">;
+
+/** What a key press asks for; null for what is no shortcut, or a shortcut of the browser's own. */
+export function shortcutOf(press: KeyPress): Shortcut | null {
+  if (press.ctrlKey || press.metaKey || press.altKey) return null;
+  const key = press.key.length === 1 ? press.key.toLowerCase() : press.key;
+  const found = SHORTCUTS.find(({ keys, shift }) => {
+    // Shift only tells arrows apart; what it makes of a letter key is a key of its own already.
+    return keys.includes(key) && (press.key.length === 1 || (shift ?? false) === press.shiftKey);
+  });
+  return found === undefined || (press.repeat && found.repeats !== true) ? null : found;
+}

@@ -1,0 +1,63 @@
+/** What this browser remembers: the sessions that it may change, and how the person likes the page. */
+export interface Remembered {
+  /** Session id to the token that changes it. */
+  readonly tokens: Readonly<Record<string, string>>;
+  /** The session that `/` opens. */
+  readonly home: string | null;
+  readonly volume: number;
+  readonly muted: boolean;
+  readonly pieceOpen: boolean;
+  readonly showOpen: boolean;
+  /** Somebody has pressed Play here before: the welcome has done its work. */
+  readonly hasPlayed: boolean;
+}
+
+const KEY = "reina";
+const MOST_TOKENS = 200;
+
+const NOTHING: Remembered = {
+  tokens: {},
+  home: null,
+  volume: 0.9,
+  muted: false,
+  pieceOpen: false,
+  showOpen: false,
+  hasPlayed: false,
+};
+
+/** What is remembered; defaults where the browser keeps nothing or lets nothing be read. */
+export function remembered(storage: Pick<Storage, "getItem"> | null = pageStorage()): Remembered {
+  try {
+    const text = storage?.getItem(KEY) ?? null;
+    return text === null ? NOTHING : { ...NOTHING, ...(JSON.parse(text) as Partial<Remembered>) };
+  } catch {
+    return NOTHING;
+  }
+}
+
+/** Remember a change; without a storage (private windows) it is forgotten with the page. */
+export function remember(
+  change: Partial<Remembered>,
+  storage: Pick<Storage, "getItem" | "setItem"> | null = pageStorage(),
+): void {
+  const next = { ...remembered(storage), ...change };
+  const tokens = Object.fromEntries(Object.entries(next.tokens).slice(-MOST_TOKENS));
+  try {
+    storage?.setItem(KEY, JSON.stringify({ ...next, tokens }));
+  } catch {
+    // Full or forbidden: the page works on, it only starts afresh next time.
+  }
+}
+
+/** Remember the token of a session that this browser made. */
+export function rememberToken(id: string, token: string): void {
+  remember({ tokens: { ...remembered().tokens, [id]: token } });
+}
+
+function pageStorage(): Storage | null {
+  try {
+    return localStorage;
+  } catch {
+    return null;
+  }
+}
