@@ -136,18 +136,23 @@ class SongRenderer:
         self._renderings: dict[Path, _Rendering] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    async def request(self, score: Score, *, trumpet_part: int | None = None) -> SongRequest:
+    async def request(
+        self, score: Score, *, trumpet_part: int | None = None, transposition: int = 0
+    ) -> SongRequest:
         """Ask for a score's song, which is then made in the background unless it is there already.
 
         Args:
             score: The score; time 0 of the song is its time 0.
             trumpet_part: Index of the part that the trumpeter plays.
+            transposition: Semitones by which that part is moved.
 
         Raises:
             InputError: The score is longer than an hour.
             MissingSoundfontError: There is nothing to render with.
         """
-        plan = await asyncio.to_thread(plan_sound, score, trumpet_part=trumpet_part)
+        plan = await asyncio.to_thread(
+            plan_sound, score, trumpet_part=trumpet_part, transposition=transposition
+        )
         soundfont = self._soundfont or find_soundfont(self._data_dir)
         identity = await asyncio.to_thread(soundfont_id, soundfont)
         path = self._songs / f"{plan.digest(RENDERING_VERSION, identity)}.wav"

@@ -38,7 +38,7 @@ they end."""
 BANK_SELECT = 0
 
 
-def plan_sound(score: Score, *, trumpet_part: int | None = None) -> SoundPlan:
+def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: int = 0) -> SoundPlan:
     """Plan how a score sounds.
 
     Every part gets a channel of its own (drums of one kit share theirs), on as many ports of sixteen channels
@@ -49,6 +49,7 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None) -> SoundPlan:
         score: The score.
         trumpet_part: Index of the part that the trumpeter plays; it is a trumpet unless the file says
             otherwise.
+        transposition: Semitones by which that part sounds higher than written in the score.
 
     Raises:
         InputError: The score is longer than an hour.
@@ -60,7 +61,10 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None) -> SoundPlan:
             "cut it, or send a song with it"
         )
     seats = _seats(score.parts, trumpet_part)
-    return SoundPlan(notes=_plan_notes(score, seats), controls=_plan_controls(score, seats, trumpet_part))
+    moved = np.where(score.notes.part == trumpet_part, transposition, 0)
+    return SoundPlan(
+        notes=_plan_notes(score, seats, moved), controls=_plan_controls(score, seats, trumpet_part)
+    )
 
 
 def _seats(parts: tuple[Part, ...], trumpet_part: int | None) -> NDArray[np.uint16]:
@@ -90,14 +94,14 @@ def _seats(parts: tuple[Part, ...], trumpet_part: int | None) -> NDArray[np.uint
     return np.array([seats[key] for key in keys], dtype=np.uint16)
 
 
-def _plan_notes(score: Score, seats: NDArray[np.uint16]) -> NDArray[np.void]:
+def _plan_notes(score: Score, seats: NDArray[np.uint16], semitones: NDArray[np.int64]) -> NDArray[np.void]:
     notes = np.zeros(len(score.notes), dtype=NOTE_DTYPE)
     on = np.rint(score.notes.onset_s * SAMPLE_RATE).astype(np.int64)
     end = np.rint(score.notes.end_s * SAMPLE_RATE).astype(np.int64)
     notes["on"] = on
     notes["off"] = np.maximum(end, on + SHORTEST_NOTE)
     notes["port"], notes["channel"] = seats[score.notes.part].T
-    notes["key"] = np.clip(score.notes.sounding_pitch, 0, 127)
+    notes["key"] = np.clip(score.notes.sounding_pitch + semitones, 0, 127)
     notes["velocity"] = np.clip(np.rint(score.notes.velocity * 127), 1, 127)
     return _without_overlaps(notes)
 

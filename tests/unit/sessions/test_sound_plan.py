@@ -107,6 +107,16 @@ def test_controls_go_with_every_part_of_their_channel() -> None:
     assert sorted(heard) == [(0xB0, 64, 127), (0xB1, 64, 127), (0xE0, 0, 0), (0xE1, 0, 0)]
 
 
+def test_the_trumpet_part_alone_is_transposed() -> None:
+    rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (1, 0.0, 1.0, 60, 0.8)]
+    score = a_score(rows, [a_part(0, "Trumpet"), a_part(1, "Piano")])
+    plan = plan_sound(score, trumpet_part=0, transposition=-2)
+    assert dict(zip(plan.notes["channel"].tolist(), plan.notes["key"].tolist(), strict=True)) == {
+        0: 58,
+        1: 60,
+    }
+
+
 def test_more_than_an_hour_is_refused() -> None:
     with pytest.raises(InputError, match="at most 60"):
         plan_sound(a_score([(0, LONGEST_S, 1.0, 60, 0.8)]))
