@@ -18,6 +18,13 @@ export interface ShowPose {
   roll: number;
 }
 
+/** Stand a camera where the show has it; its field of view is left alone. */
+export function aim(camera: PerspectiveCamera, { position, target, roll }: ShowPose): void {
+  camera.position.copy(position);
+  camera.lookAt(target);
+  camera.rotateZ(-roll);
+}
+
 export interface StageCameraOptions {
   readonly reducedMotion: boolean;
   onTaken(taken: boolean): void;
@@ -97,9 +104,7 @@ export class StageCamera {
     let fov = this.#heldFov;
     if (!this.#taken) {
       const goal = this.#goal;
-      goal.position.copy(show.position);
-      goal.lookAt(show.target);
-      goal.rotateZ(-show.roll);
+      aim(goal, show);
       this.#controls.target.copy(show.target);
       const elapsed = (performance.now() - this.#returnedAt) / RETURN_MS;
       if (elapsed < 1) {

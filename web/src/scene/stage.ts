@@ -8,6 +8,7 @@ import { NoteBlocks } from "./blocks/blocks";
 import { StageCamera } from "./camera";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import { StageLights } from "./lights";
+import { release } from "./release";
 import { createRenderer } from "./renderer";
 import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
@@ -116,7 +117,10 @@ export class Stage {
       return layout === undefined ? [] : [new RigModel(rig, layout, parameters)];
     });
     this.#show.bind(parameters);
-    for (const { object } of this.#models) this.#scene.remove(object);
+    for (const { object } of this.#models) {
+      this.#scene.remove(object);
+      release(object);
+    }
     for (const { object } of models) {
       dressSurfaces(object, this.#tier);
       this.#scene.add(object);
@@ -216,6 +220,7 @@ export class Stage {
     this.#camera.dispose();
     this.#lights.dispose();
     this.#blocks.dispose();
+    release(this.#scene);
     this.#room.mirror?.dispose();
     this.#reflections.dispose();
     this.#renderer.dispose();

@@ -100,10 +100,12 @@ void main() {
   // Lacquer: a matt body under a clear coat that catches the window.
   float wrapped = 0.5 + 0.5 * dot(normal, toKey);
   float sky = 0.5 + 0.5 * normal.y;
-  vec3 light = vec3(1.0, 0.88, 0.72) * wrapped * wrapped * 0.9 + vec3(0.2, 0.22, 0.27) * sky;
+  vec3 light = vec3(1.0, 0.88, 0.72) * wrapped * wrapped * 0.9 + vec3(0.3, 0.31, 0.35) * sky;
   float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
   float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0) * 1.6;
-  vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.35 * fresnel + glint);
+  vec3 mirrored = reflect(-eye, normal);
+  float window = smoothstep(0.15, 0.5, dot(mirrored, toKey)) * smoothstep(-0.1, 0.15, mirrored.y) * 0.12;
+  vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.35 * fresnel + glint + window);
 
   // From the edge of the face inward, metres.
   float fromEnds = min(vInside.x, vLength - vInside.x);

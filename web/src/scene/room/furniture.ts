@@ -17,18 +17,18 @@ import { createSurface } from "./surface";
 type Place = readonly [x: number, z: number, heading: number];
 
 const STANDS: readonly Place[] = [
-  [2.5, -2.25, -0.45],
-  [-2.2, -2.3, 0.4],
-  [3.5, -1.2, -0.8],
-  [-3.4, -1.4, 0.8],
+  [-0.95, -2.45, 0.2],
+  [-2.5, -2.1, 0.5],
+  [3.55, -0.1, -0.9],
+  [-3.6, -0.9, 0.9],
 ];
 
 const CHAIRS: readonly Place[] = [
-  [2.78, -2.85, -0.45],
-  [-2.45, -2.9, 0.4],
-  [3.95, -1.65, -0.8],
-  [-3.85, -1.85, 0.8],
-  [0.9, -3.15, -0.1],
+  [-1.1, -3.05, 0.2],
+  [-2.8, -2.65, 0.5],
+  [4.0, -0.45, -0.9],
+  [-4.0, -1.25, 0.9],
+  [2.35, -3.1, -0.3],
 ];
 
 function rod(from: [number, number, number], to: [number, number, number], radius: number): BufferGeometry {

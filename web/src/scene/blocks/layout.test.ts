@@ -1,0 +1,82 @@
+import { describe, expect, it } from "vitest";
+
+import type { ScoreNote } from "../score";
+import { CHUNK_NOTES, layOut, UNPLAYABLE, valveMask } from "./layout";
+import { staffStep } from "./staff";
+
+function melody(count: number): ScoreNote[] {
+  return Array.from({ length: count }, (_, i) => ({
+    onset_s: i * 0.25,
+    duration_s: 0.2,
+    written_pitch: 60 + ((i * 7) % 24),
+    valves: i % 5 === 0 ? null : [1, 3].slice(0, i % 3),
+  }));
+}
+
+describe("valveMask", () => {
+  it("has a bit for each valve, and its own value for what cannot be played", () => {
+    expect(valveMask([])).toBe(0);
+    expect(valveMask([1])).toBe(1);
+    expect(valveMask([2, 3])).toBe(6);
+    expect(valveMask([1, 2, 3])).toBe(7);
+    expect(valveMask(null)).toBe(UNPLAYABLE);
+  });
+});
+
+describe("layOut", () => {
+  it("keeps every note once, in time, whatever order it came in", () => {
+    const notes = melody(3 * CHUNK_NOTES + 5);
+    const chunks = layOut({ notes: [...notes].reverse(), bar_lines_s: [] });
+    expect(chunks).toHaveLength(4);
+    const columns = chunks.flatMap((chunk) => [...chunk.notes]);
+    expect(columns).toHaveLength(4 * notes.length);
+    notes.forEach((note, i) => {
+      expect(columns.slice(4 * i, 4 * i + 4)).toEqual([
+        Math.fround(note.onset_s),
+        Math.fround(note.duration_s),
+        staffStep(note.written_pitch),
+        valveMask(note.valves),
+      ]);
+    });
+  });
+
+  it("keeps every bar line once, on the staff's height", () => {
+    const bars = Array.from({ length: 60 }, (_, i) => i);
+    const chunks = layOut({ notes: melody(150), bar_lines_s: bars });
+    const drawn: number[] = [];
+    for (const { lines } of chunks) {
+      for (let i = 0; i < lines.length; i += 4) {
+        const [start, end, low, high] = lines.subarray(i, i + 4);
+        if (low === high) continue;
+        expect([low, high]).toEqual([0, 8]);
+        expect(start).toBe(end);
+        drawn.push(start ?? Number.NaN);
+      }
+    }
+    expect(drawn).toEqual(bars);
+  });
+
+  it("covers its own notes and lines with each chunk's time", () => {
+    for (const { startS, endS, notes, lines } of layOut({ notes: melody(200), bar_lines_s: [0, 2, 4, 70] })) {
+      for (let i = 0; i < notes.length; i += 4) {
+        const onset = notes[i] ?? Number.NaN;
+        expect(onset).toBeGreaterThanOrEqual(startS);
+        expect(onset + (notes[i + 1] ?? Number.NaN)).toBeLessThanOrEqual(endS + 1e-5);
+      }
+      for (let i = 0; i < lines.length; i += 4) {
+        expect(lines[i]).toBeGreaterThanOrEqual(startS - 1e-5);
+        expect(lines[i + 1]).toBeLessThanOrEqual(endS + 1e-5);
+      }
+    }
+  });
+
+  it("rules a ledger line under a low note, as long as the note", () => {
+    const [chunk] = layOut({ notes: [{ onset_s: 1, duration_s: 2, written_pitch: 60, valves: [] }], bar_lines_s: [] });
+    expect([...(chunk?.lines ?? [])]).toEqual([1, 3, -2, -2]);
+  });
+
+  it("draws the bar lines of an empty part, and nothing of an empty score", () => {
+    expect(layOut({ notes: [], bar_lines_s: [0, 2] })[0]?.lines).toHaveLength(8);
+    expect(layOut({ notes: [], bar_lines_s: [] })).toEqual([]);
+  });
+});
