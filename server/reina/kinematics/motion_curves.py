@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def minimum_jerk(fraction: ArrayLike) -> FloatArray:
     """10u³ - 15u⁴ + 6u⁵ for u clipped to 0..1: a movement from rest to rest (Flash and Hogan 1985)."""
     u = np.minimum(np.maximum(np.asarray(fraction, dtype=np.float64), 0.0), 1.0)
-    return u * u * u * (10.0 + u * (6.0 * u - 15.0))
+    return np.minimum(u * u * u * (10.0 + u * (6.0 * u - 15.0)), 1.0)
 
 
 class MotionCurves:
@@ -63,7 +63,7 @@ class MotionCurves:
         place += self._offsets - 1
         u = (times_s - self._origin[place]) * self._rate[place]
         u = np.minimum(np.maximum(u, 0.0), 1.0)
-        done = u * u * u * (10.0 + u * (6.0 * u - 15.0))
+        done = np.minimum(u * u * u * (10.0 + u * (6.0 * u - 15.0)), 1.0)
         return self._value[place] - self._change[place] * (1.0 - done)
 
     def index(self, names: Sequence[str]) -> IntArray:

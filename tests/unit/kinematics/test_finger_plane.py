@@ -97,8 +97,9 @@ def test_pads_reach_their_targets_from_random_poses_and_rests(seed: int) -> None
             joint = int(fingers.joints[finger, place])
             limits = rig.limits[joint]
             from_rest = r.multiply(r.conjugate(rig.skeleton.rest_rotations[joint]), found[:, finger, place])
-            first, middle, last = np.moveaxis(r.to_euler(from_rest, limits.order), -1, 0)
-            # Beyond 90° about the middle axis the same rotation has its other set of angles within the limits.
+            euler = r.to_euler(from_rest, limits.order)
+            first, middle, last = euler[:, 0], euler[:, 1], euler[:, 2]
+            # Beyond 90° about the middle axis the rotation's other set of angles is the one in limits.
             folded = np.abs(first) > 0.5 * np.pi
             middle = np.where(folded, np.copysign(np.pi, middle) - middle, middle)
             first, last = (
