@@ -10,6 +10,7 @@ from reina.sessions.sound_events import SAMPLE_RATE
 from reina.sessions.sound_wav import wav_header
 
 CHANNELS = 2
+FULL_SCALE = 32767
 TARGET_RMS = 10 ** (-18 / 20)
 """Level of the parts that are heard, as a fraction of full scale: -18 dB."""
 LARGEST_PEAK = 10 ** (-1 / 20)
@@ -21,7 +22,7 @@ gates)."""
 ABSOLUTE_GATE = 10 ** (-70 / 20)
 WINDOW = SAMPLE_RATE * 2 // 5
 INAUDIBLE = 10 ** (-66 / 20)
-"""After the last sample over this fraction of the peak, the file ends."""
+"""After the last sample over this fraction of the peak, the file fades out."""
 FADE = SAMPLE_RATE // 4
 PIECE = 10 * SAMPLE_RATE
 
@@ -87,42 +88,43 @@ class Mix:
             at_least: How many samples the file has at least; where sound rings on, it has more.
         """
         self._settle(len(self._open))
-        self._file.flush()
-        mixed = np.memmap(self._scratch, dtype=np.float32, mode="r").reshape(-1, CHANNELS)
-        peak, level, end = _measure(mixed)
+        peak, level = self._levels()
         gain = min(TARGET_RMS / level, LARGEST_PEAK / peak, LARGEST_GAIN) if peak > 0 else 1.0
-        frames = max(end, at_least)
+        frames = max(self._audible_end(peak) + FADE, at_least)
         with path.open("wb") as out:
             out.write(wav_header(frames, sample_rate=SAMPLE_RATE, channels=CHANNELS))
             for first in range(0, frames, PIECE):
-                count = min(PIECE, frames - first)
-                piece = self._silence(count)
-                held = mixed[first : first + count]
-                piece[: len(held)] = held
-                piece *= np.float32(gain * 32767)
-                fade = np.clip((frames - first - np.arange(count)) / FADE, 0, 1).astype(np.float32)
+                piece = self._piece(first, min(PIECE, frames - first))
+                piece *= np.float32(gain * FULL_SCALE)
+                fade = np.clip((frames - first - np.arange(len(piece))) / FADE, 0, 1).astype(np.float32)
                 out.write(np.rint(piece * fade[:, None]).astype("<i2").tobytes())
 
+    def _piece(self, first: int, count: int) -> Samples:
+        """Read samples of the sum, (count, 2); silence after its end."""
+        self._file.seek(first * CHANNELS * np.dtype(np.float32).itemsize)
+        held = np.fromfile(self._file, dtype=np.float32, count=count * CHANNELS).reshape(-1, CHANNELS)
+        return np.concatenate((held, self._silence(count - len(held))))
 
-def _measure(mixed: Samples) -> tuple[float, float, int]:
-    """Return peak and gated level as fractions of full scale, and the sample after the last audible one."""
-    peak = 0.0
-    powers: list[float] = []
-    for first in range(0, len(mixed), PIECE):
-        piece = mixed[first : first + PIECE]
-        peak = max(peak, float(np.abs(piece).max()))
-        windows = len(piece) // WINDOW
-        if windows:
-            squares = piece[: windows * WINDOW].reshape(windows, -1).astype(np.float64) ** 2
+    def _levels(self) -> tuple[float, float]:
+        """Return peak and gated level, as fractions of full scale."""
+        peak = 0.0
+        powers: list[float] = []
+        for first in range(0, self._written, PIECE):
+            piece = self._piece(first, min(PIECE, self._written - first))
+            peak = max(peak, float(np.abs(piece).max()))
+            windows = len(piece) // WINDOW
+            squares = piece[: windows * WINDOW].reshape(windows, WINDOW * CHANNELS).astype(np.float64) ** 2
             powers.extend(squares.mean(axis=1).tolist())
-    loud = np.array([power for power in powers if power > ABSOLUTE_GATE**2])
-    if len(loud):
-        loud = loud[loud >= loud.mean() * GATE**2]
-    level = float(np.sqrt(loud.mean())) if len(loud) else peak
-    end = 0
-    for first in reversed(range(0, len(mixed), PIECE)):
-        audible = np.flatnonzero(np.abs(mixed[first : first + PIECE]).max(axis=1) > peak * INAUDIBLE)
-        if len(audible):
-            end = first + int(audible[-1]) + 1
-            break
-    return peak, level, end
+        loud = np.array([power for power in powers if power > ABSOLUTE_GATE**2])
+        if not len(loud):
+            return peak, peak
+        return peak, float(np.sqrt(loud[loud >= loud.mean() * GATE**2].mean()))
+
+    def _audible_end(self, peak: float) -> int:
+        """Return the sample after the last that is heard."""
+        for first in reversed(range(0, self._written, PIECE)):
+            piece = self._piece(first, min(PIECE, self._written - first))
+            audible = np.flatnonzero(np.abs(piece).max(axis=1) > peak * INAUDIBLE)
+            if len(audible):
+                return first + int(audible[-1]) + 1
+        return 0

@@ -18,13 +18,12 @@ import midirenderer
 import numpy as np
 
 from reina.sessions.sound_events import CONTROL_DTYPE, NOTE_DTYPE, SoundPlan
-from reina.sessions.sound_mix import CHANNELS, Mix, Samples
+from reina.sessions.sound_mix import CHANNELS, FULL_SCALE, Mix, Samples
 from reina.sessions.sound_passages import BLOCK, Passage, cut_into_passages, write_passage
 
 GAINS = (1.0, 1 / 4, 1 / 16, 1 / 64)
 """How loud a passage is rendered: the first at which it does not reach full scale, where the synthesizer
 would clip."""
-FULL_SCALE = 32767
 RENDERING = 0.95
 """Share of the work that is rendering; the rest is levelling and writing."""
 NICENESS = 5

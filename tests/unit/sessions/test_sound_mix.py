@@ -69,8 +69,15 @@ def test_what_is_hardly_there_is_not_blown_up(tmp_path: Path) -> None:
 
 def test_the_file_ends_with_the_sound_but_not_before_the_score(tmp_path: Path) -> None:
     sound = np.concatenate((noise(2, 0.05), np.zeros((5 * SAMPLE_RATE, 2), dtype=np.float32)))
-    assert len(mixed(tmp_path, (0, sound.copy()))) == pytest.approx(2 * SAMPLE_RATE, abs=100)
+    assert len(mixed(tmp_path, (0, sound.copy()))) == pytest.approx(2 * SAMPLE_RATE + FADE, abs=100)
     assert len(mixed(tmp_path, (0, sound.copy()), at_least=10 * SAMPLE_RATE)) == 10 * SAMPLE_RATE
+
+
+@pytest.mark.parametrize("seconds", [0.05, 0.3, 9.999, 10.0, 10.1])
+def test_any_length_is_measured_to_its_end(tmp_path: Path, seconds: float) -> None:
+    got = mixed(tmp_path, (0, noise(seconds, 0.02)))
+    assert len(got) == pytest.approx((seconds + FADE / SAMPLE_RATE) * SAMPLE_RATE, abs=200)
+    assert np.abs(got).max() > 0.1
 
 
 def test_silence_stays_silent(tmp_path: Path) -> None:
