@@ -26,7 +26,7 @@ from hold.stance import Stance, stand
 Array = NDArray[np.float64]
 
 RIGS = Path(__file__).resolve().parents[1]
-PITCH_DOWN_DEG = 7.0
+PITCH_DOWN_DEG = 8.0
 STARTS = 6
 
 
@@ -43,7 +43,7 @@ def search(residuals: object, start: Array, label: str) -> Array:
     rng = np.random.default_rng(3)
     best = None
     for attempt in range(STARTS):
-        spread = np.r_[np.full(3, 0.012), np.full(3, 0.25), 0.3, 0.02, 0.02, np.full(len(start) - 9, 0.2)]
+        spread = np.r_[np.full(3, 0.006), np.full(3, 0.12), 0.2, 0.02, 0.02, np.full(len(start) - 9, 0.12)]
         guess = start + (rng.normal(0, 1, len(start)) * spread if attempt else 0)
         found = least_squares(residuals, guess, method="trf", x_scale=np.maximum(spread, 0.02), max_nfev=120)
         print(f"{label} start {attempt}: cost {found.cost:.3f}")
@@ -68,8 +68,9 @@ def solve_right(grip: Grip, trumpet: Rig) -> Pose:
 
 def solve_left(grip: Grip, trumpet: Rig) -> Pose:
     ring, saddle = trumpet.contact("ring")[1], trumpet.contact("saddle")[1]
-    pads = np.array([[-0.0098, 0.019, 0.0330], [-0.0098, 0.004, 0.0335], [0.0185, -0.030, 0.068]])
-    hand = LeftHand(grip, pads, ring, saddle + [0.0, -0.0075, 0.0], trumpet.contact("grip_left")[1][0])
+    third = trumpet.content["buttons"][2]["position"]
+    casing = trumpet.contact("grip_left")[1][0]
+    hand = LeftHand(grip, ring, saddle, np.array([0.0185, -0.030, 0.064]), third[2], casing)
     x = search(hand.residuals, left_hand.START, "left")
     arm = grip.reach(x)[2]
     print("left hand", np.round(x, 4).tolist())

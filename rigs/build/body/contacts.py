@@ -16,7 +16,8 @@ Array = NDArray[np.float64]
 
 RIM_RADIUS_M = 0.0118
 RIM_PRESS_M = 0.0012  # how far the rim sinks into the lips' softness
-PITCH_DOWN_RAD = float(np.radians(6.0))
+THICKEST_DIGIT_M = 0.0120
+PITCH_DOWN_RAD = float(np.radians(10.0))  # of the mouthpiece from the head, as it is held
 
 
 def lips_contact(figure: Figure, lip_centre: Array) -> Array:
@@ -84,7 +85,8 @@ def capsules(figure: Figure, skeleton: Skeleton, weights: Array) -> list[dict[st
             tip = skeleton.effectors[f"{side}{digit}Tip"][1]
             for joint, following in zip(joints, [*joints[1:], None], strict=True):
                 radius = thickness(joint, p[joint], tip if following is None else p[following], 50)
-                end = p[following] if following else tip + skeleton.axes[joint][:, 1] * radius * 0.75
+                radius = min(radius, THICKEST_DIGIT_M)  # the ball of the thumb is flesh and gives way
+                end = p[following] if following else tip + skeleton.axes[joint][:, 1] * radius * 0.95
                 add(joint, p[joint], end, radius)
         hand, up = f"{side}Hand", skeleton.axes[f"{side}Hand"][:, 1]
         for finger, radius in (("Index", 0.0125), ("Middle", 0.0125), ("Ring", 0.012), ("Little", 0.0115)):

@@ -28,7 +28,7 @@ def build_body(detail: float, metals: Metals) -> Workpiece:
     _leadpipe(body, metals)
     for z in m.VALVE_Z:
         _casing(body, metals, z)
-    for first, second, y in ((0, 1, -0.022), (0, 1, 0.012), (1, 2, -0.006), (1, 2, 0.020)):
+    for first, second, y in ((0, 1, -0.030), (0, 1, -0.002), (1, 2, -0.014), (1, 2, 0.020)):
         body.sweep(metals.brass, line([0, y, m.VALVE_Z[first]], [0, y, m.VALVE_Z[second]]), m.TUBE * 0.96)
     _braces(body, metals)
     _hook(body, metals)
@@ -108,6 +108,6 @@ def _outer_legs(body: Workpiece, metals: Metals) -> None:
         body.sweep(metals.brass, line([0.004, y, z3], [x, y, z3 + 0.026], 6), tube)
         body.sweep(metals.silver, line([x, y, z3 + 0.026], [x, y, m.SLIDE3_Z + 0.03]), tube - 0.0006)
         body.ferrule(metals.silver, [x, y, z3 + 0.022], [x, y, z3 + 0.030], tube + 0.0009)
-    for y in (-0.010, 0.014):
+    for y in m.SLIDE2_Y:
         body.sweep(metals.brass, line([-0.006, y, 0], [-0.020, y, 0], 4), tube * 0.95)
         body.ferrule(metals.silver, [-0.0175, y, 0], [-0.022, y, 0], tube + 0.0008)

@@ -22,9 +22,9 @@ CONTACTS: dict[str, tuple[float, float, float]] = {
     "mouthpiece": (m.X_LEADPIPE, m.Y_TOP, m.Z_RIM),
     "bell": (m.X_BELL, m.Y_TOP, m.Z_BELL_END),
     "ring": m.RING,
-    "hook": (m.X_LEADPIPE + 0.001, m.Y_TOP + m.TUBE + 0.0002, m.HOOK_Z - 0.013),
-    "saddle": m.SADDLE,
-    "thumb_right": (-0.0064, 0.015, (m.VALVE_Z[0] + m.VALVE_Z[1]) / 2),
+    "hook": (m.X_LEADPIPE - 0.002, m.Y_TOP + 0.0125, m.HOOK_Z - 0.012),
+    "saddle": (m.SADDLE[0], m.SADDLE[1] - 0.0076, m.SADDLE[2]),
+    "thumb_right": (-0.0056, 0.017, (m.VALVE_Z[0] + m.VALVE_Z[1]) / 2),
     "grip_left": (m.CASING, -0.010, m.VALVE_Z[1]),
 }
 

@@ -38,7 +38,8 @@ SADDLE = (0.006, SLIDE1_Y[1] + TUBE + 0.010, VALVE_Z[0] - 0.040)
 RING = (0.0110, SLIDE3_Y[1] + TUBE + 0.0122, VALVE_Z[2] + 0.052)
 RING_RADIUS = 0.0112
 RING_WIRE = 0.0017
-HOOK_Z = 0.050
+SLIDE2_Y = (-0.025, -0.001)
+HOOK_Z = 0.056
 
 
 def bell_radius(distance_from_end: float) -> float:

@@ -49,10 +49,12 @@ def first_slide(detail: float, metals: Metals) -> Workpiece:
 
 def second_slide(detail: float, metals: Metals) -> Workpiece:
     piece = Workpiece(detail)
+    low, high = m.SLIDE2_Y
+    middle, half = (low + high) / 2, (high - low) / 2
     a = np.linspace(0, np.pi, piece.facets(30, 10))
-    bow = np.column_stack([-0.026 - 0.012 * np.sin(a), 0.002 + 0.012 * np.cos(a), np.zeros(len(a))])
-    piece.sweep(metals.brass, joined_path(line([-0.022, 0.014, 0], bow[0], 3), bow, line(bow[-1], [-0.022, -0.010, 0], 3)), m.TUBE * 0.95)
-    piece.ring(metals.brass, [-0.040 - m.TUBE, 0.002, 0], [0, 0, 1], 0.0032, 0.0008, 20, 8)
+    bow = np.column_stack([-0.026 - half * np.sin(a), middle + half * np.cos(a), np.zeros(len(a))])
+    piece.sweep(metals.brass, joined_path(line([-0.022, high, 0], bow[0], 3), bow, line(bow[-1], [-0.022, low, 0], 3)), m.TUBE * 0.95)
+    piece.ring(metals.brass, [-0.028 - half - m.TUBE, middle, 0], [0, 0, 1], 0.0032, 0.0008, 20, 8)
     return piece
 
 

@@ -47,7 +47,7 @@ def trumpet_capsules() -> list[dict[str, Any]]:
             add([x * 0.8, y, z], [x, y, end], m.TUBE + 0.0006)
         reach = (levels[1] - levels[0]) / 2 * np.sign(end - z)
         add_path(u_bend(x, x, levels[1], levels[0], end, reach, BOW_PIECES), m.TUBE)
-    for y in (-0.010, 0.014):
+    for y in m.SLIDE2_Y:
         add([0, y, 0], [-0.026, y, 0], m.TUBE + 0.0006)
-    add([-0.036, 0.010, 0], [-0.036, -0.006, 0], m.TUBE)
+    add([-0.036, m.SLIDE2_Y[1] - 0.004, 0], [-0.036, m.SLIDE2_Y[0] + 0.004, 0], m.TUBE)
     return result

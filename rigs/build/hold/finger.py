@@ -11,11 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hold.collision import along_bones
 from hold.rig import Rig, turn
 
 Array = NDArray[np.float64]
 
 KAPPA = 1 / 3
+PAD_DEPTH = 0.95  # the bone lies this many radii under the pad
 PARTS = ("Proximal", "Intermediate", "Distal")
 LEAST_THETA2 = np.radians(-135.0)
 
@@ -78,6 +80,21 @@ class Finger:
         y = np.r_[0, np.cumsum(self.lengths * np.sin(direction))]
         plane = np.column_stack([x * np.cos(abduction), y, -x * np.sin(abduction)])
         return self.knuckle + plane @ self.rest.T
+
+    def spheres(self, angles: Array, samples: int, bones: int = 3) -> tuple[Array, Array]:
+        """Spheres (P, 3), (P,) that stand for the finger's first `bones` bones, in the hand's frame; the last touches the pad."""
+        points = self.points(angles)
+        direction = angles[1] - self.rest_angles[0] + angles[2] + angles[3]
+        dorsal = np.array([-np.sin(direction) * np.cos(angles[0]), np.cos(direction), np.sin(direction) * np.sin(angles[0])])
+        points[3] = points[3] + PAD_DEPTH * self.radii[2] * (self.rest @ dorsal)
+        return along_bones(points[: bones + 1], self.radii[:bones], samples)
+
+    def pad_direction(self, angles: Array) -> Array:
+        """Where the pad looks (3,), in the hand's frame: square to the line from outer joint to pad, on the palm's side."""
+        direction = angles[1] - self.rest_angles[0] + angles[2] + angles[3]
+        palmar = np.array([np.sin(direction) * np.cos(angles[0]), -np.cos(direction), -np.sin(direction) * np.sin(angles[0])])
+        looking: Array = self.rest @ palmar
+        return looking
 
     def local_rotations(self, angles: Array) -> dict[str, Array]:
         """The three joints' whole local rotations for angles (4,)."""

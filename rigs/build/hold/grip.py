@@ -23,15 +23,6 @@ DEG = 180.0 / np.pi
 ELBOW_FROM_SHOULDER_M = {"right": np.array([-0.130, -0.200, 0.125]), "left": np.array([0.105, -0.205, 0.140])}
 
 
-def hand_turn(fingers: list[float], back: list[float]) -> Array:
-    """The rotation vector (3,) of a hand whose fingers point along `fingers` and whose back looks along `back`."""
-    x = np.array(fingers) / np.linalg.norm(fingers)
-    y = np.array(back) - x * (x @ np.array(back))
-    y /= np.linalg.norm(y)
-    vector: Array = Rotation.from_matrix(np.column_stack([x, y, np.cross(x, y)])).as_rotvec()
-    return vector
-
-
 def beyond(value: Array | float, low: float, high: float) -> Array:
     """How far a value lies outside low … high, signed."""
     return np.minimum(np.asarray(value) - low, 0) + np.maximum(np.asarray(value) - high, 0)
@@ -67,9 +58,9 @@ class Grip:
         twist, flexion, deviation = arm.wrist * DEG
         return [
             np.array([arm.lacking * MM]),
-            (arm.elbow - self.shoulder - ELBOW_FROM_SHOULDER_M[self.side]) / 0.03,
+            (arm.elbow - self.shoulder - ELBOW_FROM_SHOULDER_M[self.side]) / 0.04,
             x[7:9] * DEG / 6,
-            np.array([twist / 60, flexion / 14, deviation / 9]),
+            np.array([twist / 60, flexion / 8, deviation / 7]),
             beyond(twist, -85, 85)[None] / 4,
             beyond(flexion, -38, 30)[None] / 3,
             beyond(deviation, -16, 16)[None] / 3,
@@ -79,6 +70,12 @@ class Grip:
         """Spheres that stand for the palm, in the hand's frame."""
         parts = [along_bones(np.array([c["from"], c["to"]]), np.array([c["radius"]]), 5) for c in self.palm]
         return np.vstack([p for p, _ in parts]), np.concatenate([r for _, r in parts])
+
+    def depth(self, rotation: Array, position: Array, centres: Array, radii: Array, allowed_m: float = 0.0005) -> Array:
+        """How deep (P,) in mm spheres of the hand's frame lie inside the instrument, beyond what flesh gives."""
+        inside = radii - allowed_m - self.obstacles.clearance(position + centres @ rotation.T)
+        deep: Array = np.maximum(inside, 0) * MM
+        return deep
 
     def pose(self, arm: ArmPose, fingers: list[Array], thumb: Array) -> Pose:
         """Local rotations of the whole arm with its hand."""

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from hold.collision import along_bones
-from hold.grip import DEG, MM, Grip, beyond, hand_turn
+from hold.grip import DEG, MM, Grip, beyond
 
 Array = NDArray[np.float64]
 
@@ -17,7 +16,9 @@ ABDUCTION_DEG = 12.0
 THETA1_DEG = (-67.0, 77.0)  # limits less a margin of three degrees
 THETA2_DEG = (-132.0, -3.0)
 CURL_DEG = (-52.0, -58.0, -54.0)
-START = np.array([-0.075, 0.055, -0.055, *hand_turn([0.7, 0.35, 0.6], [-0.5, 0.85, 0.0]), 0.6, 0.0, 0.05, *np.zeros(5)])
+START = np.array(  # place, rotation vector, swivel, shoulder; thumb
+    [*(-0.107, 0.022, 0.006), *(-0.20, 0.03, 0.96), 0.6, -0.2, -0.04, *(0.64, -0.42, -0.59, 0.32, 0.30)]
+)
 
 
 @dataclass
@@ -46,35 +47,30 @@ class RightHand:
         terms = self.grip.arm_cost(arm, x)
         for k in range(3):
             abduction, theta1, theta2, _ = angles[k].T * DEG
-            terms += [lacking[k] * MM / 0.2, (theta2 - CURL_DEG[k])[:1] / 9, abduction[:1] / 7, (theta1[:1] + 22) / 16]
+            terms += [lacking[k] * MM / 0.2, (theta2 - CURL_DEG[k])[:1] / 9, abduction[:1] / 7, (theta1[:1] + 20) / 9]
             terms += [beyond(abduction, -ABDUCTION_DEG, ABDUCTION_DEG) / 1.0, beyond(theta1, *THETA1_DEG) / 2, beyond(theta2, *THETA2_DEG) / 2]
             terms += [beyond(theta2, -82, -18) / 4]
             points = self.grip.fingers[k].points(angles[k][0]) @ rotation.T
             bone = (points[3] - points[2]) / np.linalg.norm(points[3] - points[2])
             terms.append(np.array([np.arcsin(np.clip(-bone[1], -1, 1)) * DEG - 58]) / 9)
         little = angles[3][0] * DEG
-        terms += [lacking[3] * MM / 2, little[:1] / 9, beyond(little[:1], -18, 18) / 1.5, beyond(little[1:2], *THETA1_DEG) / 3, beyond(little[2:3], -95, -12) / 5]
+        terms += [lacking[3] * MM / 2, little[:1] / 9, (little[1:2] + 35) / 20, (little[2:3] + 40) / 14, beyond(little[:1], -18, 18) / 1.5, beyond(little[1:2], *THETA1_DEG) / 3, beyond(little[2:3], -95, -12) / 5]
         thumb_points, pad_direction = self.grip.thumb.points(x[9:14])
         thumb_points = position + thumb_points @ rotation.T
-        terms.append((thumb_points[3] - self.thumb) * MM / 1.2)
+        terms.append((thumb_points[3] - self.thumb) * MM / [1.0, 2.5, 1.5])
+        terms.append(self.grip.obstacles.clearance(thumb_points[3:]) * MM / 0.5)
         terms.append((rotation @ pad_direction - [0.93, 0.2, 0.3]) / 0.5)
         terms.append(thumb_cost(x[9:14]))
-        terms += self._collisions(rotation, position, angles, thumb_points)
+        terms += self._collisions(rotation, position, angles, x[9:14])
         return np.concatenate([np.ravel(t) for t in terms])
 
-    def _collisions(self, rotation: Array, position: Array, angles: list[Array], thumb_points: Array) -> list[Array]:
-        terms = []
-        centres, radii = self.grip.palm_spheres()
-        spheres = [(position + centres @ rotation.T, radii, 0.0)]
+    def _collisions(self, rotation: Array, position: Array, angles: list[Array], thumb: Array) -> list[Array]:
+        """Depths inside metal: palm, thumb, and the fingers' two inner bones with valves up and down."""
+        spheres = [self.grip.palm_spheres(), self.grip.thumb.spheres(thumb, 4)]
         for k, finger in enumerate(self.grip.fingers):
-            for row in angles[k][:2]:
-                points = position + finger.points(row) @ rotation.T
-                spheres.append((*along_bones(points[:3], finger.radii[:2], 3), 0.0))
-        spheres.append((*along_bones(thumb_points, self.grip.thumb.radii, 4), 0.0008))
-        for places, sizes, allowed in spheres:
-            depth = sizes - allowed - self.grip.obstacles.clearance(places)
-            terms.append(np.maximum(depth, 0) * MM / 0.8)
-        return terms
+            spheres += [finger.spheres(row, 3, bones=2) for row in angles[k][:2]]
+        spheres.append(self.grip.fingers[3].spheres(angles[3][0], 4))
+        return [self.grip.depth(rotation, position, *each) / 0.7 for each in spheres]
 
 
 def thumb_cost(angles: Array) -> Array:

@@ -20,7 +20,7 @@ TURNS_DEG = {  # about X (forward bend), Y (to the left), Z (raises the left sid
     "upperChest": (-1.5, -1.0, 0.2),
     "neck": (4.0, 0.0, 0.2),
 }
-HEAD_WORLD_DEG = (1.5, 0.0, 0.0)
+HEAD_WORLD_DEG = (-2.0, 0.0, 0.0)
 FEET_M = {"left": (0.105, 0.020), "right": (-0.115, -0.030)}  # each ankle's x and z
 TOES_OUT_DEG = {"left": 11.0, "right": 15.0}
 

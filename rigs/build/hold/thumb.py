@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hold.collision import along_bones
+from hold.finger import PAD_DEPTH
 from hold.rig import Rig, turn
 
 Array = NDArray[np.float64]
@@ -47,6 +49,12 @@ class Thumb:
             frame = frame @ local
             places.append(place)
         return np.array([*places, place + frame @ self.pad]), -frame[:, 1]
+
+    def spheres(self, angles: Array, samples: int) -> tuple[Array, Array]:
+        """Spheres (P, 3), (P,) that stand for the thumb, in the hand's frame; the last touches the pad."""
+        points, looking = self.points(angles)
+        points[3] = points[3] - PAD_DEPTH * self.radii[2] * looking
+        return along_bones(points, self.radii, samples)
 
     def local_rotations(self, angles: Array) -> dict[str, Array]:
         """The three joints' whole local rotations for angles (5,)."""
