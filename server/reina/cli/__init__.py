@@ -1,1 +1,27 @@
-"""Commands."""
+"""The command `reina`."""
+
+import argparse
+import importlib
+import sys
+from collections.abc import Sequence
+
+COMMANDS = {
+    "serve": ("reina.cli.serve", "start the server and print its address"),
+    "inspect": ("reina.cli.inspect", "say what is in a score and how it is fingered"),
+}
+"""Each command's module, which is imported when it is asked for, and what it does."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command that the arguments name; return its exit status."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    parser = argparse.ArgumentParser(
+        prog="reina", description="A music visualizer with a player in it.", allow_abbrev=False
+    )
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, (module, what) in COMMANDS.items():
+        command = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
+        if arguments[:1] == [name]:
+            importlib.import_module(module).add_arguments(command)
+    chosen = parser.parse_args(arguments)
+    return int(importlib.import_module(COMMANDS[chosen.command][0]).run(chosen))

@@ -102,10 +102,20 @@ class MetreMap:
 
     def position(self, beats: float) -> BarPosition:
         """Return the bar and the beat in it at `beats` (0 or later)."""
-        lines = self.bar_lines(math.nextafter(max(beats, 0.0), math.inf))
-        index = max(len(lines) - 1, 0)
+        return self.positions(np.array([beats]))[0]
+
+    def positions(self, beats: FloatArray) -> list[BarPosition]:
+        """Return the bar and the beat in it at each of `beats` (0 or later)."""
+        if not len(beats):
+            return []
+        lines = self.bar_lines(float(np.nextafter(np.max(beats), np.inf)))
+        bars = np.maximum(np.searchsorted(lines, beats, side="right") - 1, 0)
         first_bar = 0 if self.pickup_beats > 0 else 1
-        return BarPosition(index + first_bar, beats - float(lines[index]))
+        in_bar = beats - lines[bars]
+        return [
+            BarPosition(bar + first_bar, beat)
+            for bar, beat in zip(bars.tolist(), in_bar.tolist(), strict=True)
+        ]
 
     def beats(self, position: BarPosition) -> float:
         """Return the place of a bar position in beats; the inverse of `position`.

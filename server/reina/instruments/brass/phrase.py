@@ -20,7 +20,10 @@ class Costs:
 
     Attributes:
         finger: Moving the finger of each valve, valve 1 first; the ring finger is the slowest.
+        together: What fingers that move together in one direction cost of what they cost one by one, for each
+            finger after the first.
         harmonic: Crossing one harmonic by the lips.
+        lips_alone: What a crossing without any valve to help it is multiplied by.
         departure: Leaving the primary fingering.
         rank: For each alternate that is more usual.
         out_of_tune: Being 20 cents off for half a second; it grows with the square.
@@ -29,7 +32,9 @@ class Costs:
     """
 
     finger: tuple[float, ...] = (1.0, 1.0, 1.25, 1.25)
+    together: float = 0.85
     harmonic: float = 0.75
+    lips_alone: float = 2.0
     departure: float = 1.2
     rank: float = 0.25
     out_of_tune: float = 1.0
@@ -58,9 +63,9 @@ class Choice:
     cents: float
 
 
-def moved(before: Valves, after: Valves) -> tuple[int, ...]:
+def moved(before: Valves, after: Valves) -> set[int]:
     """Return the valves that change between two fingerings."""
-    return tuple(sorted(set(before) ^ set(after)))
+    return set(before) ^ set(after)
 
 
 def note_cost(choice: Choice, duration_s: float, costs: Costs) -> float:
@@ -71,8 +76,12 @@ def note_cost(choice: Choice, duration_s: float, costs: Costs) -> float:
 
 def step_cost(before: Choice, after: Choice, interval_s: float, costs: Costs) -> float:
     """Return what going from one note to the next costs."""
-    fingers = sum(costs.finger[valve - 1] for valve in moved(before.valves, after.valves))
-    return costs.speed(interval_s) * (fingers + costs.harmonic * abs(after.harmonic - before.harmonic))
+    changed = moved(before.valves, after.valves)
+    fingers = sum(costs.finger[valve - 1] for valve in changed)
+    if changed in (set(before.valves) - set(after.valves), set(after.valves) - set(before.valves)):
+        fingers *= costs.together ** max(len(changed) - 1, 0)
+    lips = costs.harmonic * abs(after.harmonic - before.harmonic) * (1.0 if changed else costs.lips_alone)
+    return costs.speed(interval_s) * (fingers + lips)
 
 
 def choose(

@@ -1,0 +1,137 @@
+"""`reina inspect FILE`: parts, tempo, metre, warnings and fingerings of a score, as a table or as JSON."""
+
+import argparse
+import json
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from reina.errors import InputError
+from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
+from reina.music import Score, read_score
+
+DOWN, UP = "●", "○"
+REST = "–"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("file", type=Path, metavar="FILE", help="a MIDI file or a JSON score")
+    parser.add_argument("--json", action="store_true", help="print JSON and not tables")
+    parser.add_argument("--instrument", choices=sorted(INSTRUMENTS), default="trumpet", help="what plays it")
+    parser.add_argument("--part", type=int, help="the part to be played; the best one by default")
+    parser.add_argument("--transposition", type=int, default=0, metavar="SEMITONES", help="move the part")
+    parser.add_argument("--written", action="store_true", help="its pitches are written, not sounding ones")
+    parser.add_argument("--octave-fit", action="store_true", help="move it by octaves into range")
+    parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what is in the file; return 1, with the reason on stderr, if it cannot be read."""
+    file: Path = arguments.file
+    try:
+        score = read_score(file.read_bytes(), filename=file.name, sequence=arguments.sequence)
+        instrument = INSTRUMENTS[arguments.instrument]
+        rankings = instrument.rank_parts(score)
+        part = rankings[0].part if arguments.part is None else arguments.part
+        played = instrument.play(
+            score,
+            part,
+            arguments.transposition,
+            written=arguments.written,
+            octave_fit=arguments.octave_fit,
+        )
+    except (OSError, InputError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        print(f"reina inspect: {file}: {reason}", file=sys.stderr)
+        return 1
+    if arguments.json:
+        json.dump(
+            describe_score(score, instrument, played, rankings=rankings), sys.stdout, ensure_ascii=False
+        )
+        print()
+    else:
+        print("\n".join(_lines(score, instrument, rankings, played)))
+    return 0
+
+
+def _lines(
+    score: Score, instrument: Instrument, rankings: Sequence[PartRanking], played: PlayedPart
+) -> Iterable[str]:
+    minutes, seconds = divmod(score.duration_s, 60)
+    yield f"{score.title}  {int(minutes)}:{seconds:05.2f}  {len(score.notes)} notes"
+    if score.sequences > 1:
+        yield f"sequence {score.sequence} of {score.sequences}"
+    yield from _section("Tempo")
+    tempos = [
+        (f"{t.onset_beats:g}", f"{t.onset_s:.3f}", f"{t.beats_per_minute:.2f}")
+        for t in score.tempo_map.tempos
+    ]
+    yield from _table(("beat", "second", "beats a minute"), tempos)
+    yield from _section("Metre")
+    metres = [(f"{s.onset_beats:g}", f"{s.numerator}/{s.denominator}") for s in score.metre_map.signatures]
+    yield from _table(("beat", "metre"), metres)
+    yield from _section(f"Parts, the best for {instrument.name} first")
+    yield from _table(
+        ("", "part", "name", "program", "notes", "score", "because"), _parts(score, rankings, played)
+    )
+    warnings = (*score.warnings, *played.warnings)
+    yield from _section(f"Warnings: {len(warnings) or 'none'}")
+    yield from _table(("kind", "place", "what"), [(w.kind, w.place, w.message) for w in warnings])
+    yield from _section(f"Fingerings of part {played.part}, transposed by {played.transposition}")
+    heads = ("bar", "beat", "second", "lasts", "written", "sounds", "valves", "why")
+    yield from _table(heads, _fingerings(score, instrument, played))
+
+
+def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) -> list[tuple[str, ...]]:
+    return [
+        (
+            "▶" if ranking.part == played.part else "",
+            str(ranking.part),
+            score.parts[ranking.part].name,
+            REST if (program := score.parts[ranking.part].program) is None else str(program),
+            str(len(score.note_indices(ranking.part))),
+            f"{ranking.score:.1f}",
+            "; ".join(ranking.reasons),
+        )
+        for ranking in rankings
+    ]
+
+
+def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = []
+    line, fingering = played.line, played.fingering
+    positions = score.metre_map.positions(score.notes.onset_beats[line.note_index])
+    for place, position in enumerate(positions):
+        pitch = int(line.sounding_pitch[place])
+        pressed = fingering.pressed(place)
+        valves = (
+            REST
+            if pressed is None
+            else " ".join(DOWN if valve + 1 in pressed else UP for valve in range(fingering.valves.shape[1]))
+        )
+        rows.append(
+            (
+                str(position.bar),
+                f"{position.beat:g}",
+                f"{line.onset_s[place]:.3f}",
+                f"{line.end_s[place] - line.onset_s[place]:.3f}",
+                pitch_name(instrument.written_pitch(pitch)),
+                pitch_name(pitch),
+                valves,
+                fingering.reasons[place],
+            )
+        )
+    return rows
+
+
+def _section(title: str) -> tuple[str, str]:
+    return ("", title)
+
+
+def _table(heads: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> Iterable[str]:
+    if not rows:
+        return
+    widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
+    for row in (heads, *rows):
+        yield "  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
