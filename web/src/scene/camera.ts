@@ -53,7 +53,8 @@ export class StageCamera {
     this.#controls.minDistance = 0.25;
     this.#controls.maxDistance = 9;
     this.#controls.maxPolarAngle = Math.PI * 0.52;
-    this.#controls.enableDamping = false;
+    this.#controls.cursor.set(0, 1.1, 0);
+    this.#controls.maxTargetRadius = 2;
     this.#controls.addEventListener("start", () => this.take());
     this.#controls.addEventListener("change", () => {
       if (this.#taken) options.onChange();

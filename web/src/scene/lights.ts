@@ -7,6 +7,9 @@ import type { TierSettings } from "./tiers";
 /** What every light looks at: the player's chest. */
 const TARGET = new Vector3(0, 1.05, 0.1);
 
+/** From the target, metres: within the reach of the shadows. */
+const KEY_DISTANCE = 5;
+
 /** Half the width and height of what casts shadows about the target, metres: a player with the instrument raised. */
 const SHADOW_REACH = 1.35;
 
@@ -43,10 +46,11 @@ export class StageLights {
     }
   }
 
-  /** Follow the key: the fill stands across from it. */
+  /** Follow the key's place: only its direction counts, and the fill stands across from it. */
   arrange(): void {
     const { key, fill } = this;
     this.toKey.subVectors(key.position, TARGET).normalize();
+    key.position.copy(this.toKey).multiplyScalar(KEY_DISTANCE).add(TARGET);
     fill.position.set(TARGET.x - this.toKey.x * 3, TARGET.y + 0.7, TARGET.z + 2.4);
   }
 

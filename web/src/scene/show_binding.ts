@@ -57,6 +57,9 @@ const PARAMETERS: readonly (readonly [path: string, length: number, apply: Apply
   ["blocks/arrangement", 1, number(({ blocks }, value) => (blocks.uniforms.arrangement.value = value))],
 ];
 
+/** The environment's intensity at which the sky in the windows is as bright as it was painted. */
+const RESTING_ENVIRONMENT = 0.7;
+
 interface Bound {
   readonly apply: Apply;
   readonly index: number;
@@ -83,9 +86,10 @@ export class ShowBinding {
   apply(floats: Float32Array): void {
     const targets = this.#targets;
     for (const { apply, index } of this.#bound) apply(targets, floats, index);
-    const { room, lights, fog, background } = targets;
+    const { room, lights, fog, background, scene } = targets;
     lights.arrange();
     room.keyColor.copy(lights.key.color).multiplyScalar(lights.key.intensity);
+    room.daylight.value = scene.environmentIntensity / RESTING_ENVIRONMENT;
     fog.color.copy(background);
     if (room.haze !== null) room.haze.value = fog.density;
   }

@@ -142,12 +142,12 @@ export class Stage {
     for (const model of this.#models) model.pose(floats);
     this.#show.apply(floats);
     this.#blocks.scroll(frame.songTime);
-    this.#render();
-    this.#drawnIndex = frame.index;
+    if (this.#render()) this.#drawnIndex = frame.index;
   }
 
-  #render(): void {
-    if (this.#renderer.getContext().isContextLost()) return;
+  /** @returns false while the drawing context is lost. */
+  #render(): boolean {
+    if (this.#renderer.getContext().isContextLost()) return false;
     const scene = this.#scene;
     this.#camera.follow();
     scene.updateMatrixWorld();
@@ -168,6 +168,7 @@ export class Stage {
     }
     this.#renderer.render(scene, camera);
     if (this.#camera.returning) this.#drawSoon();
+    return true;
   }
 
   /** Draw the last frame again with the next picture: the camera moved, or the score came. */

@@ -54,7 +54,7 @@ export function createFloor(toKey: Vector3, mirror: FloorMirror | null, feet: Fe
   const geometry = new PlaneGeometry(2 * ROOM.halfWidth, depth).rotateX(-Math.PI / 2);
   geometry.translate(0, 0, (ROOM.front + ROOM.back) / 2);
   const material = createSurface(
-    { color: 0x6b4630, roughness: mirror === null ? 0.42 : 0.62, metalness: 0, envMapIntensity: 0.8 },
+    { color: 0x6b4630, roughness: mirror === null ? 0.5 : 0.62, metalness: 0, envMapIntensity: mirror === null ? 0.45 : 0.7 },
     toKey,
     {
       declarations: PLANKS + FOOT_SHADE + (mirror === null ? "" : REFLECTION),

@@ -22,17 +22,20 @@ export interface Room {
   readonly haze: { value: number } | null;
   /** The key's colour times its intensity: what the windows shine with. */
   readonly keyColor: Color;
+  /** How strongly the sky stands in the windows; 1 at rest. */
+  readonly daylight: { value: number };
 }
 
 /** @param toKey unit vector to the key, kept up to date by the lights. */
 export function createRoom(toKey: Vector3, tier: TierSettings): Room {
   const keyColor = new Color(3, 2.4, 1.7);
+  const daylight = { value: 1 };
   const feet = new Feet();
   const mirror = tier.mirrorScale > 0 ? new FloorMirror(tier.mirrorScale) : null;
   const { mesh: floor } = createFloor(toKey, mirror, feet);
   const object = new Group();
-  object.add(floor, createWalls(toKey, keyColor), ...createFurniture(toKey));
+  object.add(floor, createWalls(toKey, keyColor, daylight), ...createFurniture(toKey));
   const shafts = tier.shafts ? createShafts(toKey, keyColor) : null;
   if (shafts !== null) object.add(shafts.mesh);
-  return { object, floor, mirror, feet, haze: shafts?.density ?? null, keyColor };
+  return { object, floor, mirror, feet, haze: shafts?.density ?? null, keyColor, daylight };
 }

@@ -26,7 +26,7 @@ function wall(width: number, height: number, turn: number, x: number, z: number)
   return new PlaneGeometry(width, height).rotateY(turn).translate(x, height / 2, z);
 }
 
-function createWindows(toKey: Vector3, keyColor: Color): Mesh {
+function createWindows(toKey: Vector3, keyColor: Color, daylight: { value: number }): Mesh {
   const panes: BufferGeometry[] = [];
   const height = WINDOWS.head - WINDOWS.sill;
   for (const side of [-1, 1]) {
@@ -42,6 +42,7 @@ function createWindows(toKey: Vector3, keyColor: Color): Mesh {
       ...UniformsUtils.clone(UniformsLib.fog),
       toKey: { value: toKey },
       keyColor: { value: keyColor },
+      daylight,
     },
     vertexShader: /* glsl */ `
       #include <common>
@@ -59,13 +60,14 @@ function createWindows(toKey: Vector3, keyColor: Color): Mesh {
       varying vec3 vPlace;
       uniform vec3 toKey;
       uniform vec3 keyColor;
+      uniform float daylight;
       ${WINDOW_PATTERN}
       void main() {
         float glass = windowPattern(vPlace.zy, 0.004 + 0.5 * length(fwidth(vPlace.zy)));
         float height = (vPlace.y - ${WINDOWS.sill.toFixed(2)}) / ${height.toFixed(2)};
         float sunny = smoothstep(-0.1, 0.4, toKey.x * sign(vPlace.x));
-        vec3 dusk = mix(vec3(0.52, 0.42, 0.36), vec3(0.16, 0.24, 0.42), smoothstep(0.0, 0.75, height));
-        vec3 sun = keyColor * mix(0.34, 0.62, height) + vec3(0.1, 0.12, 0.16);
+        vec3 dusk = mix(vec3(0.52, 0.42, 0.36), vec3(0.16, 0.24, 0.42), smoothstep(0.0, 0.75, height)) * daylight;
+        vec3 sun = keyColor * mix(0.34, 0.62, height) + vec3(0.1, 0.12, 0.16) * daylight;
         vec3 light = mix(dusk, sun, sunny);
         gl_FragColor = vec4(mix(vec3(0.05, 0.03, 0.02), light, glass), 1.0);
         #include <tonemapping_fragment>
@@ -78,8 +80,11 @@ function createWindows(toKey: Vector3, keyColor: Color): Mesh {
   return mesh;
 }
 
-/** @param keyColor the key's colour times its intensity, shared and kept up to date. */
-export function createWalls(toKey: Vector3, keyColor: Color): Group {
+/**
+ * @param keyColor the key's colour times its intensity: what the sun's windows shine with.
+ * @param daylight how strongly the sky stands in the windows. Both are shared and kept up to date.
+ */
+export function createWalls(toKey: Vector3, keyColor: Color, daylight: { value: number }): Group {
   const depth = ROOM.front - ROOM.back;
   const middle = (ROOM.front + ROOM.back) / 2;
   const surfaces = mergeGeometries([
@@ -97,6 +102,6 @@ export function createWalls(toKey: Vector3, keyColor: Color): Group {
   walls.name = "walls";
   walls.receiveShadow = true;
   const group = new Group();
-  group.add(walls, createWindows(toKey, keyColor));
+  group.add(walls, createWindows(toKey, keyColor, daylight));
   return group;
 }
