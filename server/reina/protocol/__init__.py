@@ -9,6 +9,7 @@ from reina.protocol.frame import (
     decode,
     encode_block,
     frame_dtype,
+    join,
     stamp,
 )
 from reina.protocol.manifest import (
@@ -33,5 +34,6 @@ __all__ = [
     "decode",
     "encode_block",
     "frame_dtype",
+    "join",
     "stamp",
 ]

@@ -16,7 +16,7 @@ from reina.errors import InputError
 from reina.protocol.manifest import PROTOCOL_VERSION, Manifest, ParameterManifest, SkeletonManifest
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -162,18 +162,27 @@ def encode_block(manifest: Manifest, block: FrameBlock) -> Frames:
     return frames
 
 
+def join(runs: Sequence[Frames]) -> Frames:
+    """Copy runs of frames into one, padding and all.
+
+    NumPy copies structured arrays field by field and leaves the padding as it finds it, or packs it away; so
+    this goes by bytes.
+    """
+    return np.concatenate([run.view(np.uint8) for run in runs]).view(runs[0].dtype)
+
+
 def stamp(
-    frames: Frames, *, epoch: int, due_time_s: NDArray[np.float64], flags: NDArray[np.uint16]
+    runs: Sequence[Frames], *, epoch: int, due_time_s: NDArray[np.float64], flags: NDArray[np.uint16]
 ) -> Frames:
     """A copy of encoded frames, with what is known only as they are sent.
 
     Args:
-        frames: (F,) encoded frames.
+        runs: Encoded frames, F in all.
         epoch: The clock's epoch; its low eight bits are sent.
         due_time_s: (F,) server times at which the frames are to be seen.
         flags: (F,) flags beside those that the frames have.
     """
-    stamped = frames.copy()
+    stamped = join(runs)
     stamped["epoch"] = epoch & 0xFF
     stamped["due_time_s"] = due_time_s
     stamped["flags"] |= flags

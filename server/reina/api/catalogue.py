@@ -1,0 +1,30 @@
+"""What the server has for everybody: the show's parameters, and its health."""
+
+from typing import TYPE_CHECKING
+
+from fastapi import APIRouter, Request
+
+import reina
+from reina.api.access import Store
+from reina.protocol import SUBPROTOCOL
+from reina.protocol.resources import Health, ShowParameterList
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+router = APIRouter(tags=["server"])
+
+
+@router.get("/parameters")
+async def list_parameters(store: Store) -> ShowParameterList:
+    """Every show parameter in the frame's order, and every interpolation that a keyframe may name."""
+    return ShowParameterList.model_validate(store.stage.registry.describe())
+
+
+@router.get("/health")
+async def get_health(request: Request) -> Health:
+    """Answers once the server can play."""
+    now: Callable[[], float] = request.app.state.now
+    return Health(
+        status="ok", ready=True, version=reina.__version__, streams=[SUBPROTOCOL], server_time_s=now()
+    )

@@ -1,0 +1,76 @@
+"""Frames over HTTP: the same bytes as the stream's, as fast as they can be computed."""
+
+import asyncio
+import math
+from collections.abc import AsyncIterator
+from typing import Annotated
+
+from fastapi import APIRouter, Query
+from fastapi.responses import StreamingResponse
+
+from reina.api.access import Watched
+from reina.api.problems import ProblemError
+from reina.protocol.messages import Hello
+from reina.sessions.frames import FRAMES_PER_BLOCK, EncodedFrames
+from reina.sessions.production import Production
+
+router = APIRouter(tags=["frames"])
+
+LONGEST_S = 600.0
+FASTEST_FPS = 240
+GRID_TOLERANCE = 1e-6
+
+FramesPerSecond = Annotated[int, Query(ge=1, le=FASTEST_FPS, description="Frames a second of song time.")]
+
+
+@router.get("/sessions/{session_id}/manifest")
+async def get_manifest(session: Watched, fps: FramesPerSecond = 60) -> Hello:
+    """What the stream's `hello` says: where everything in a frame is."""
+    return session.hello().model_copy(update={"fps": fps})
+
+
+@router.get(
+    "/sessions/{session_id}/frames",
+    response_class=StreamingResponse,
+    responses={
+        200: {"content": {"application/octet-stream": {}}, "description": "Whole frames, back to back."}
+    },
+)
+async def get_frames(
+    session: Watched,
+    start_s: Annotated[float, Query(ge=0, description="Song time of the first frame.")] = 0.0,
+    end_s: Annotated[
+        float | None, Query(ge=0, description="Song time before which they end; the music's end by default.")
+    ] = None,
+    fps: FramesPerSecond = 60,
+) -> StreamingResponse:
+    """The frames k with start_s ≤ k / fps < end_s, epoch 0, due time 0."""
+    end_s = session.clock.duration_s if end_s is None else end_s
+    if not start_s <= end_s <= start_s + LONGEST_S:
+        raise ProblemError(
+            422,
+            "span-invalid",
+            "These frames cannot be sent",
+            f"end_s lies between start_s and start_s + {LONGEST_S:g}, not at {end_s:g}; "
+            "longer spans are asked for piecewise",
+        )
+    first, end = (math.ceil(time_s * fps - GRID_TOLERANCE) for time_s in (start_s, end_s))
+    production = session.production
+    return StreamingResponse(
+        _frames(production, first, end, fps),
+        media_type="application/octet-stream",
+        headers={
+            "Content-Length": str((end - first) * production.manifest.frame_size),
+            "Cache-Control": "no-store",
+        },
+    )
+
+
+async def _frames(production: Production, first: int, end: int, fps: int) -> AsyncIterator[bytes]:
+    production = await asyncio.to_thread(production.at_rate, fps)
+    frames = EncodedFrames(production.performance, production.manifest, kept=1)
+    while first < end:
+        # Up to the end of an aligned block at a time; a thread, since a viewer's frames come first.
+        last = min(end, (first // FRAMES_PER_BLOCK + 1) * FRAMES_PER_BLOCK) - 1
+        yield await asyncio.to_thread(lambda span: frames.span(*span).tobytes(), (first, last))
+        first = last + 1

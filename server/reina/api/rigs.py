@@ -1,0 +1,61 @@
+"""Rigs: their descriptions and their files."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from fastapi import APIRouter
+from fastapi.responses import FileResponse
+
+from reina.api.access import ServerSettings
+from reina.api.problems import ProblemError
+from reina.protocol.links import rig_href
+from reina.protocol.resources import RigList, RigSummary
+
+router = APIRouter(tags=["rigs"])
+
+DESCRIPTION = "rig.json"
+MEDIA_TYPES = {
+    ".glb": "model/gltf-binary",
+    ".bvh": "text/plain",
+    ".json": "application/json",
+    ".md": "text/markdown",
+}
+
+
+@router.get("/rigs")
+def list_rigs(settings: ServerSettings) -> RigList:
+    """The rigs that this server has."""
+    names = sorted(path.parent.name for path in settings.rigs_dir.glob(f"*/{DESCRIPTION}"))
+    return RigList(rigs=[RigSummary(name=name, href=rig_href(name)) for name in names])
+
+
+@router.get("/rigs/{name}")
+def get_rig(name: str, settings: ServerSettings) -> dict[str, Any]:
+    """A rig: joints at rest, effectors, contacts, what moves, and links to its models."""
+    rig: dict[str, Any] = json.loads(_file(settings.rigs_dir, name, DESCRIPTION).read_bytes())
+    rig["models"] = {tier: f"{rig_href(name)}/{file}" for tier, file in rig.get("models", {}).items()}
+    return rig
+
+
+@router.get("/rigs/{name}/{file:path}", response_class=FileResponse)
+def get_rig_file(name: str, file: str, settings: ServerSettings) -> FileResponse:
+    """One of a rig's files: a model, a clip, its licence."""
+    path = _file(settings.rigs_dir, name, file)
+    return FileResponse(
+        path,
+        media_type=MEDIA_TYPES.get(path.suffix),
+        # A model that is built anew keeps its name: it is asked for each time, and mostly not sent.
+        headers={"Cache-Control": "no-cache"},
+    )
+
+
+def _file(rigs_dir: Path, name: str, file: str) -> Path:
+    folder = (rigs_dir / name).resolve()
+    path = (folder / file).resolve()
+    is_rig = folder.parent == rigs_dir.resolve() and (folder / DESCRIPTION).is_file()
+    if not is_rig:
+        raise ProblemError(404, "unknown-rig", "There is no such rig", f"no rig has the name {name!r}")
+    if not path.is_file() or not path.is_relative_to(folder):
+        raise ProblemError(404, "unknown-file", "The rig has no such file", f"{name} has no file {file!r}")
+    return path

@@ -1,0 +1,159 @@
+"""Sessions: made from an upload, listed, changed and ended."""
+
+import asyncio
+from pathlib import Path
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request, Response
+from pydantic import ValidationError
+
+from reina.api.access import Controlled, Store, Watched
+from reina.api.problems import ProblemError, problem_of_validation
+from reina.api.upload import FILE_LIMITS, MEGABYTE, Upload, receive_upload
+from reina.protocol import resources
+from reina.protocol.links import session_links
+from reina.protocol.transport import TransportCommand, TransportState
+from reina.sessions.description import score_resource
+from reina.sessions.store import Draft
+
+router = APIRouter(tags=["sessions"])
+
+_FORM: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "multipart/form-data": {
+                "schema": {
+                    "type": "object",
+                    "required": ["score"],
+                    "properties": {
+                        "score": {
+                            "type": "string",
+                            "format": "binary",
+                            "description": f"MIDI or JSON, at most {FILE_LIMITS['score'] // MEGABYTE} MB",
+                        },
+                        "song": {
+                            "type": "string",
+                            "format": "binary",
+                            "description": "WAV, MP3, Ogg, FLAC, M4A or WebM, "
+                            f"at most {FILE_LIMITS['song'] // MEGABYTE} MB; "
+                            "without it the score is rendered",
+                        },
+                        "show": {
+                            "type": "string",
+                            "format": "binary",
+                            "description": f"JSON, at most {FILE_LIMITS['show'] // MEGABYTE} MB",
+                        },
+                        "title": {"type": "string", "maxLength": 200},
+                        "public": {"type": "boolean", "default": False},
+                        "part": {"type": "integer", "minimum": 0},
+                        "transposition": {"type": "integer", "default": 0},
+                    },
+                }
+            }
+        },
+    }
+}
+
+
+@router.post("/sessions", status_code=201, openapi_extra=_FORM)
+async def create_session(request: Request, response: Response, store: Store) -> resources.CreatedSession:
+    """Make a session of a score, and of a song and a show if there are any.
+
+    The answer holds the control token, which is told this once: keep it.
+    """
+    with store.staging() as folder:
+        upload = await receive_upload(request, folder)
+        session, token = await store.create(_draft(folder, upload))
+    response.headers["Location"] = session_links(session.id).self
+    return resources.CreatedSession(**dict(session.resource()), control_token=token)
+
+
+def _draft(folder: Path, upload: Upload) -> Draft:
+    if "score" not in upload.files:
+        raise ProblemError(
+            422, "no-score", "The form has no score", "send a MIDI or JSON file as the form's part `score`"
+        )
+    try:
+        fields = resources.SessionFields.model_validate_strings(upload.fields)
+    except ValidationError as error:
+        raise problem_of_validation(error) from error
+    return Draft(
+        folder=folder,
+        score="score",
+        score_filename=upload.files["score"].filename,
+        song="song" if "song" in upload.files else None,
+        show="show" if "show" in upload.files else None,
+        title=fields.title,
+        public=fields.public,
+        part=fields.part,
+        transposition=fields.transposition,
+    )
+
+
+@router.get("/sessions")
+async def list_sessions(store: Store) -> resources.SessionList:
+    """The public sessions, newest first."""
+    return resources.SessionList(
+        sessions=[
+            resources.SessionSummary(
+                id=record.id,
+                title=record.title,
+                created_at=record.created_at,
+                links=session_links(record.id),
+            )
+            for record in await store.public()
+        ]
+    )
+
+
+@router.get("/sessions/{session_id}")
+async def get_session(session: Watched) -> resources.Session:
+    """One session."""
+    return session.resource()
+
+
+@router.patch("/sessions/{session_id}")
+async def change_session(
+    session: Controlled, change: resources.SessionChange, store: Store
+) -> resources.Session:
+    """Rename it, list it or not, or have the player play another part or elsewhere."""
+    await store.change(session, **change.model_dump())
+    return session.resource()
+
+
+@router.delete("/sessions/{session_id}", status_code=204)
+async def end_session(session: Controlled, store: Store) -> None:
+    """End it, and remove everything of it."""
+    await store.delete(session)
+
+
+@router.get("/sessions/{session_id}/score", response_model=resources.Score)
+async def get_score(
+    session: Watched,
+    part: Annotated[int | None, Query(ge=0, description="The notes of this part alone.")] = None,
+) -> Response:
+    """The notes with their fingering, the parts, tempi, metres and bar lines."""
+    production = session.production
+    if part is not None and part >= len(production.score.parts):
+        known = len(production.score.parts) - 1
+        raise ProblemError(
+            404, "unknown-part", "There is no such part", f"the score's parts are 0 to {known}, not {part}"
+        )
+    # A long score takes a while to write out; that must not hold up the streams.
+    body = await asyncio.to_thread(
+        lambda: score_resource(production, session.record.title, part).model_dump_json()
+    )
+    return Response(body, media_type="application/json")
+
+
+@router.get("/sessions/{session_id}/transport", tags=["transport"])
+async def get_transport(session: Watched) -> TransportState:
+    """Where the music clock is."""
+    return session.transport()
+
+
+@router.post("/sessions/{session_id}/transport", tags=["transport"])
+async def control_transport(session: Controlled, command: TransportCommand) -> TransportState:
+    """Play, pause, seek, or change rate or loop; every viewer follows at once."""
+    return session.control(command)

@@ -1,0 +1,99 @@
+"""The WebSocket: a session's frames and control messages."""
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated
+
+from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
+from pydantic import ValidationError
+
+from reina.api.access import unknown_session
+from reina.api.problems import ProblemError
+from reina.protocol import SUBPROTOCOL
+from reina.protocol.messages import Ping, Pong, StreamError
+from reina.sessions.viewer import Viewer
+
+if TYPE_CHECKING:
+    from reina.sessions.store import SessionStore
+
+router = APIRouter()
+
+MOST_FRAMES_PER_MESSAGE = 12
+
+
+class WebSocketConnection:
+    """A WebSocket as a viewer's connection."""
+
+    def __init__(self, socket: WebSocket) -> None:
+        self._send = socket.send
+        self._socket = socket
+
+    async def send_bytes(self, data: bytes) -> None:
+        """Send a binary message."""
+        await self._send({"type": "websocket.send", "bytes": data})
+
+    async def send_text(self, data: str) -> None:
+        """Send a text message."""
+        await self._send({"type": "websocket.send", "text": data})
+
+    async def close(self, code: int, reason: str) -> None:
+        """Say goodbye."""
+        await self._socket.close(code, reason)
+
+
+@router.websocket("/sessions/{session_id}/stream")
+async def stream(
+    socket: WebSocket,
+    session_id: str,
+    frames_per_message: Annotated[str, Query()] = "1",
+) -> None:
+    """Refuse before the handshake ends, or send until either side goes."""
+    store: SessionStore = socket.app.state.store
+    now: Callable[[], float] = socket.app.state.now
+    session = await store.get(session_id)
+    size = int(frames_per_message) if frames_per_message.isdecimal() else 0
+    problem: ProblemError | None = None
+    if session is None:
+        problem = unknown_session(session_id)
+    elif SUBPROTOCOL not in socket.scope["subprotocols"]:
+        offered = ", ".join(socket.scope["subprotocols"]) or "none"
+        detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
+        problem = ProblemError(400, "other-version", "The stream has another version", detail)
+    elif not 1 <= size <= MOST_FRAMES_PER_MESSAGE:
+        detail = f"frames_per_message is 1 to {MOST_FRAMES_PER_MESSAGE}, not {frames_per_message}"
+        problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
+    if problem or session is None:
+        if problem:
+            await socket.send_denial_response(problem.response())
+        return
+    await socket.accept(subprotocol=SUBPROTOCOL)
+    viewer = Viewer(WebSocketConnection(socket), frames_per_message=size)
+    session.join(viewer)
+    sending = asyncio.create_task(viewer.run())
+    receiving = asyncio.create_task(_receive(socket, viewer, now))
+    try:
+        await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        session.leave(viewer)
+        for task in (sending, receiving):
+            task.cancel()
+            # Whoever leaves does so in the middle of a message: that is no error.
+            with contextlib.suppress(asyncio.CancelledError, WebSocketDisconnect, OSError):
+                await task
+
+
+async def _receive(socket: WebSocket, viewer: Viewer, now: Callable[[], float]) -> None:
+    """Answer pings until the viewer goes."""
+    while True:
+        message = await socket.receive()
+        received_s = now()
+        if message["type"] == "websocket.disconnect":
+            return
+        try:
+            ping = Ping.model_validate_json(message.get("text") or "")
+        except ValidationError:
+            detail = 'viewers send {"type": "ping", "id": 1} and nothing else'
+            viewer.post_text(StreamError(title="Not understood", detail=detail).model_dump_json())
+        else:
+            viewer.post_text(Pong(id=ping.id, server_time_s=received_s).model_dump_json())

@@ -1,0 +1,97 @@
+"""What goes out when: one schedule and one encoding for all viewers of a session. Pure; time is passed in."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from reina.sessions.frames import FRAMES_PER_BLOCK
+from reina.sessions.schedule import FrameSchedule
+
+if TYPE_CHECKING:
+    from reina.music import ClockState
+    from reina.sessions.frames import EncodedFrames
+    from reina.sessions.schedule import DueFrame
+
+LEAD_S = 0.1
+"""How long before it is due a frame is sent."""
+
+
+class Broadcast:
+    """The binary messages of one epoch.
+
+    Viewers that want the same number of frames in a message share its bytes. A message goes out when the
+    first of its frames is `LEAD_S` from being due; the others in it are only earlier then.
+
+    Args:
+        frames: Where the bytes come from.
+        state: The clock at the begin of the epoch, or where it has come to its end.
+        resumed: The epoch began before `state`.
+    """
+
+    def __init__(self, frames: EncodedFrames, state: ClockState, *, resumed: bool = False) -> None:
+        self._frames = frames
+        self._state = state
+        self._resumed = resumed
+        self._fps = frames.manifest.fps
+        self._schedules: dict[int, FrameSchedule] = {}
+
+    def until(self, now: float, sizes: set[int]) -> dict[int, list[bytes]]:
+        """The messages to be sent by server time `now` that were not given out before.
+
+        Args:
+            now: Server time, seconds.
+            sizes: The numbers of frames in a message that viewers want.
+
+        Returns:
+            The messages in order, by the number of frames in each.
+        """
+        for size in self._schedules.keys() - sizes:
+            del self._schedules[size]
+        messages: dict[int, list[bytes]] = {}
+        for size in sizes:
+            schedule = self._schedules.get(size)
+            if schedule is None:
+                schedule = FrameSchedule(self._state, fps=self._fps, resumed=self._resumed)
+                self._schedules[size] = schedule
+            messages[size] = self._messages(schedule, size, now + LEAD_S)
+        return messages
+
+    def catch_up(self, state: ClockState, size: int) -> list[bytes]:
+        """What a viewer who joins late needs before the next of `until`'s messages: from the present on.
+
+        Args:
+            state: The clock at the time of joining, in the same epoch.
+            size: Frames in a message.
+        """
+        schedule = FrameSchedule(state, fps=self._fps, resumed=True)
+        following = self._schedules.get(size)
+        if following is None:
+            # Nobody shares this size yet: `until` goes on where this leaves off.
+            self._schedules[size] = schedule
+            return self._messages(schedule, size, state.server_time_s + LEAD_S)
+        before = following.next.due_time_s if following.next else math.inf
+        due = []
+        while schedule.next and schedule.next.due_time_s < before - 0.5 / self._fps:
+            due.extend(schedule.take(1))
+        return [self._message(due[i : i + size]) for i in range(0, len(due), size)]
+
+    def next_time(self) -> float | None:
+        """Server time at which `until` has something to give again; None when this epoch has no more."""
+        times = [schedule.next.due_time_s for schedule in self._schedules.values() if schedule.next]
+        return min(times) - LEAD_S if times else None
+
+    def prepare(self) -> None:
+        """Evaluate the block that is needed next, while there is time."""
+        for schedule in self._schedules.values():
+            if schedule.next:
+                self._frames.block((schedule.next.index + FRAMES_PER_BLOCK // 2) // FRAMES_PER_BLOCK)
+
+    def _messages(self, schedule: FrameSchedule, size: int, horizon_s: float) -> list[bytes]:
+        messages: list[bytes] = []
+        while schedule.next and schedule.next.due_time_s <= horizon_s:
+            messages.append(self._message(schedule.take(size)))
+        return messages
+
+    def _message(self, due: list[DueFrame]) -> bytes:
+        return self._frames.message(due, epoch=self._state.epoch, playing=self._state.playing)

@@ -1,0 +1,132 @@
+"""A session's score, notes and clock as the wire tells them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.protocol import resources
+from reina.protocol.messages import Transport
+from reina.protocol.notes import WireNote
+from reina.protocol.transport import Loop, TransportState
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from reina.music import ClockState, Score, ScoreWarning
+    from reina.sessions.production import Production
+
+NOT_PLAYED = "another part than the player's"
+NOT_IN_LINE = "the player plays one note at a time, and another one sounds here"
+
+
+def transport_state(state: ClockState) -> TransportState:
+    """The clock's state."""
+    return TransportState(
+        playing=state.playing,
+        song_time_s=state.song_time_s,
+        server_time_s=state.server_time_s,
+        rate=state.rate,
+        loop=Loop(start_s=state.loop[0], end_s=state.loop[1]) if state.loop else None,
+        epoch=state.epoch,
+    )
+
+
+def transport_message(state: ClockState) -> Transport:
+    """The clock's state as a message of the stream."""
+    return Transport.model_validate(transport_state(state).model_dump())
+
+
+def warned(warnings: Iterable[ScoreWarning]) -> list[resources.Warned]:
+    """Warnings in their order."""
+    return [
+        resources.Warned(kind=warning.kind, place=warning.place, message=warning.message)
+        for warning in warnings
+    ]
+
+
+def part_summaries(score: Score) -> list[resources.PartSummary]:
+    """The parts of a score, with how many notes each has."""
+    counts = np.bincount(score.notes.part, minlength=len(score.parts))
+    return [
+        resources.PartSummary(
+            index=part.index,
+            name=part.name,
+            program=part.program,
+            is_drums=part.is_drums,
+            notes=int(counts[part.index]),
+        )
+        for part in score.parts
+    ]
+
+
+class NoteTable:
+    """The notes of a production's score, with the fingering of those that are played."""
+
+    def __init__(self, production: Production) -> None:
+        self._production = production
+        line = production.played.line
+        self._line_of_note = {int(note): number for number, note in enumerate(line.note_index)}
+
+    def note(self, index: int) -> WireNote:
+        """A note by its place in the score's table."""
+        production = self._production
+        note = production.score.notes[index]
+        pitch, valves, reason = note.sounding_pitch, None, NOT_PLAYED
+        number = self._line_of_note.get(index)
+        if number is not None:
+            fingering = production.played.fingering
+            pitch = int(production.played.line.sounding_pitch[number])
+            valves, reason = fingering.pressed(number), fingering.reasons[number]
+        elif note.part == production.part:
+            reason = NOT_IN_LINE
+        return WireNote(
+            index=index,
+            part=note.part,
+            onset_s=note.onset_s,
+            duration_s=note.duration_s,
+            onset_beats=note.onset_beats,
+            duration_beats=note.duration_beats,
+            sounding_pitch=pitch,
+            written_pitch=production.instrument.written_pitch(pitch),
+            velocity=note.velocity,
+            valves=valves,
+            reason=reason,
+        )
+
+    def of_line(self, number: int) -> WireNote:
+        """A note by its place in the played line."""
+        return self.note(int(self._production.played.line.note_index[number]))
+
+
+def score_resource(production: Production, title: str, part: int | None = None) -> resources.Score:
+    """The whole score, or the notes of one part of it alone."""
+    score = production.score
+    table = NoteTable(production)
+    indices = range(len(score.notes)) if part is None else score.note_indices(part)
+    tempo_map, metre_map = score.tempo_map, score.metre_map
+    bar_lines = metre_map.bar_lines(score.duration_beats + 1e-9)
+    return resources.Score(
+        title=title,
+        duration_s=score.duration_s,
+        part=production.part,
+        transposition=production.transposition,
+        parts=part_summaries(score),
+        tempi=[
+            resources.Tempo(onset_beats=tempo.onset_beats, onset_s=tempo.onset_s, bpm=tempo.beats_per_minute)
+            for tempo in tempo_map.tempos
+        ],
+        metres=[
+            resources.Metre(
+                onset_beats=signature.onset_beats,
+                onset_s=tempo_map.seconds(signature.onset_beats),
+                numerator=signature.numerator,
+                denominator=signature.denominator,
+            )
+            for signature in metre_map.signatures
+        ],
+        bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
+        notes=[table.note(int(index)) for index in indices],
+        warnings=warned((*score.warnings, *production.played.warnings)),
+    )

@@ -1,0 +1,85 @@
+"""Encoded frames of one performance: evaluated once, shared by all viewers."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.protocol import FrameFlag, encode_block, join, stamp
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.performance import Performance
+    from reina.protocol import Frames, Manifest
+    from reina.sessions.schedule import DueFrame
+
+FRAMES_PER_BLOCK = 60
+BLOCKS_KEPT = 8
+
+
+class EncodedFrames:
+    """A performance's frames as they go out, in aligned blocks of 60 of which the last used are kept.
+
+    Frames are always evaluated by whole aligned blocks: floating point differs in the last bit between a
+    block and a row of it, and a frame's bytes are to be the same however it was reached.
+    """
+
+    def __init__(self, performance: Performance, manifest: Manifest, *, kept: int = BLOCKS_KEPT) -> None:
+        self.manifest = manifest
+        self._performance = performance
+        self._kept = kept
+        self._blocks: OrderedDict[int, Frames] = OrderedDict()
+
+    def block(self, number: int) -> Frames:
+        """(60,) frames 60·number ... 60·number + 59, not to be written to."""
+        frames = self._blocks.get(number)
+        if frames is None:
+            frames = encode_block(self.manifest, self._performance.evaluate(number))
+            frames.flags.writeable = False
+            self._blocks[number] = frames
+            while len(self._blocks) > self._kept:
+                self._blocks.popitem(last=False)
+        else:
+            self._blocks.move_to_end(number)
+        return frames
+
+    def span(self, first: int, last: int) -> Frames:
+        """(last - first + 1,) frames first ... last, a copy."""
+        blocks = range(first // FRAMES_PER_BLOCK, last // FRAMES_PER_BLOCK + 1)
+        start = first - blocks.start * FRAMES_PER_BLOCK
+        joined = join([self.block(number) for number in blocks])
+        return joined[start : start + last - first + 1]
+
+    def message(self, due: Sequence[DueFrame], *, epoch: int, playing: bool) -> bytes:
+        """One binary message of the stream: the frames that are due, stamped, back to back."""
+        rows = [self._row(frame.index) for frame in due]
+        flags = [
+            (FrameFlag.PLAYING if playing else 0)
+            | (FrameFlag.FIRST if frame.first else 0)
+            | (FrameFlag.CUT if frame.cut or self._cut_within(frame) else 0)
+            for frame in due
+        ]
+        return stamp(
+            rows,
+            epoch=epoch,
+            due_time_s=np.array([frame.due_time_s for frame in due]),
+            flags=np.array(flags, np.uint16),
+        ).tobytes()
+
+    def forget(self) -> None:
+        """Drop every block: what an idle session need not keep."""
+        self._blocks.clear()
+
+    def _row(self, index: int) -> Frames:
+        number, row = divmod(index, FRAMES_PER_BLOCK)
+        return self.block(number)[row : row + 1]
+
+    def _cut_within(self, frame: DueFrame) -> bool:
+        """Whether one of the frames that were passed over just before is a cut."""
+        if not frame.skipped:
+            return False
+        passed = self.span(frame.index - frame.skipped, frame.index - 1)
+        return bool((passed["flags"] & FrameFlag.CUT).any())

@@ -1,0 +1,74 @@
+"""`note_on` and `note_off` as the music passes over the played notes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from reina.music import NoteEventEmitter
+from reina.protocol.messages import NoteOff, NoteOn
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from reina.music import ClockState, NoteEvent
+    from reina.protocol.notes import WireNote
+
+_MESSAGES = {"note_on": NoteOn, "note_off": NoteOff}
+
+
+class NoteMessages:
+    """Note events as messages, ready to be posted.
+
+    Args:
+        onset_s: (N,) onsets of the played notes, seconds.
+        end_s: (N,) their ends.
+        pitch: (N,) their sounding pitches.
+        describe: The number of a played note -> what the wire says of it.
+    """
+
+    def __init__(
+        self,
+        onset_s: NDArray[np.float64],
+        end_s: NDArray[np.float64],
+        pitch: NDArray[np.int64],
+        describe: Callable[[int], WireNote],
+    ) -> None:
+        self._emitter = NoteEventEmitter[int](onset_s, end_s, pitch, range(len(onset_s)))
+        self._emitter.add_listener(self._hear)
+        self._describe = describe
+        self._texts: list[str] = []
+        self._state: ClockState | None = None
+        self._until_s = 0.0
+
+    def begin(self, state: ClockState) -> list[str]:
+        """Go where the clock is at the begin of an epoch: what ends and begins to sound by that."""
+        self._state = state
+        self._until_s = state.server_time_s
+        self._emitter.seek(state.song_time_s)
+        return self._heard()
+
+    def advance(self, now: float) -> list[str]:
+        """What ends and begins up to server time `now`, since the call before."""
+        if self._state is not None:
+            self._emitter.follow(self._state.spans(self._until_s, now))
+            self._until_s = max(now, self._until_s)
+        return self._heard()
+
+    def sounding(self) -> list[str]:
+        """`note_on` of every note that sounds: for those who join."""
+        at_s = self._emitter.position_s
+        return [self._message("note_on", index, at_s) for index in self._emitter.sounding]
+
+    def _hear(self, event: NoteEvent[int]) -> None:
+        self._texts.append(self._message(event.kind, event.index, event.song_time_s))
+
+    def _heard(self) -> list[str]:
+        texts, self._texts = self._texts, []
+        return texts
+
+    def _message(self, kind: str, index: int, song_time_s: float) -> str:
+        note = self._describe(index)
+        return _MESSAGES[kind](**note.model_dump(), song_time_s=song_time_s).model_dump_json()

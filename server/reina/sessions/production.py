@@ -1,0 +1,161 @@
+"""What a session plays, planned: a score, the player's part of it, a show, and the performance of it all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from reina.instruments import INSTRUMENTS
+from reina.keyframes import ParameterRegistry, Show, TimeMap, stage_registry
+from reina.performance import Performance
+from reina.protocol import Manifest, build_manifest
+from reina.skeleton import Hold, Rig, load_hold, load_rig
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from reina.instruments import Instrument, PartRanking, PlayedPart
+    from reina.music import Score
+
+PLAYER_RIG = "trumpeter"
+INSTRUMENT = "trumpet"
+"""Whom every session has on its stage."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What all sessions share: the player, the instrument and the parameters of the show.
+
+    Attributes:
+        instrument: How it is played.
+        player_rig: Who plays.
+        instrument_rig: On what.
+        hold: How it is held.
+        registry: Everything that a show can move, and what the player gives.
+    """
+
+    instrument: Instrument
+    player_rig: Rig
+    instrument_rig: Rig
+    hold: Hold
+    registry: ParameterRegistry
+
+    @classmethod
+    def load(cls, rigs_dir: Path) -> Stage:
+        """Read the rigs.
+
+        Raises:
+            RigError: A rig is not there, or is broken.
+        """
+        instrument = INSTRUMENTS[INSTRUMENT]
+        return cls(
+            instrument=instrument,
+            player_rig=load_rig(rigs_dir / PLAYER_RIG),
+            instrument_rig=load_rig(rigs_dir / instrument.rig),
+            hold=load_hold(rigs_dir / PLAYER_RIG, instrument.rig),
+            registry=stage_registry(),
+        )
+
+
+@dataclass(frozen=True)
+class Production:
+    """Never changed: another part or another show gives a new one, which shares what stays.
+
+    Attributes:
+        stage: What it is played on.
+        score: What is played.
+        ranking: The parts that suit the instrument, best first.
+        part: The part that the player plays.
+        transposition: Semitones by which it is moved.
+        played: The playable line and its fingering.
+        show: The show around it.
+        performance: All of it as a function of time.
+        manifest: What its frames hold.
+    """
+
+    stage: Stage
+    score: Score
+    ranking: tuple[PartRanking, ...]
+    part: int
+    transposition: int
+    played: PlayedPart
+    show: Show
+    performance: Performance
+    manifest: Manifest
+
+    @classmethod
+    def plan(
+        cls,
+        stage: Stage,
+        score: Score,
+        show: Show,
+        *,
+        part: int | None = None,
+        transposition: int = 0,
+    ) -> Production:
+        """Plan a performance; takes milliseconds to a second, depending on the score.
+
+        Args:
+            stage: Who plays on what.
+            score: What is played.
+            show: The show around it.
+            part: The part that the player plays; the one that suits the instrument best when None.
+            transposition: Semitones by which it is moved.
+
+        Raises:
+            ScoreError: The score has no such part.
+        """
+        ranking = stage.instrument.rank_parts(score)
+        played = stage.instrument.play(score, ranking[0].part if part is None else part, transposition)
+        performance = _performance(stage, score, played, show)
+        return cls(
+            stage=stage,
+            score=score,
+            ranking=ranking,
+            part=played.part,
+            transposition=transposition,
+            played=played,
+            show=show,
+            performance=performance,
+            manifest=build_manifest(performance.layout),
+        )
+
+    @property
+    def instrument(self) -> Instrument:
+        """How the instrument is played."""
+        return self.stage.instrument
+
+    def with_show(self, show: Show) -> Production:
+        """The same with another show; what was planned of the player is kept."""
+        plan = show.plan(self.stage.registry, time_map(self.score), earlier=self.performance.show_plan)
+        return replace(self, show=show, performance=self.performance.with_show(plan))
+
+    def at_rate(self, fps: int) -> Production:
+        """The same function on another grid of frames."""
+        if fps == self.manifest.fps:
+            return self
+        performance = _performance(self.stage, self.score, self.played, self.show, fps=fps)
+        return replace(self, performance=performance, manifest=build_manifest(performance.layout))
+
+
+def time_map(score: Score) -> TimeMap:
+    """The score's beats and bars, as keyframes count them."""
+    return TimeMap(
+        beats=score.tempo_map.beats,
+        seconds=score.tempo_map.seconds,
+        bar_lines_beats=score.metre_map.bar_lines(score.duration_beats + 1e-9),
+    )
+
+
+def _performance(stage: Stage, score: Score, played: PlayedPart, show: Show, *, fps: int = 60) -> Performance:
+    return Performance(
+        score=score,
+        played=played,
+        instrument=stage.instrument,
+        player_rig=stage.player_rig,
+        instrument_rig=stage.instrument_rig,
+        hold=stage.hold,
+        show_plan=show.plan(stage.registry, time_map(score), fps=fps),
+        registry=stage.registry,
+        fps=fps,
+    )

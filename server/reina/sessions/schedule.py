@@ -1,0 +1,88 @@
+"""Which frame is due when: the music clock's state laid out on the grid of frames. Pure; knows no clock."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from reina.music import ClockState
+
+GRID_TOLERANCE = 1e-6
+"""Frames: a song time this close before a frame counts as on it, so that seeking to k / fps shows frame k."""
+
+
+@dataclass(frozen=True, slots=True)
+class DueFrame:
+    """One frame to be sent."""
+
+    index: int
+    due_time_s: float
+    """Server time at which its song time is heard."""
+    first: bool = False
+    """The first of its epoch."""
+    cut: bool = False
+    """Playback jumped to it from elsewhere: the loop began anew."""
+    skipped: int = 0
+    """How many frames before it were passed over, at rates above 1."""
+
+
+class FrameSchedule:
+    """The frames of one epoch in the order in which they are due, from the clock's state on.
+
+    Frame k stands at song time k / fps. The first is the one that is on screen at the state's own time. While
+    playing at rate r every max(1, round(r))-th frame follows, each due when its song time is heard; at a
+    loop's end playback goes on at its start. The last is the last frame before the end. While paused there is
+    one alone.
+
+    Args:
+        state: The clock at the begin of the epoch, or at any time within it.
+        fps: Frames a second of song time.
+        resumed: The epoch began before `state`; no frame is its first then.
+    """
+
+    def __init__(self, state: ClockState, *, fps: int, resumed: bool = False) -> None:
+        self.state = state
+        self._fps = fps
+        self._last = math.floor(state.duration_s * fps + GRID_TOLERANCE)
+        self._stride = max(1, round(state.rate))
+        # Song time `_song_s` is heard at server time `_server_s`; a loop moves both.
+        self._song_s = state.song_time_s
+        self._server_s = state.server_time_s
+        self._loop = state.loop if state.loop and state.song_time_s < state.loop[1] else None
+        index = math.floor(state.song_time_s * fps + GRID_TOLERANCE)
+        due = self._due(index) if state.playing else state.server_time_s
+        self._next: DueFrame | None = DueFrame(index, due, first=not resumed)
+
+    @property
+    def next(self) -> DueFrame | None:
+        """The frame that `take` begins with; None when all have been taken."""
+        return self._next
+
+    def take(self, count: int) -> list[DueFrame]:
+        """The next frames in order, at most `count`."""
+        taken: list[DueFrame] = []
+        while self._next is not None and len(taken) < count:
+            taken.append(self._next)
+            self._next = self._after(self._next.index)
+        return taken
+
+    def _due(self, index: int) -> float:
+        return self._server_s + (index / self._fps - self._song_s) / self.state.rate
+
+    def _after(self, index: int) -> DueFrame | None:
+        if not self.state.playing:
+            return None
+        following = index + self._stride
+        if self._loop:
+            start_s, end_s = self._loop
+            if following >= end_s * self._fps - GRID_TOLERANCE:
+                self._server_s += (end_s - self._song_s) / self.state.rate
+                self._song_s = start_s
+                start = math.ceil(start_s * self._fps - GRID_TOLERANCE)
+                return DueFrame(start, self._due(start), cut=True)
+        following = min(following, self._last)
+        if following <= index:
+            return None
+        return DueFrame(following, self._due(following), skipped=following - index - 1)

@@ -1,0 +1,206 @@
+"""A session: a score, its player, its show, its clock, its song and its audience."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from reina.music import ClockError, ClockState, MusicClock
+from reina.protocol import resources
+from reina.protocol.links import session_links, stream_links
+from reina.protocol.messages import Hello, ScoreChanged, ShowChanged, SongReady, StreamError
+from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
+from reina.sessions.audience import Audience
+from reina.sessions.description import NoteTable, part_summaries, transport_state, warned
+from reina.sessions.frames import EncodedFrames
+from reina.sessions.note_messages import NoteMessages
+from reina.sessions.song import Song, song_state
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from reina.protocol.messages import SongState
+    from reina.protocol.transport import TransportCommand
+    from reina.sessions.production import Production
+    from reina.sessions.record import SessionRecord
+    from reina.sessions.viewer import Viewer
+
+RINGING_S = 2.0
+"""How long the clock runs on after the last note, which still rings."""
+
+
+class Session:
+    """One session that is loaded.
+
+    Every change is made within one turn of the event loop and begins a new epoch at once. What takes time,
+    such as planning another part or show, is done before, on a thread, and handed in as a `Production`.
+
+    Args:
+        record: What is kept of it.
+        production: What it plays.
+        song: Makes its sound; called when the rest is ready.
+        now: Server time, seconds; never goes back.
+    """
+
+    def __init__(
+        self,
+        record: SessionRecord,
+        production: Production,
+        song: Callable[[Session], Song],
+        *,
+        now: Callable[[], float],
+    ) -> None:
+        self.record = record
+        self.production = production
+        self.revision = 0
+        """Counts the edits of the show."""
+        self.editing = asyncio.Lock()
+        """Held while an edit is planned, so that edits do not overtake one another."""
+        self._now = now
+        self.clock = MusicClock(now, self._duration_s())
+        if 0 < record.song_time_s < self.clock.duration_s:
+            self.clock.seek(record.song_time_s)
+        frames = EncodedFrames(production.performance, production.manifest)
+        self.audience = Audience(frames, self.clock, _note_messages(production), now=now)
+        self.used_at = now()
+        """Server time of the last request."""
+        self.song = song(self)
+
+    @property
+    def id(self) -> str:
+        """128 random bits."""
+        return self.record.id
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nobody watches and nothing plays: it can be put away."""
+        return not len(self.audience) and not self.clock.state().playing
+
+    def close(self) -> None:
+        """End what is under way: viewers and the rendering of the song."""
+        self.audience.dismiss()
+        self.song.close()
+
+    # What is said of it
+
+    def song_state(self) -> SongState:
+        """The song, ready or on its way."""
+        return song_state(self.song, session_links(self.id).song)
+
+    def hello(self, state: ClockState | None = None) -> Hello:
+        """What a viewer hears first.
+
+        Args:
+            state: The clock; as it is now when None.
+        """
+        manifest = self.production.manifest
+        return Hello(
+            **dict(manifest),
+            session=self.id,
+            title=self.record.title,
+            duration_s=self.clock.duration_s,
+            links=stream_links(self.id, {skeleton.rig for skeleton in manifest.skeletons}),
+            song=self.song_state(),
+            transport=transport_state(state or self.clock.state()),
+        )
+
+    def resource(self) -> resources.Session:
+        """What the HTTP interface says of it."""
+        score, played = self.production.score, self.production.played
+        return resources.Session(
+            id=self.id,
+            title=self.record.title,
+            public=self.record.public,
+            created_at=self.record.created_at,
+            duration_s=self.clock.duration_s,
+            instrument=self.record.instrument,
+            part=self.record.part,
+            transposition=self.record.transposition,
+            parts=part_summaries(score),
+            choices=[
+                resources.PartChoice(part=choice.part, score=choice.score, reasons=list(choice.reasons))
+                for choice in self.production.ranking
+            ],
+            notes=len(score.notes),
+            warnings=warned((*score.warnings, *played.warnings)),
+            song=self.song_state(),
+            links=session_links(self.id),
+        )
+
+    def transport(self) -> TransportState:
+        """The clock as it is now."""
+        return transport_state(self.clock.state())
+
+    # Its audience
+
+    def join(self, viewer: Viewer) -> None:
+        """Let somebody watch."""
+        self.audience.join(viewer, lambda state: self.hello(state).model_dump_json())
+
+    def leave(self, viewer: Viewer) -> None:
+        """Let somebody go."""
+        self.used_at = self._now()
+        self.audience.leave(viewer)
+
+    # What changes it
+
+    def control(self, command: TransportCommand) -> TransportState:
+        """Play, pause, seek, change rate or loop.
+
+        Raises:
+            ClockError: The command does not fit the song.
+        """
+        match command:
+            case Play():
+                self.clock.play()
+            case Pause():
+                self.clock.pause()
+            case Seek(song_time_s=song_time_s):
+                self.clock.seek(song_time_s)
+            case SetRate(rate=rate):
+                self.clock.set_rate(rate)
+            case SetLoop(start_s=start_s, end_s=end_s):
+                if (start_s is None) != (end_s is None):
+                    raise ClockError("a loop has a start and an end; null both to end it", where="loop")
+                self.clock.set_loop(start_s, end_s)
+        self.audience.restart()
+        return self.transport()
+
+    def change_show(self, production: Production, *, path: str | None) -> None:
+        """Play the same with another show.
+
+        Args:
+            production: The same but for the show.
+            path: The track that changed, or None for the whole show.
+        """
+        self.revision += 1
+        self._replace(production)
+        self.audience.announce(ShowChanged(path=path, revision=self.revision))
+
+    def change_part(self, record: SessionRecord, production: Production) -> None:
+        """Let the player play another part, or the same elsewhere."""
+        self.record = record
+        self._replace(production, notes=_note_messages(production))
+        self.audience.announce(ScoreChanged(part=record.part, transposition=record.transposition))
+
+    def tell_song(self) -> None:
+        """Tell the audience that the song is ready, or will not be."""
+        state = self.song_state()
+        if state.status == "ready":
+            self.audience.announce(SongReady(song=state))
+        elif self.song.error is not None:
+            self.audience.announce(StreamError(title="There is no sound", detail=self.song.error))
+
+    def _replace(self, production: Production, *, notes: NoteMessages | None = None) -> None:
+        self.production = production
+        self.clock.touch()
+        self.audience.restart(EncodedFrames(production.performance, production.manifest), notes)
+
+    def _duration_s(self) -> float:
+        uploaded = self.record.song.duration_s if self.record.song else None
+        return max(self.production.score.duration_s + RINGING_S, uploaded or 0.0)
+
+
+def _note_messages(production: Production) -> NoteMessages:
+    line = production.played.line
+    return NoteMessages(line.onset_s, line.end_s, line.sounding_pitch, NoteTable(production).of_line)

@@ -1,0 +1,102 @@
+"""A small performance whose frames tell their numbers, and a clock that is moved by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from reina.protocol import build_manifest, decode
+from reina.sessions.frames import EncodedFrames
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from reina.performance import FrameLayout, Performance
+    from reina.protocol import Frames
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    name: str = "player"
+    rig: str = "trumpeter"
+    joints: tuple[str, ...] = ("hips", "spine", "head")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    path: str
+    type: str = "number"
+    length: int = 1
+    blend: bool = True
+
+
+@dataclass(frozen=True)
+class Layout:
+    fps: int = 60
+    # One skeleton and seven floats, so that both sections end in padding.
+    skeletons: tuple[Skeleton, ...] = (Skeleton(),)
+    parameters: tuple[Parameter, ...] = (
+        Parameter("number"),
+        Parameter("blocks/color", "color", 3),
+        Parameter("camera/target", "vector", 3),
+    )
+
+
+@dataclass(frozen=True)
+class Block:
+    first_frame: int
+    fps: int
+    song_time_s: NDArray[np.float64]
+    rotations: NDArray[np.float32]
+    root_positions: NDArray[np.float32]
+    parameters: NDArray[np.float32]
+    cuts: NDArray[np.bool_]
+
+
+@dataclass
+class NumberedPerformance:
+    """Frame k holds k as its first parameter; `cuts` are cuts."""
+
+    layout: Layout = field(default_factory=Layout)
+    cuts: frozenset[int] = frozenset()
+    evaluated: list[int] = field(default_factory=list[int])
+
+    def evaluate(self, block: int) -> Block:
+        self.evaluated.append(block)
+        index = 60 * block + np.arange(60)
+        joints = sum(len(skeleton.joints) for skeleton in self.layout.skeletons)
+        parameters = np.zeros((60, 7), np.float32)
+        parameters[:, 0] = index
+        return Block(
+            first_frame=60 * block,
+            fps=self.layout.fps,
+            song_time_s=index / self.layout.fps,
+            rotations=np.tile(np.array([0, 0, 0, 1], np.float32), (60, joints, 1)),
+            root_positions=np.zeros((60, len(self.layout.skeletons), 3), np.float32),
+            parameters=parameters,
+            cuts=np.isin(index, list(self.cuts)),
+        )
+
+
+def encoded(performance: NumberedPerformance | None = None, *, kept: int = 8) -> EncodedFrames:
+    """The frames of a numbered performance."""
+    numbered = performance or NumberedPerformance()
+    manifest = build_manifest(cast("FrameLayout", numbered.layout))
+    return EncodedFrames(cast("Performance", numbered), manifest, kept=kept)
+
+
+def read(frames: EncodedFrames, messages: list[bytes]) -> Frames:
+    """The frames of binary messages, in order."""
+    return decode(frames.manifest, b"".join(messages))
+
+
+class HandClock:
+    """Server time that stands until it is moved."""
+
+    def __init__(self, time_s: float = 1000.0) -> None:
+        self.time_s = time_s
+
+    def __call__(self) -> float:
+        return self.time_s

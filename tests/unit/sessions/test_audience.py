@@ -1,0 +1,232 @@
+from __future__ import annotations
+
+import asyncio
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reina.music import MusicClock
+from reina.protocol import FrameFlag
+from reina.protocol.notes import WireNote
+from reina.sessions.audience import Audience
+from reina.sessions.note_messages import NoteMessages
+from reina.sessions.viewer import Viewer
+from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, read
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from reina.protocol import Frames
+
+FRAME = 1 / 60
+
+
+def note(index: int) -> WireNote:
+    return WireNote(
+        index=index,
+        part=0,
+        onset_s=float(index),
+        duration_s=0.5,
+        onset_beats=2.0 * index,
+        duration_beats=1.0,
+        sounding_pitch=60 + index,
+        written_pitch=62 + index,
+        velocity=0.8,
+        valves=[1],
+        reason="the usual fingering",
+    )
+
+
+class Inbox(Viewer):
+    """A viewer whose post is read by hand."""
+
+    def __init__(self, frames_per_message: int = 1) -> None:
+        super().__init__(_Nowhere(), frames_per_message=frames_per_message)
+        self.texts: list[dict[str, Any]] = []
+        self.messages: list[bytes] = []
+
+    def post_text(self, text: str) -> None:
+        self.texts.append(json.loads(text))
+
+    def post_frames(self, message: bytes) -> None:
+        self.messages.append(message)
+
+    def drop_frames(self) -> None:
+        self.messages.clear()
+
+    @property
+    def types(self) -> list[str]:
+        return [str(text["type"]) for text in self.texts]
+
+
+class _Nowhere:
+    async def send_bytes(self, data: bytes) -> None: ...
+    async def send_text(self, data: str) -> None: ...
+    async def close(self, code: int, reason: str) -> None: ...
+
+
+class Hall:
+    """An audience whose ticks are turned by hand, over three notes of half a second at 0, 1 and 2 s."""
+
+    def __init__(self) -> None:
+        self.now = HandClock()
+        self.clock = MusicClock(self.now, 3.0)
+        self.frames = encoded()
+        onsets = np.arange(3.0)
+        notes = NoteMessages(onsets, onsets + 0.5, np.array([60, 61, 62]), note)
+        self.audience = Audience(self.frames, self.clock, notes, now=self.now)
+
+    def join(self, frames_per_message: int = 1) -> Inbox:
+        inbox = Inbox(frames_per_message)
+        self.audience.join(inbox, lambda _: '{"type": "hello"}')
+        return inbox
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / FRAME)):
+            self.now.time_s += FRAME
+            self.audience.tick(self.now())
+
+    def read(self, inbox: Inbox) -> Frames:
+        got = read(self.frames, inbox.messages)
+        inbox.messages.clear()
+        return got
+
+
+def in_hall(scenario: Callable[[Hall], None]) -> None:
+    """Run a scenario inside an event loop, whose own ticker never gets a turn."""
+
+    async def run() -> None:
+        scenario(Hall())
+
+    asyncio.run(run())
+
+
+def test_whoever_joins_hears_hello_first_and_sees_the_present() -> None:
+    def scenario(hall: Hall) -> None:
+        hall.clock.seek(1.25)
+        hall.audience.restart()
+        inbox = hall.join()
+        assert inbox.types == ["hello", "note_on"]
+        assert hall.read(inbox)["index"].tolist() == [75]
+
+    in_hall(scenario)
+
+
+def test_playing_sends_every_frame_once_in_order() -> None:
+    def scenario(hall: Hall) -> None:
+        inbox = hall.join()
+        hall.read(inbox)
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(1.05)
+        got = hall.read(inbox)
+        assert got["index"].tolist() == list(range(len(got)))
+        assert 69 <= len(got) <= 70, "the time and the lead"
+        assert (got["flags"] & FrameFlag.PLAYING).all()
+        assert got["flags"][0] & FrameFlag.FIRST
+        assert not (got["flags"][1:] & FrameFlag.FIRST).any()
+        assert set(got["epoch"].tolist()) == {1}
+        assert inbox.types == ["hello", "note_on", "transport", "note_off", "note_on"]
+
+    in_hall(scenario)
+
+
+def test_every_change_sends_the_present_at_once_under_a_new_epoch() -> None:
+    def scenario(hall: Hall) -> None:
+        inbox = hall.join()
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(0.5)
+        hall.read(inbox)
+        hall.clock.seek(2.5)
+        hall.audience.restart()
+        got = hall.read(inbox)
+        assert got["index"][0] == 150
+        assert got["due_time_s"][0] == hall.now()
+        assert set(got["epoch"].tolist()) == {2}
+        hall.clock.pause()
+        hall.audience.restart()
+        paused = hall.read(inbox)
+        assert paused["index"].tolist() == [150]
+        assert paused["flags"].tolist() == [FrameFlag.FIRST]
+
+    in_hall(scenario)
+
+
+def test_two_viewers_get_the_same_bytes() -> None:
+    def scenario(hall: Hall) -> None:
+        first, second = hall.join(), hall.join()
+        first.messages.clear()
+        second.messages.clear()
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(0.5)
+        assert first.messages == second.messages
+        assert all(one is other for one, other in zip(first.messages, second.messages, strict=True))
+
+    in_hall(scenario)
+
+
+def test_the_end_is_told_once_with_a_last_frame() -> None:
+    def scenario(hall: Hall) -> None:
+        inbox = hall.join()
+        hall.clock.seek(2.4)
+        hall.clock.play()
+        hall.audience.restart()
+        inbox.texts.clear()
+        hall.run(1.0)
+        got = hall.read(inbox)
+        assert got["index"].tolist() == [180], "what waited of the music is dropped, the last frame is there"
+        assert not (got["flags"] & (FrameFlag.PLAYING | FrameFlag.FIRST)).any()
+        assert inbox.types == ["note_off", "transport"]
+        assert inbox.texts[-1]["playing"] is False
+        assert inbox.texts[-1]["song_time_s"] == 3.0
+
+    in_hall(scenario)
+
+
+def test_a_loop_strikes_its_notes_anew() -> None:
+    def scenario(hall: Hall) -> None:
+        inbox = hall.join()
+        hall.clock.set_loop(0.9, 1.2)
+        hall.clock.seek(0.9)
+        hall.clock.play()
+        hall.audience.restart()
+        inbox.texts.clear()
+        hall.run(0.75)
+        assert inbox.types == ["note_on", "note_off", "note_on", "note_off", "note_on"]
+        cuts = hall.read(inbox)["flags"] & FrameFlag.CUT
+        assert np.flatnonzero(cuts).tolist() == [18, 36]
+
+    in_hall(scenario)
+
+
+def test_an_edit_is_in_the_next_frames() -> None:
+    def scenario(hall: Hall) -> None:
+        inbox = hall.join()
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(0.5)
+        hall.read(inbox)
+        edited = NumberedPerformance(cuts=frozenset({30}))
+        hall.clock.touch()
+        hall.audience.restart(encoded(edited))
+        got = hall.read(inbox)
+        assert got["index"][0] == 30
+        assert got["flags"][0] & FrameFlag.CUT
+
+    in_hall(scenario)
+
+
+def test_the_ticker_runs_only_while_somebody_watches() -> None:
+    async def scenario() -> None:
+        hall = Hall()
+        before = len(asyncio.all_tasks())
+        inbox = hall.join()
+        assert len(asyncio.all_tasks()) == before + 1
+        hall.audience.leave(inbox)
+        await asyncio.sleep(0)
+        assert len(asyncio.all_tasks()) == before
+
+    asyncio.run(scenario())

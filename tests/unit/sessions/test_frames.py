@@ -1,0 +1,67 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reina.protocol import FrameFlag
+from reina.sessions.schedule import DueFrame
+from tests.unit.sessions.fakes import NumberedPerformance, encoded, read
+
+
+def test_a_block_is_evaluated_once() -> None:
+    performance = NumberedPerformance()
+    frames = encoded(performance)
+    for index in (0, 59, 60, 5, 61):
+        frames.message([DueFrame(index, 1.0)], epoch=1, playing=True)
+    assert performance.evaluated == [0, 1]
+
+
+def test_only_the_last_used_blocks_are_kept() -> None:
+    performance = NumberedPerformance()
+    frames = encoded(performance, kept=2)
+    for number in (0, 1, 0, 2, 0, 1):
+        frames.block(number)
+    assert performance.evaluated == [0, 1, 2, 1]
+
+
+def test_a_message_is_stamped_frames_back_to_back() -> None:
+    frames = encoded()
+    due = [DueFrame(58, 7.0, first=True), DueFrame(59, 7.5), DueFrame(60, 8.0, cut=True)]
+    sent = read(frames, [frames.message(due, epoch=259, playing=True)])
+    assert sent["index"].tolist() == [58, 59, 60]
+    assert sent["parameters"][:, 0].tolist() == [58, 59, 60]
+    assert sent["due_time_s"].tolist() == [7.0, 7.5, 8.0]
+    assert sent["epoch"].tolist() == [3, 3, 3]
+    assert sent["flags"].tolist() == [
+        FrameFlag.PLAYING | FrameFlag.FIRST,
+        FrameFlag.PLAYING,
+        FrameFlag.PLAYING | FrameFlag.CUT,
+    ]
+
+
+def test_stamping_leaves_the_kept_block_as_it_is() -> None:
+    frames = encoded()
+    frames.message([DueFrame(3, 7.0, first=True)], epoch=1, playing=True)
+    assert frames.block(0)["epoch"].tolist() == [0] * 60
+    with pytest.raises(ValueError, match="read-only"):
+        frames.block(0)["epoch"] = 1
+
+
+@pytest.mark.parametrize(("cut", "flagged"), [(3, False), (4, True), (5, True), (6, True), (7, False)])
+def test_a_cut_among_frames_that_are_passed_over_is_not_lost(cut: int, *, flagged: bool) -> None:
+    frames = encoded(NumberedPerformance(cuts=frozenset({cut})))
+    sent = read(frames, [frames.message([DueFrame(6, 1.0, skipped=2)], epoch=0, playing=True)])
+    assert bool(sent["flags"][0] & FrameFlag.CUT) is flagged
+
+
+def test_a_span_crosses_blocks() -> None:
+    span = encoded().span(50, 130)
+    assert span["index"].tolist() == list(range(50, 131))
+    assert np.array_equal(span["parameters"][:, 0], np.arange(50, 131))
+
+
+def test_what_was_forgotten_is_the_same_again() -> None:
+    frames = encoded()
+    before = frames.block(1).tobytes()
+    frames.forget()
+    assert frames.block(1).tobytes() == before
