@@ -83,7 +83,7 @@ Place lanePlace(float ahead, float step) {
     place.point = vec3(${f(LANE.below.now)} + ahead, ${f(LANE.below.height)}, ${f(LANE.below.near)}) + place.up * (step - 4.0) * STEP;
   }
   place.out_ = cross(place.along, place.up);
-  place.sight = smoothstep(laneEnd(), laneEnd() - 1.1, ahead) * smoothstep(laneStart() - 0.001, laneStart() + (arrangement < 0.5 ? 0.02 : 0.4), ahead);
+  place.sight = smoothstep(laneEnd(), laneEnd() - 0.7, ahead) * smoothstep(laneStart() - 0.001, laneStart() + (arrangement < 0.5 ? 0.02 : 0.4), ahead);
   return place;
 }
 `;
