@@ -48,6 +48,11 @@ export function typedNumber(shown: number, unit: string): number {
   return unit === "rad" ? (shown * Math.PI) / 180 : shown;
 }
 
+/** A parameter's path, or the rest of one, as words. */
+export function shownPath(path: string): string {
+  return path.replaceAll("_", " ").replaceAll("/", " ");
+}
+
 /** A unit as it is written behind a number. */
 export function shownUnit(unit: string): string {
   return unit === "rad" ? "°" : unit;

@@ -94,7 +94,7 @@ export class SessionView {
     );
     this.#stream = new Stream(streamAddress(session.links.stream), {
       message: (message) => this.#receive(message),
-      frames: (bytes) => this.#queue?.push(bytes),
+      frames: (bytes) => this.#takeFrames(bytes),
       connection: (state) => this.#connected(state),
     });
     this.#checking = setInterval(() => this.#check(), CHECK_INTERVAL_MS);
@@ -218,6 +218,24 @@ export class SessionView {
         break;
       default:
         break;
+    }
+  }
+
+  /** Frames that do not fit what `hello` said are dropped; saying so once is enough. */
+  #takeFrames(bytes: ArrayBuffer): void {
+    try {
+      this.#queue?.push(bytes);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.#surroundings.tell(
+        new ProblemError({
+          status: 0,
+          title: "The page and the server do not fit each other",
+          detail: `${error.message}. Reload the page.`,
+          errors: [],
+        }),
+      );
+      this.#queue = null;
     }
   }
 
