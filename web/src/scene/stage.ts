@@ -47,6 +47,10 @@ export class Stage {
   #models: RigModel[] = [];
   #bell: Bell | null = null;
   #drawnIndex = -1;
+  #epoch = -1;
+  #songTime = 0;
+  /** Something else than the frame changed the picture. */
+  #changed = true;
   #height = 1;
   #loads = 0;
   #redraw = 0;
@@ -127,18 +131,24 @@ export class Stage {
     }
     this.#models = models;
     this.#bell = findBell(models);
+    this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
   }
 
   /** Lay out the played part's notes. */
   setScore(score: ScoreView): void {
     this.#blocks.setScore(score);
+    this.#blocks.scroll(this.#songTime);
     this.#drawSoon();
   }
 
-  /** Take a frame and draw it. */
+  /** Take a frame and draw it; the same frame again costs nothing unless something else changed the picture. */
   draw(frame: DrawnFrame): void {
     const { floats } = frame;
+    const same = frame.index === this.#drawnIndex && frame.epoch === this.#epoch && frame.songTime === this.#songTime;
+    if (same && !this.#changed) return;
+    this.#epoch = frame.epoch;
+    this.#songTime = frame.songTime;
     for (const model of this.#models) model.pose(floats);
     this.#show.apply(floats);
     this.#blocks.scroll(frame.songTime);
@@ -167,16 +177,18 @@ export class Stage {
       shadowMap.autoUpdate = false;
     }
     this.#renderer.render(scene, camera);
+    this.#changed = false;
     if (this.#camera.returning) this.#drawSoon();
     return true;
   }
 
   /** Draw the last frame again with the next picture: the camera moved, or the score came. */
   #drawSoon(): void {
+    this.#changed = true;
     if (this.#redraw !== 0 || this.#disposed) return;
     this.#redraw = requestAnimationFrame(() => {
       this.#redraw = 0;
-      if (this.#drawnIndex >= 0) this.#render();
+      if (this.#changed && this.#drawnIndex >= 0) this.#render();
     });
   }
 
