@@ -6,7 +6,7 @@
 import { readFileSync } from "node:fs";
 import { Logger, NodeIO } from "@gltf-transform/core";
 import { ALL_EXTENSIONS, EXTMeshoptCompression, KHRMeshQuantization } from "@gltf-transform/extensions";
-import { dedup, prune, quantize, reorder, simplify, weld } from "@gltf-transform/functions";
+import { dedup, prune, quantize, reorder, simplifyPrimitive, weld } from "@gltf-transform/functions";
 import { MeshoptDecoder, MeshoptEncoder, MeshoptSimplifier } from "meshoptimizer";
 import validator from "gltf-validator";
 
@@ -22,6 +22,17 @@ function triangles(document) {
   return parts.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
 }
 
+// Hair is built at each tier's own fineness: thin overlapping locks do not survive being reduced.
+function reduce(document, wantedTriangles) {
+  const meshes = document.getRoot().listMeshes().filter((mesh) => mesh.getName() !== "Hair");
+  const parts = meshes.flatMap((mesh) => mesh.listPrimitives());
+  const size = (primitives) => primitives.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
+  const drawnMoreThanOnce = triangles(document) - size(document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives()));
+  const kept = triangles(document) - size(parts) - drawnMoreThanOnce;
+  const ratio = (wantedTriangles - kept) / (size(parts) + drawnMoreThanOnce);
+  for (const part of parts) simplifyPrimitive(part, { simplifier: MeshoptSimplifier, ratio, error: 0.05 });
+}
+
 async function issues(bytes) {
   const { issues: found } = await validator.validateBytes(new Uint8Array(bytes), { maxIssues: 50 });
   const serious = found.messages.filter((message) => message.severity < 2);
@@ -32,10 +43,7 @@ const document = await io.read(input);
 document.setLogger(new Logger(Logger.Verbosity.WARN));
 await document.transform(dedup(), weld());
 const count = Number(wanted);
-if (count > 0 && triangles(document) > count) {
-  const ratio = count / triangles(document);
-  await document.transform(simplify({ simplifier: MeshoptSimplifier, ratio, error: 0.05, lockBorder: false }));
-}
+if (count > 0 && triangles(document) > count) reduce(document, count);
 await document.transform(prune({ keepLeaves: true, keepAttributes: false, keepExtras: true }));
 const plain = await issues(await io.writeBinary(document));
 await document.transform(

@@ -55,7 +55,7 @@ class Tier:
 TIERS = {
     "full": Tier(1, 16, 10, 1.0, (26, 192), (24, 40)),
     "medium": Tier(1, 12, 7, 0.9, (20, 144), (16, 28)),
-    "low": Tier(0, 7, 4, 0.55, (8, 96), (8, 14)),
+    "low": Tier(0, 7, 5, 0.5, (8, 96), (8, 14)),
 }
 
 
@@ -71,13 +71,14 @@ def build_player(data: Path, raw: Path, rig_folder: Path) -> None:
     hair = Surface("hair", 0.42, image=jpeg(hair_picture(), 92), both_sides=True)
     for name, tier in TIERS.items():
         outer = blazer(tailor, tier.subdivisions)
+        locks, hair_normals = bob(tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
         parts = [
             skin,
             lashes(figure, weights),
             eyes(figure, skeleton, *tier.eye_grid),
             *uniform_parts(tailor, tier.subdivisions, tier.skirt_grid, outer),
             *trimming_parts(tailor, outer),
-            Part("Hair", bob(tailor, tier.lock_steps, tier.lock_sides, tier.lock_share), hair),
+            Part("Hair", locks, hair, hair_normals),
         ]
         write_skinned(raw / f"{NAME}.{name}.glb", NAME, skeleton, parts)
     write_json(rig_folder / "rig.json", rig_content(figure, skeleton, weights, mouth))

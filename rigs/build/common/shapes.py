@@ -31,4 +31,4 @@ def tube(path: Array, radius: Array | float, up: Array, sides: int = 10, flat: f
     ring = side[:, None] * np.cos(angle)[:, None] + flat * over[:, None] * np.sin(angle)[:, None]
     vertices = (path[:, None] + radii[:, None, None] * ring).reshape(-1, 3)
     u, v = np.meshgrid(np.linspace(0, 1, sides + 1), np.linspace(0, 1, count))
-    return vertices, grid_faces(count, sides + 1), np.c_[u.ravel(), v.ravel()]
+    return vertices, grid_faces(count, sides + 1, flip=True), np.c_[u.ravel(), v.ravel()]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,17 +96,18 @@ def _side_and_back_locks(rng: np.random.Generator, share: float) -> list[Lock]:
 
 
 def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
-    """Overlapping layers of fine strands of uneven length, parted a little to one side, longer at the temples."""
+    """Layers of fine strands of uneven length down to the brows, swept apart at a parting, longer at the temples."""
     locks = []
-    part = 0.16
-    for lift, count, extra in ((0.0135, 26, 0.035), (0.0165, 22, 0.0), (0.0190, 16, -0.05)):
-        number = max(7, round(count * share))
+    parting = 0.22
+    for lift, count, extra in ((0.0125, 30, 0.03), (0.0155, 26, 0.0), (0.0180, 20, -0.04)):
+        number = max(9, round(count * share))
         for i in range(number):
-            a = -1.02 + 2.0 * (i + 0.5) / number + rng.uniform(-0.03, 0.03)
-            length = 1.405 + 0.17 * a * a + extra + rng.uniform(-0.045, 0.035)
-            sweep = 0.20 * a + 0.10 * np.sign(a - part) * np.exp(-(((a - part) / 0.3) ** 2))
-            width = rng.uniform(0.0078, 0.0105) / share**0.8
-            locks.append(Lock(a * 0.86, 0.20 + rng.uniform(-0.05, 0.05), length, lift, width, swing=sweep, flat=0.30, blunt=0.85))
+            a = -1.06 + 2.08 * (i + 0.5) / number + rng.uniform(-0.035, 0.035)
+            length = 1.475 + 0.13 * a * a + extra + rng.uniform(-0.055, 0.045)
+            sweep = 0.16 * a + 0.05 * np.sign(a - parting) * np.exp(-(((a - parting) / 0.22) ** 2)) + rng.uniform(-0.03, 0.03)
+            width = rng.uniform(0.0066, 0.0098) / share**0.9
+            start = 0.20 + rng.uniform(-0.05, 0.05)
+            locks.append(Lock(a * 0.86, start, length, lift, width, swing=sweep, flat=0.30, blunt=1.0))
     return locks
 
 
@@ -137,8 +138,8 @@ def _cap(tailor: Tailor, scalp: Scalp) -> Mesh:
     return mesh
 
 
-def bob(tailor: Tailor, steps: int, sides: int, share: float) -> Mesh:
-    """The whole head of hair; `share` is the part of the locks that a lower tier keeps (they grow wider)."""
+def bob(tailor: Tailor, steps: int, sides: int, share: float) -> tuple[Mesh, Array]:
+    """The whole head of hair and its normals (V, 3); `share` is the part of the locks that a lower tier keeps (they grow wider)."""
     rng = np.random.default_rng(SEED)
     scalp = Scalp.of(tailor)
     locks = _side_and_back_locks(rng, share) + _fringe(rng, share) + _temple_locks()
@@ -146,4 +147,27 @@ def bob(tailor: Tailor, steps: int, sides: int, share: float) -> Mesh:
     for lock in locks:
         vertices, faces, uv = lock.mesh(scalp, steps, sides)
         meshes.append(Mesh(vertices, tailor.rigid(len(vertices), head=1), faces, uv))
-    return joined(meshes)
+    hair = _outside(joined(meshes), scalp)
+    return hair, _soft_normals(hair, scalp)
+
+
+def _outside(hair: Mesh, scalp: Scalp) -> Mesh:
+    """Drop the faces that look at the head: locks hide them, and they would be lit wrongly."""
+    a, b, c = (hair.vertices[hair.faces[:, k]] for k in range(3))
+    facing = np.cross(b - a, c - a)
+    outward = (a + b + c) / 3 - scalp.centre
+    outward[:, 1] *= 0.6
+    product = (facing * outward).sum(axis=1)
+    lengths = np.linalg.norm(facing, axis=1) * np.linalg.norm(outward, axis=1)
+    return replace(hair, faces=hair.faces[product > -0.3 * lengths]).compact()
+
+
+def _soft_normals(hair: Mesh, scalp: Scalp) -> Array:
+    """Each strand's own normals leaned toward the head's roundness, so that the hair is lit as one body."""
+    outward = hair.vertices - scalp.centre
+    outward[:, 1] *= 0.6  # below the ears the hair hangs like a curtain
+    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+    own = normals(hair.vertices, hair.faces)
+    blended = 0.55 * own + 0.6 * outward
+    unit: Array = blended / np.linalg.norm(blended, axis=1, keepdims=True)
+    return unit

@@ -40,9 +40,9 @@ def lapels(tailor: Tailor, outer: Mesh, steps: int = 28) -> Mesh:
     strips = []
     for sign in (1, -1):
         rows = []
-        for share, lift in ((-0.06, 0.0005), (0.08, 0.0062), (0.5, 0.0072), (0.92, 0.0050), (1.0, 0.0012)):
+        for share, lift in ((-0.06, 0.0005), (0.08, 0.0062), (0.5, 0.0072), (0.92, 0.0066), (1.0, 0.0040)):
             x, yy = edge + 0.001 + width * share, y + width * 0.15 * max(share, 0)
-            z = gaussian_filter1d(_front_z(tailor, outer, sign * np.maximum(x, edge + 0.006), yy), 2) + lift
+            z = gaussian_filter1d(_front_z(tailor, outer, sign * np.maximum(x, edge + 0.008), yy), 3.5) + lift
             rows.append(np.c_[sign * x, yy, z])
         points = np.stack(rows, axis=1).reshape(-1, 3)
         strips.append(Mesh(points, borrowed_weights(points, outer), grid_faces(steps, 5, flip=sign < 0)))
@@ -85,6 +85,38 @@ def collar(tailor: Tailor, steps: int = 64) -> Mesh:
     rows = [np.c_[np.sin(angle) * r, y, centre_z + np.cos(angle) * r] for r, y in profile]
     points = np.stack(rows, axis=1).reshape(-1, 3)
     return Mesh(points, tailor.rigid(len(points), neck=0.45, upperChest=0.55), grid_faces(steps + 1, 5, flip=True))
+
+
+def blazer_collar(tailor: Tailor, outer: Mesh, steps: int = 48) -> Mesh:
+    """The blazer's own collar: a fold round the nape that runs into the lapels on both sides."""
+    centre_z = _neck_centre_z(tailor)
+    angle = np.linspace(1.30, 2 * np.pi - 1.30, steps + 1)
+    back = (1 - np.cos(angle)) / 2
+    stand = gaussian_filter1d(_neck_radius(tailor, centre_z, angle, np.full(steps + 1, tailor.neck_y + 0.012)), 6) + 0.0285
+    top = tailor.neck_y + 0.002 + 0.016 * back
+    shoulder = _outer_height(tailor, outer, centre_z, angle, stand + 0.026)
+    fall = np.maximum(gaussian_filter1d(shoulder, 3) + 0.0035, top - 0.040)
+    profile = (
+        (stand - 0.001, top - 0.016),
+        (stand, top),
+        (stand + 0.004, top + 0.0025),
+        (stand + 0.010, top * 0.8 + fall * 0.2 + 0.001),
+        (stand + 0.018, top * 0.4 + fall * 0.6 + 0.001),
+        (stand + 0.026, fall),
+    )
+    rows = [np.c_[np.sin(angle) * r, y, centre_z + np.cos(angle) * r] for r, y in profile]
+    points = np.stack(rows, axis=1).reshape(-1, 3)
+    weights = 0.5 * borrowed_weights(points, outer) + 0.5 * tailor.rigid(len(points), upperChest=0.75, neck=0.25)
+    return Mesh(points, weights, grid_faces(steps + 1, len(profile), flip=True))
+
+
+def _outer_height(tailor: Tailor, outer: Mesh, centre_z: float, angles: Array, radii: Array) -> Array:
+    """Height (N,) of the blazer's shoulders at places round the neck."""
+    cloth = outer.vertices[outer.vertices[:, 1] > tailor.neck_y - 0.14]
+    distance, index = cKDTree(cloth[:, [0, 2]]).query(np.c_[np.sin(angles) * radii, centre_z + np.cos(angles) * radii], k=6)
+    near = 1 / (distance + 0.003)
+    height: Array = (cloth[index, 1] * near).sum(axis=1) / near.sum(axis=1)
+    return height
 
 
 def bow(tailor: Tailor) -> Mesh:
@@ -130,7 +162,7 @@ def _neck_radius(tailor: Tailor, centre_z: float, angles: Array, heights: Array)
 
 def trimming_parts(tailor: Tailor, outer: Mesh) -> list[Part]:
     return [
-        Part("Lapels", lapels(tailor, outer), LAPEL),
+        Part("Lapels", joined([lapels(tailor, outer), blazer_collar(tailor, outer)]), LAPEL),
         Part("Buttons", buttons(tailor, outer), BRASS),
         Part("Collar", collar(tailor), SHIRT),
         Part("Ribbon", bow(tailor), RIBBON),

@@ -20,6 +20,7 @@ SKIRT = Surface("skirt", 0.85, colour=(0.20, 0.215, 0.27), both_sides=True)
 TIGHTS = Surface("tights", 0.55, colour=(0.085, 0.085, 0.10))
 SHOES = Surface("shoes", 0.28, colour=(0.13, 0.075, 0.055), both_sides=True)
 
+NECKLINE_M = 0.066  # radius of the blazer's neck
 OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
 BLAZER_SLEEVE = 0.86  # sleeves end at these shares of the forearm
 SHIRT_SLEEVE = 0.93
@@ -53,8 +54,10 @@ def blazer(tailor: Tailor, subdivisions: int) -> Mesh:
     parted = np.where(v[:, 1] < button - 0.16, (button - 0.16 - v[:, 1]) * 0.25, 0)
     front = v[:, 2] > chest[2] + 0.01
     keep = np.where(front, np.minimum(keep, np.abs(v[:, 0]) - np.maximum(opening(tailor, v[:, 1]), parted) - 0.0005), keep)
-    around_neck = np.hypot(v[:, 0], (v[:, 2] - tailor.at("neck")[2]) / 1.1) - 0.058
-    keep = np.where((v[:, 1] > tailor.neck_y - 0.03) & ~front, np.minimum(keep, around_neck), keep)
+    around_neck = np.hypot(v[:, 0], (v[:, 2] - tailor.at("neck")[2]) / 1.1) - NECKLINE_M
+    behind = np.clip((tailor.at("neck")[2] + 0.01 - v[:, 2]) / 0.05, 0, 1)
+    below_neck = tailor.neck_y - 0.055 + 0.050 * behind - v[:, 1]
+    keep = np.minimum(keep, np.maximum(around_neck, below_neck))
     mesh = mesh.clipped(keep)
     return _flare(tailor, _waisted(tailor, mesh))
 
