@@ -26,9 +26,11 @@ check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated file
 	web/node_modules/.bin/pyright
 	cd web && npm run check
 	$(BIN)/python -m reina.protocol.generate --check
+	$(BIN)/python -m reina.api.openapi --check
 
 generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
 	$(BIN)/python -m reina.protocol.generate
+	$(BIN)/python -m reina.api.openapi
 
 assets: .venv/.dev ## Build the rigs anew from their pinned sources
 	$(BIN)/python rigs/build/build.py

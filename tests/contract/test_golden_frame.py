@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import pytest
+from tests.contract.golden import GOLDEN, JOINTS, PARAMETERS, golden_bytes, golden_frames, golden_manifest
 
 from reina.protocol import (
     FrameError,
@@ -18,7 +19,6 @@ from reina.protocol import (
     frame_dtype,
     stamp,
 )
-from tests.contract.golden import GOLDEN, JOINTS, PARAMETERS, golden_bytes, golden_frames, golden_manifest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

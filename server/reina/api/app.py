@@ -11,6 +11,7 @@ from fastapi import FastAPI
 import reina
 from reina.api import catalogue, examples, frames, page, problems, rigs, sessions, show, song, stream
 from reina.api.compression import Compression
+from reina.api.description import describe
 from reina.api.guard import Guard
 from reina.api.settings import Settings
 from reina.protocol.links import API
@@ -21,6 +22,7 @@ from reina.sessions.store import SessionStore
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
 
+DEFAULT_SHOW = "shows/default.json"
 DESCRIPTION = """\
 A score becomes a trumpeter. Make a session of a MIDI or JSON score, then watch it: over the WebSocket
 `/api/v1/sessions/{id}/stream` (docs/protocol.md says what comes), or frame by frame over HTTP.
@@ -41,7 +43,8 @@ def create_app(settings: Settings | None = None, *, now: Callable[[], float] = t
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
         renderer = SongRenderer(chosen.data_dir)
-        store = SessionStore(chosen.data_dir, Stage.load(chosen.rigs_dir), renderer, now=now)
+        stage = Stage.load(chosen.rigs_dir, chosen.examples_dir / DEFAULT_SHOW)
+        store = SessionStore(chosen.data_dir, stage, renderer, now=now)
         app.state.store = store
         yield
         await store.aclose()
@@ -52,9 +55,10 @@ def create_app(settings: Settings | None = None, *, now: Callable[[], float] = t
     app.state.settings = chosen
     app.state.now = now
     for module in (sessions, frames, song, show, rigs, examples, catalogue, stream):
-        app.include_router(module.router, prefix=API)
+        app.include_router(module.router, prefix=API, responses=problems.RESPONSES)
     app.include_router(page.router)
     problems.install(app)
+    describe(app)
     app.add_middleware(Compression)
     app.add_middleware(Guard, settings=chosen)
     return app

@@ -23,6 +23,12 @@ if TYPE_CHECKING:
 MEDIA_TYPE = "application/problem+json"
 
 
+RESPONSES: dict[int | str, dict[str, Any]] = {
+    "4XX": {"model": Problem, "description": "Why not, as problem details (RFC 9457)."}
+}
+"""What every route may answer with, for the description of the interface."""
+
+
 class ProblemError(Exception):
     """A request that is refused.
 

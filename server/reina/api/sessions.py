@@ -4,7 +4,7 @@ import asyncio
 from pathlib import Path
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 from pydantic import ValidationError
 
 from reina.api.access import Controlled, Store, Watched
@@ -53,6 +53,15 @@ _FORM: dict[str, Any] = {
             }
         },
     }
+}
+
+_COMMANDS: dict[str, Any] = {
+    "play": {"value": {"action": "play"}},
+    "pause": {"value": {"action": "pause"}},
+    "seek": {"value": {"action": "seek", "song_time_s": 12.5}},
+    "rate": {"value": {"action": "rate", "rate": 0.5}},
+    "loop": {"value": {"action": "loop", "start_s": 4.0, "end_s": 8.0}},
+    "end the loop": {"value": {"action": "loop", "start_s": None, "end_s": None}},
 }
 
 
@@ -115,7 +124,9 @@ async def get_session(session: Watched) -> resources.Session:
 
 @router.patch("/sessions/{session_id}")
 async def change_session(
-    session: Controlled, change: resources.SessionChange, store: Store
+    session: Controlled,
+    change: Annotated[resources.SessionChange, Body(examples=[{"title": "Taps, slower", "part": 1}])],
+    store: Store,
 ) -> resources.Session:
     """Rename it, list it or not, or have the player play another part or elsewhere."""
     await store.change(session, **change.model_dump())
@@ -154,6 +165,8 @@ async def get_transport(session: Watched) -> TransportState:
 
 
 @router.post("/sessions/{session_id}/transport", tags=["transport"])
-async def control_transport(session: Controlled, command: TransportCommand) -> TransportState:
+async def control_transport(
+    session: Controlled, command: Annotated[TransportCommand, Body(openapi_examples=_COMMANDS)]
+) -> TransportState:
     """Play, pause, seek, or change rate or loop; every viewer follows at once."""
     return session.control(command)

@@ -8,7 +8,7 @@ from reina.api.access import Controlled, Store, Watched
 from reina.api.problems import ProblemError
 from reina.api.upload import FILE_LIMITS, MEGABYTE
 from reina.keyframes import Keyframe, Parameter, ParameterRegistry, Show, Track, keyframe_document
-from reina.sessions.store import read_show
+from reina.sessions.production import read_show
 
 router = APIRouter(tags=["show"])
 

@@ -14,7 +14,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reina.protocol import messages, resources, transport
+from reina.protocol import resources, transport
+from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.reader import frame_reader
 from reina.protocol.typescript import interfaces
 
@@ -26,15 +27,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parents[3]
 
 SENT: tuple[type[BaseModel], ...] = (
-    messages.Hello,
-    messages.Transport,
-    messages.ShowChanged,
-    messages.ScoreChanged,
-    messages.SongReady,
-    messages.NoteOn,
-    messages.NoteOff,
-    messages.Pong,
-    messages.StreamError,
+    *FROM_SERVER,
     resources.Session,
     resources.CreatedSession,
     resources.SessionList,
@@ -47,13 +40,16 @@ SENT: tuple[type[BaseModel], ...] = (
 )
 """What the server sends: every field is there."""
 
-RECEIVED: tuple[type[BaseModel], ...] = (
-    messages.Ping,
+COMMANDS: tuple[type[BaseModel], ...] = (
     transport.Play,
     transport.Pause,
     transport.Seek,
     transport.SetRate,
     transport.SetLoop,
+)
+RECEIVED: tuple[type[BaseModel], ...] = (
+    *FROM_VIEWER,
+    *COMMANDS,
     resources.SessionChange,
 )
 """What the server is sent: fields with a default may be left out."""
@@ -68,9 +64,9 @@ def typescript() -> str:
     unions = "\n".join(
         f"export type {name} =\n" + "\n".join(f"  | {model.__name__}" for model in members) + "\n"
         for name, members in {
-            "ServerMessage": SENT[:9],
-            "ViewerMessage": RECEIVED[:1],
-            "TransportCommand": RECEIVED[1:6],
+            "ServerMessage": FROM_SERVER,
+            "ViewerMessage": FROM_VIEWER,
+            "TransportCommand": COMMANDS,
         }.items()
     )
     return "\n".join([_HEAD, frame_reader(), interfaces(SENT, RECEIVED), unions])
@@ -106,7 +102,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m reina.protocol.generate", description=__doc__)
     parser.add_argument("--check", action="store_true", help="change nothing; fail when something is stale")
     arguments = parser.parse_args()
-    files = {ROOT / "web/src/generated/protocol.ts": typescript()}
+    files = {
+        ROOT / "web/src/generated/protocol.ts": typescript(),
+        ROOT / "docs/protocol.md": documentation(),
+    }
     return write_or_check(files, check=arguments.check)
 
 

@@ -40,7 +40,7 @@ class Hello(Manifest):
     session: str
     title: str
     duration_s: float
-    """Where the music ends: the score's end, or the uploaded song's where that is later."""
+    """Song time at which the clock stops: the player has settled, and the song is over."""
     links: StreamLinks
     song: SongState
     transport: TransportState

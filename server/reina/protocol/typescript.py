@@ -48,6 +48,15 @@ def interfaces(sent: Sequence[type[BaseModel]], received: Sequence[type[BaseMode
     return "\n\n".join(texts) + "\n"
 
 
+def field_types(model: type[BaseModel]) -> dict[str, tuple[str, str]]:
+    """Field name -> its TypeScript type and its documentation on one line."""
+    schema = model.model_json_schema(mode="serialization")
+    return {
+        name: (type_of(field), " ".join(str(field.get("description", "")).split()))
+        for name, field in schema["properties"].items()
+    }
+
+
 def _base(model: type[BaseModel]) -> type[BaseModel] | None:
     """The model that it extends, or None."""
     base = model.__base__

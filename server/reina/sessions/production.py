@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from reina.instruments import INSTRUMENTS
-from reina.keyframes import ParameterRegistry, Show, TimeMap, stage_registry
-from reina.performance import Performance
+from reina.keyframes import ParameterRegistry, Show, ShowError, ShowPlan, TimeMap, stage_registry
+from reina.performance import PLAYER_PARAMETERS, Performance
 from reina.protocol import Manifest, build_manifest
 from reina.skeleton import Hold, Rig, load_hold, load_rig
 
@@ -31,7 +32,8 @@ class Stage:
         player_rig: Who plays.
         instrument_rig: On what.
         hold: How it is held.
-        registry: Everything that a show can move, and what the player gives.
+        registry: Everything that a show can move.
+        show: What is shown around a score that comes without a show of its own.
     """
 
     instrument: Instrument
@@ -39,22 +41,43 @@ class Stage:
     instrument_rig: Rig
     hold: Hold
     registry: ParameterRegistry
+    show: Show
 
     @classmethod
-    def load(cls, rigs_dir: Path) -> Stage:
-        """Read the rigs.
+    def load(cls, rigs_dir: Path, show: Path | None = None) -> Stage:
+        """Read the rigs, and the show that is the default.
+
+        Args:
+            rigs_dir: One folder a rig.
+            show: The show's file; the resting stage when None or when it is not there.
 
         Raises:
             RigError: A rig is not there, or is broken.
+            ShowError: The show is broken.
         """
+        registry = stage_registry().extended(PLAYER_PARAMETERS)
         instrument = INSTRUMENTS[INSTRUMENT]
         return cls(
             instrument=instrument,
             player_rig=load_rig(rigs_dir / PLAYER_RIG),
             instrument_rig=load_rig(rigs_dir / instrument.rig),
             hold=load_hold(rigs_dir / PLAYER_RIG, instrument.rig),
-            registry=stage_registry(),
+            registry=registry,
+            show=read_show(show.read_bytes(), registry) if show and show.is_file() else Show(),
         )
+
+
+def read_show(data: bytes, registry: ParameterRegistry) -> Show:
+    """Read a show from JSON text.
+
+    Raises:
+        ShowError: It is no show.
+    """
+    try:
+        document: object = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise ShowError(f"the show is no JSON: {error}") from error
+    return Show.from_document(document, registry)
 
 
 @dataclass(frozen=True)
@@ -69,6 +92,7 @@ class Production:
         transposition: Semitones by which it is moved.
         played: The playable line and its fingering.
         show: The show around it.
+        show_plan: The show, made ready.
         performance: All of it as a function of time.
         manifest: What its frames hold.
     """
@@ -80,6 +104,7 @@ class Production:
     transposition: int
     played: PlayedPart
     show: Show
+    show_plan: ShowPlan
     performance: Performance
     manifest: Manifest
 
@@ -107,7 +132,8 @@ class Production:
         """
         ranking = stage.instrument.rank_parts(score)
         played = stage.instrument.play(score, ranking[0].part if part is None else part, transposition)
-        performance = _performance(stage, score, played, show)
+        show_plan = show.plan(stage.registry, time_map(score))
+        performance = _performance(stage, score, played, show_plan)
         return cls(
             stage=stage,
             score=score,
@@ -116,6 +142,7 @@ class Production:
             transposition=transposition,
             played=played,
             show=show,
+            show_plan=show_plan,
             performance=performance,
             manifest=build_manifest(performance.layout),
         )
@@ -127,15 +154,18 @@ class Production:
 
     def with_show(self, show: Show) -> Production:
         """The same with another show; what was planned of the player is kept."""
-        plan = show.plan(self.stage.registry, time_map(self.score), earlier=self.performance.show_plan)
-        return replace(self, show=show, performance=self.performance.with_show(plan))
+        plan = show.plan(self.stage.registry, time_map(self.score), earlier=self.show_plan)
+        return replace(self, show=show, show_plan=plan, performance=self.performance.with_show(plan))
 
     def at_rate(self, fps: int) -> Production:
         """The same function on another grid of frames."""
         if fps == self.manifest.fps:
             return self
-        performance = _performance(self.stage, self.score, self.played, self.show, fps=fps)
-        return replace(self, performance=performance, manifest=build_manifest(performance.layout))
+        plan = self.show.plan(self.stage.registry, time_map(self.score), fps=fps)
+        performance = _performance(self.stage, self.score, self.played, plan, fps=fps)
+        return replace(
+            self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)
+        )
 
 
 def time_map(score: Score) -> TimeMap:
@@ -147,7 +177,9 @@ def time_map(score: Score) -> TimeMap:
     )
 
 
-def _performance(stage: Stage, score: Score, played: PlayedPart, show: Show, *, fps: int = 60) -> Performance:
+def _performance(
+    stage: Stage, score: Score, played: PlayedPart, show_plan: ShowPlan, *, fps: int = 60
+) -> Performance:
     return Performance(
         score=score,
         played=played,
@@ -155,7 +187,7 @@ def _performance(stage: Stage, score: Score, played: PlayedPart, show: Show, *, 
         player_rig=stage.player_rig,
         instrument_rig=stage.instrument_rig,
         hold=stage.hold,
-        show_plan=show.plan(stage.registry, time_map(score), fps=fps),
+        show_plan=show_plan,
         registry=stage.registry,
         fps=fps,
     )

@@ -6,6 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from reina.music import ClockError, ClockState, MusicClock
+from reina.performance.performance import TAIL_S
 from reina.protocol import resources
 from reina.protocol.links import session_links, stream_links
 from reina.protocol.messages import Hello, ScoreChanged, ShowChanged, SongReady, StreamError
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
     from reina.sessions.viewer import Viewer
-
-RINGING_S = 2.0
-"""How long the clock runs on after the last note, which still rings."""
 
 
 class Session:
@@ -198,7 +196,7 @@ class Session:
 
     def _duration_s(self) -> float:
         uploaded = self.record.song.duration_s if self.record.song else None
-        return max(self.production.score.duration_s + RINGING_S, uploaded or 0.0)
+        return max(self.production.score.duration_s + TAIL_S, uploaded or 0.0)
 
 
 def _note_messages(production: Production) -> NoteMessages:

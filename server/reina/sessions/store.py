@@ -8,10 +8,9 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reina.keyframes import Show, ShowError
 from reina.music import read_score
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
-from reina.sessions.production import Production
+from reina.sessions.production import Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import Session
 from reina.sessions.song import RenderedSong, Song, UploadedSong
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
     from pathlib import Path
 
-    from reina.keyframes import ParameterRegistry
+    from reina.keyframes import Show
     from reina.sessions.production import Stage
 
 LOADED = 32
@@ -212,7 +211,7 @@ class SessionStore:
             named = f"song{info.suffix}"
             (draft.folder / draft.song).rename(draft.folder / named)
             song = SongRecord(file=named, media_type=info.media_type, duration_s=info.duration_s)
-        show = Show()
+        show = self.stage.show
         if draft.show is not None:
             show = read_show((draft.folder / draft.show).read_bytes(), self.stage.registry)
             (draft.folder / draft.show).unlink()
@@ -274,19 +273,6 @@ class SessionStore:
         if record != session.record:
             self._folders.write_record(record)
         session.close()
-
-
-def read_show(data: bytes, registry: ParameterRegistry) -> Show:
-    """Read a show from JSON text.
-
-    Raises:
-        ShowError: It is no show.
-    """
-    try:
-        document: object = json.loads(data)
-    except (ValueError, RecursionError) as error:
-        raise ShowError(f"the show is no JSON: {error}") from error
-    return Show.from_document(document, registry)
 
 
 def _write_show(folder: Path, show: Show) -> None:

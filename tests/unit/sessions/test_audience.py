@@ -5,6 +5,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, read
 
 from reina.music import MusicClock
 from reina.protocol import FrameFlag
@@ -12,7 +13,6 @@ from reina.protocol.notes import WireNote
 from reina.sessions.audience import Audience
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.viewer import Viewer
-from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, read
 
 if TYPE_CHECKING:
     from collections.abc import Callable

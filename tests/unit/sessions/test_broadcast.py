@@ -1,11 +1,11 @@
 from __future__ import annotations
 
 import pytest
+from tests.unit.sessions.fakes import NumberedPerformance, encoded, read
 
 from reina.music import ClockState
 from reina.protocol import FrameFlag
 from reina.sessions.broadcast import LEAD_S, Broadcast
-from tests.unit.sessions.fakes import NumberedPerformance, encoded, read
 
 FRAME = 1 / 60
 

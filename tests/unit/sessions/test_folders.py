@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reina.sessions.folders import SessionFolders, write_atomically
+from reina.sessions.folders import SessionFolders
 from reina.sessions.record import (
     SESSION_ID,
     SessionRecord,
@@ -88,8 +88,6 @@ def test_records_come_newest_first(tmp_path: Path) -> None:
         with folders.staging() as staged:
             folders.adopt(staged, record(title=title, created_at=created_at))
     assert [kept.title for kept in folders.records()] == ["new", "old"]
-
-
 
 
 def test_ids_and_tokens_are_random_and_tokens_are_not_kept() -> None:

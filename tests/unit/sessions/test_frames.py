@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.unit.sessions.fakes import NumberedPerformance, encoded, read
 
 from reina.protocol import FrameFlag
 from reina.sessions.schedule import DueFrame
-from tests.unit.sessions.fakes import NumberedPerformance, encoded, read
 
 
 def test_a_block_is_evaluated_once() -> None:

@@ -208,7 +208,7 @@ export interface Hello extends Manifest {
   type: "hello"
   session: string
   title: string
-  /** Where the music ends: the score's end, or the uploaded song's where that is later. */
+  /** Song time at which the clock stops: the player has settled, and the song is over. */
   duration_s: number
   links: StreamLinks
   song: SongState

@@ -1,0 +1,26 @@
+"""The description of the HTTP interface (OpenAPI), where FastAPI's own is not quite right."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from reina.api.problems import MEDIA_TYPE
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+
+def describe(app: FastAPI) -> None:
+    """Have the application describe its errors with the media type that they are sent with."""
+    generate = app.openapi
+
+    def openapi() -> dict[str, Any]:
+        document = generate()
+        for operations in document["paths"].values():
+            for operation in operations.values():
+                content: dict[str, Any] = operation["responses"].get("4XX", {}).get("content", {})
+                if "application/json" in content:
+                    content[MEDIA_TYPE] = content.pop("application/json")
+        return document
+
+    app.openapi = openapi

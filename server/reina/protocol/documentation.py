@@ -1,0 +1,136 @@
+"""docs/protocol.md: the stream, described from its declarations."""
+
+from __future__ import annotations
+
+import inspect
+from typing import TYPE_CHECKING
+
+from reina.protocol import messages, notes, transport
+from reina.protocol.frame import ALIGNMENT, HEADER, FrameFlag
+from reina.protocol.manifest import (
+    PROTOCOL_VERSION,
+    SUBPROTOCOL,
+    Manifest,
+    ParameterManifest,
+    SkeletonManifest,
+)
+from reina.protocol.typescript import field_types
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+FROM_SERVER: tuple[type[BaseModel], ...] = (
+    messages.Hello,
+    messages.Transport,
+    messages.ShowChanged,
+    messages.ScoreChanged,
+    messages.SongReady,
+    messages.NoteOn,
+    messages.NoteOff,
+    messages.Pong,
+    messages.StreamError,
+)
+FROM_VIEWER: tuple[type[BaseModel], ...] = (messages.Ping,)
+PARTS: tuple[type[BaseModel], ...] = (
+    SkeletonManifest,
+    ParameterManifest,
+    messages.StreamLinks,
+    messages.SongState,
+    transport.TransportState,
+    transport.Loop,
+    notes.WireNote,
+)
+
+_INTRODUCTION = f"""\
+<!-- Written by `make generate` from server/reina/protocol; do not edit. -->
+# The stream, version {PROTOCOL_VERSION}
+
+`WS /api/v1/sessions/{{id}}/stream`, subprotocol `{SUBPROTOCOL}`; another version is refused before
+the handshake ends. Text messages are JSON control messages, told apart by `type`; the first is
+`hello`, and whoever joins late or again needs nothing else. Binary messages are frames. Nothing is
+compressed.
+
+## Frames
+
+A binary message is one or more whole frames, back to back; `?frames_per_message=` (1 to 12, default
+1) asks for how many. A frame is little-endian, `hello.frame_size` bytes long, each section is
+padded with zeros to {ALIGNMENT} bytes. J counts the joints of all skeletons, S the skeletons, P the
+floats of all parameters; `hello` says where each skeleton and each parameter stands.
+
+Frames lie on the grid k / fps whatever the rate of play (above rate 1 some are passed over), are
+sent about 100 ms before they are due, and are of the clock's present epoch: a viewer discards
+frames of an older one. While paused, one frame comes with each change. A viewer shows the frame
+whose due time has come; where it blends two neighbouring frames, it does not blend into one that is
+flagged as a cut, nor parameters whose `blend` is false.
+
+The same frames come over HTTP from `GET /api/v1/sessions/{{id}}/frames?start_s=&end_s=&fps=`, with
+epoch and due time 0; what `hello` says comes from `GET .../manifest`.
+
+| byte | type | field |
+| --- | --- | --- |
+
+"""
+
+_TYPES = {"|u1": "u8", "<u2": "u16", "<u4": "u32", "<f8": "f64"}
+
+_SECTIONS = f"""\
+| {HEADER.itemsize} | f32 × 4 × J | `rotations`: local joint quaternions x y z w, rest included |
+| ... | f32 × 3 × S | `root_positions`: metres, in place of the root joint's rest translation |
+| ... | f32 × P | `parameters`: booleans 0 or 1, choices by index, colours linear sRGB |
+
+Flags:
+
+"""
+
+_EXAMPLE = """
+## Reading frames in Python
+
+```python
+from reina.protocol import Manifest, decode
+
+frames = decode(manifest, message)     # manifest: the fields of `hello` that Manifest names
+frames["song_time_s"]                  # (F,)
+frames["rotations"]                    # (F, J, 4)
+```
+
+## Messages from the server
+"""
+
+
+def documentation() -> str:
+    """The whole document."""
+    lines = [_INTRODUCTION.rstrip("\n")]
+    for name in HEADER.names or ():
+        dtype, offset = HEADER.fields[name][:2] if HEADER.fields else (HEADER, 0)
+        lines.append(f"| {offset} | {_TYPES[dtype.str]} | `{name}` |")
+    lines.append(_SECTIONS.rstrip("\n"))
+    lines.append("")
+    lines.extend(f"- bit {flag.value.bit_length() - 1}: {str(flag.name).lower()}" for flag in FrameFlag)
+    lines.append(_EXAMPLE)
+    lines.extend(_model(model) for model in FROM_SERVER)
+    lines.append("## Messages from the viewer\n")
+    lines.extend(_model(model) for model in FROM_VIEWER)
+    lines.append("## What they are made of\n")
+    lines.extend(_model(model) for model in (Manifest, *PARTS))
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _model(model: type[BaseModel]) -> str:
+    kind = model.model_fields.get("type")
+    title = (
+        f"`{kind.annotation.__args__[0]}`"
+        if kind and hasattr(kind.annotation, "__args__")
+        else model.__name__
+    )
+    rows = [
+        f"### {title}",
+        "",
+        inspect.cleandoc(model.__doc__ or ""),
+        "",
+        "| field | type | |",
+        "| --- | --- | --- |",
+    ]
+    for name, (kind_of, description) in field_types(model).items():
+        shown = kind_of.replace("|", "\\|")
+        rows.append(f"| `{name}` | `{shown}` | {description} |")
+    return "\n".join([*rows, ""])

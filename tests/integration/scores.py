@@ -1,0 +1,67 @@
+"""Scores and songs made for the tests."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import struct
+import wave
+
+import mido
+
+TICKS = 480
+
+
+def scale(notes: int = 16, *, beats: float = 0.5, bpm: float = 120.0) -> bytes:
+    """A trumpet walks up and down between B♭3 and B♭5, each note as long."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    track = mido.MidiTrack()
+    midi.tracks.append(track)
+    track.append(mido.MetaMessage("track_name", name="Trumpet"))
+    track.append(mido.MetaMessage("set_tempo", tempo=mido.bpm2tempo(bpm)))
+    track.append(mido.Message("program_change", program=56))
+    length = round(beats * TICKS)
+    for number in range(notes):
+        pitch = 58 + abs((number + 24) % 48 - 24)
+        track.append(mido.Message("note_on", note=pitch, velocity=90, time=0))
+        track.append(mido.Message("note_off", note=pitch, time=length))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
+def duet() -> bytes:
+    """A flute above a trumpet."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    for name, program, pitch in (("Flute", 73, 84), ("Trumpet", 56, 65)):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        track.append(mido.MetaMessage("track_name", name=name))
+        track.append(mido.Message("program_change", program=program, channel=len(midi.tracks) - 1))
+        for step in (0, 2, 4, 5):
+            channel = len(midi.tracks) - 1
+            track.append(mido.Message("note_on", note=pitch + step, velocity=80, channel=channel))
+            track.append(mido.Message("note_off", note=pitch + step, time=TICKS, channel=channel))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
+def song(seconds: float = 1.0, rate: int = 8000) -> bytes:
+    """A sine as WAV."""
+    file = io.BytesIO()
+    with wave.open(file, "wb") as audio:
+        audio.setnchannels(1)
+        audio.setsampwidth(2)
+        audio.setframerate(rate)
+        samples = (round(8000 * math.sin(2 * math.pi * 440 * n / rate)) for n in range(round(seconds * rate)))
+        audio.writeframes(b"".join(struct.pack("<h", sample) for sample in samples))
+    return file.getvalue()
+
+
+def show(intensity: float = 1.0) -> bytes:
+    """A show that holds one light."""
+    keyframes = [{"key": "k1", "time": 0.0, "value": intensity, "interpolation": "step"}]
+    tracks = [{"parameter": "lights/key/intensity", "keyframes": keyframes}]
+    return json.dumps({"version": 1, "title": "One light", "time": "seconds", "tracks": tracks}).encode()

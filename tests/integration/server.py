@@ -1,0 +1,110 @@
+"""A real server, as `reina serve` starts it, and a session's control over HTTP."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+    from pathlib import Path
+
+    import httpx
+
+START_S = 30.0
+
+
+@dataclass(frozen=True)
+class Running:
+    """A server that answers."""
+
+    process: subprocess.Popen[str]
+    address: str
+
+    @property
+    def api(self) -> str:
+        return f"{self.address}/api/v1"
+
+    def stream(self, session: str, **query: int) -> str:
+        """The address of a session's WebSocket."""
+        asked = "&".join(f"{name}={value}" for name, value in query.items())
+        return f"{self.api.replace('http', 'ws', 1)}/sessions/{session}/stream?{asked}"
+
+    def memory_bytes(self) -> int:
+        """Resident memory of the server's process."""
+        with open(f"/proc/{self.process.pid}/statm") as file:  # noqa: PTH123
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
+
+    def stop(self) -> int:
+        """SIGTERM, and the exit status."""
+        self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(10)
+
+
+@contextmanager
+def serve(data_dir: Path, *arguments: str) -> Generator[Running]:
+    """Start a server on a free port, and end it."""
+    command = [sys.executable, "-c", "import sys; from reina.cli import main; sys.exit(main())"]
+    process = subprocess.Popen(
+        [*command, "serve", "--port", "0", "--data-dir", str(data_dir), *arguments],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stdout is not None
+        address = process.stdout.readline().strip()
+        assert address.startswith("http://"), f"the server did not start: {address!r}"
+        yield Running(process, address)
+    finally:
+        if process.poll() is None:
+            process.terminate()
+            process.wait(10)
+        if process.stdout:
+            process.stdout.close()
+
+
+@dataclass(frozen=True)
+class Owned:
+    """A session and its token."""
+
+    client: httpx.Client
+    body: dict[str, Any]
+
+    @property
+    def id(self) -> str:
+        return str(self.body["id"])
+
+    @property
+    def path(self) -> str:
+        return f"/api/v1/sessions/{self.id}"
+
+    @property
+    def headers(self) -> dict[str, str]:
+        return {"Authorization": f"Bearer {self.body['control_token']}"}
+
+    def control(self, action: str, **fields: Any) -> dict[str, Any]:
+        """Use the transport; returns its state."""
+        answer = self.client.post(
+            f"{self.path}/transport", json={"action": action, **fields}, headers=self.headers
+        )
+        assert answer.status_code == 200, answer.text
+        state: dict[str, Any] = answer.json()
+        return state
+
+    def change(self, method: str, below: str = "", **options: Any) -> httpx.Response:
+        """A request that needs the token."""
+        return self.client.request(method, f"{self.path}{below}", headers=self.headers, **options)
+
+
+def upload(client: httpx.Client, score: bytes, name: str = "score.mid", **form: Any) -> Owned:
+    """Make a session of a score."""
+    files: dict[str, Any] = {"score": (name, score)}
+    files |= {key: form.pop(key) for key in ("song", "show") if key in form}
+    answer = client.post("/api/v1/sessions", files=files, data=form)
+    assert answer.status_code == 201, answer.text
+    return Owned(client, answer.json())

@@ -1,0 +1,137 @@
+"""From files to a session."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from tests.integration.scores import duet, scale, show, song
+from tests.integration.server import upload
+
+if TYPE_CHECKING:
+    import httpx
+    from tests.integration.server import Owned
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def test_a_score_becomes_a_session(client: httpx.Client) -> None:
+    session = upload(client, scale(16), "Scale in B flat.mid")
+    body = session.body
+    assert body["title"] == "Scale in B flat"
+    assert body["notes"] == 16
+    assert body["parts"] == [{"index": 0, "name": "Trumpet", "program": 56, "is_drums": False, "notes": 16}]
+    assert body["links"]["page"] == f"/s/{session.id}"
+    assert len(body["control_token"]) >= 43
+    again = client.get(session.path).json()
+    assert again.keys() == body.keys() - {"control_token"}
+    assert all(again[field] == body[field] for field in again.keys() - {"song"})
+    session.change("DELETE").raise_for_status()
+
+
+def test_the_notes_come_with_their_fingering(client: httpx.Client) -> None:
+    session = upload(client, scale(3), song=("s.wav", song()))
+    score = client.get(f"{session.path}/score").json()
+    assert [note["sounding_pitch"] for note in score["notes"]] == [58, 59, 60]
+    assert [note["written_pitch"] for note in score["notes"]] == [60, 61, 62]
+    # C4, C♯4 and D4 on paper: open, all three, first and third.
+    assert [note["valves"] for note in score["notes"]] == [[], [1, 2, 3], [1, 3]]
+    assert [note["onset_s"] for note in score["notes"]] == pytest.approx([0.0, 0.25, 0.5])
+    assert score["tempi"] == [{"onset_beats": 0.0, "onset_s": 0.0, "bpm": 120.0}]
+    assert score["metres"][0]["numerator"] == 4
+    assert score["bar_lines_s"][0] == 0.0
+    session.change("DELETE").raise_for_status()
+
+
+def test_another_part_can_be_chosen(client: httpx.Client) -> None:
+    session = upload(client, duet(), song=("s.wav", song()))
+    assert session.body["part"] == 1
+    assert [choice["part"] for choice in session.body["choices"]] == [1, 0]
+    notes = client.get(f"{session.path}/score").json()["notes"]
+    assert {note["part"] for note in notes if note["valves"] is not None} == {1}
+    changed = session.change("PATCH", json={"part": 0, "transposition": -12, "title": "Flute, for trumpet"})
+    assert changed.json()["part"] == 0
+    assert changed.json()["title"] == "Flute, for trumpet"
+    score = client.get(f"{session.path}/score", params={"part": 0}).json()
+    assert {note["part"] for note in score["notes"]} == {0}
+    assert score["notes"][0]["sounding_pitch"] == 72
+    assert all(note["valves"] is not None for note in score["notes"])
+    session.change("DELETE").raise_for_status()
+
+
+def test_part_and_transposition_can_come_with_the_upload(client: httpx.Client) -> None:
+    session = upload(client, duet(), song=("s.wav", song()), part="0", transposition="-12", title="Mine")
+    assert (session.body["part"], session.body["transposition"], session.body["title"]) == (0, -12, "Mine")
+    session.change("DELETE").raise_for_status()
+
+
+def test_an_uploaded_song_is_served_with_ranges(client: httpx.Client) -> None:
+    sound = song(2.0)
+    session = upload(client, scale(2), song=("take one.wav", sound), show=("show.json", show()))
+    assert session.body["song"]["status"] == "ready"
+    assert session.body["song"]["source"] == "uploaded"
+    whole = client.get(f"{session.path}/song")
+    assert whole.content == sound
+    assert whole.headers["content-type"] == "audio/wav"
+    assert whole.headers["accept-ranges"] == "bytes"
+    part = client.get(f"{session.path}/song", headers={"Range": "bytes=100-199"})
+    assert part.status_code == 206
+    assert part.content == sound[100:200]
+    assert part.headers["content-range"] == f"bytes 100-199/{len(sound)}"
+    assert client.get(f"{session.path}/show").json()["title"] == "One light"
+    session.change("DELETE").raise_for_status()
+
+
+def test_music_lasts_as_long_as_the_longer_of_score_and_song(client: httpx.Client) -> None:
+    longer = upload(client, scale(2), song=("s.wav", song(30.0, rate=1000)))
+    assert longer.body["duration_s"] == pytest.approx(30.0)
+    shorter = upload(client, scale(2), song=("s.wav", song(0.1)))
+    assert 0.5 <= shorter.body["duration_s"] <= 3.0
+    for session in (longer, shorter):
+        session.change("DELETE").raise_for_status()
+
+
+def test_a_score_without_a_song_is_rendered(client: httpx.Client) -> None:
+    session = upload(client, scale(4))
+    assert session.body["song"]["source"] == "rendered"
+    deadline = time.monotonic() + 60
+    while (answer := client.get(f"{session.path}/song")).status_code == 202:
+        assert answer.json()["status"] == "rendering"
+        assert 0.0 <= answer.json()["progress"] < 1.0
+        assert time.monotonic() < deadline
+        time.sleep(0.2)
+    assert answer.status_code == 200
+    assert answer.headers["content-type"] == "audio/wav"
+    assert answer.content[:4] == b"RIFF"
+    session.change("DELETE").raise_for_status()
+
+
+def test_only_public_sessions_are_listed(client: httpx.Client, owned: Owned) -> None:
+    def listed() -> list[str]:
+        return [session["id"] for session in client.get("/api/v1/sessions").json()["sessions"]]
+
+    assert owned.id not in listed()
+    owned.change("PATCH", json={"public": True}).raise_for_status()
+    assert owned.id in listed()
+
+
+def test_a_session_that_was_ended_is_gone(client: httpx.Client) -> None:
+    session = upload(client, scale(2), song=("s.wav", song()))
+    assert session.change("DELETE").status_code == 204
+    assert client.get(session.path).status_code == 404
+    assert client.get(f"{session.path}/song").status_code == 404
+
+
+def test_the_bundled_pieces_can_be_posted_as_they_are(client: httpx.Client) -> None:
+    examples = client.get("/api/v1/examples").json()["examples"]
+    assert len(examples) >= 3
+    assert examples[0]["show"] is not None, "the first visit shows a piece with its own show"
+    first = examples[0]
+    score = client.get(first["score"]).content
+    assert score == (EXAMPLES / "scores" / first["score"].rsplit("/", 1)[-1]).read_bytes()
+    show_file = client.get(first["show"]).content
+    session = upload(client, score, first["score"], show=("show.json", show_file), song=("s.wav", song()))
+    assert session.body["title"] == first["title"]
+    session.change("DELETE").raise_for_status()
