@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import ArrayLike, FloatArray
 
 _THIRD_TOLERANCE = 1e-8
-_QUARTIC_STEPS = 6
+_QUARTIC_STEPS = 5
 _NEWTON_STEPS = 9
 _REACH_SLACK = 1e-12
 
@@ -69,6 +69,9 @@ class CoupledFinger:
         self._c0: FloatArray = 2.0 * l1 * l3 + self._constant
         self._u_low: FloatArray = np.cos(self._theta2_low / 3.0)
         self._u_high: FloatArray = np.cos(self._theta2_high / 3.0)
+        self._d3: FloatArray = 4.0 * self._c4
+        self._d2: FloatArray = 3.0 * self._c3
+        self._d1: FloatArray = 2.0 * self._c4
 
     def solve(self, targets: ArrayLike) -> tuple[FloatArray, StatusArray]:
         """Angles that bring the tip to ``targets`` ``(..., 2)``, metres in the first joint's frame.
@@ -113,11 +116,13 @@ class CoupledFinger:
         u = self._u_low + span * (self._u_high - self._u_low)
         c0 = self._c0 - squared
         c4, c3, c1 = self._c4, self._c3, self._c1
-        for _ in range(_QUARTIC_STEPS):
+        d3, d2, d1 = self._d3, self._d2, self._d1
+        for step in range(_QUARTIC_STEPS):
             value = (((c4 * u + c3) * u - c4) * u + c1) * u + c0
-            slope = ((4.0 * c4 * u + 3.0 * c3) * u - 2.0 * c4) * u + c1
-            u = np.minimum(np.maximum(u - value / slope, self._u_low), self._u_high)
-        return -3.0 * np.arccos(np.minimum(u, 1.0))
+            u = u - value / (((d3 * u + d2) * u - d1) * u + c1)
+            if step == 0:
+                u = np.minimum(u, self._u_high)
+        return -3.0 * np.arccos(np.minimum(np.maximum(u, self._u_low), self._u_high))
 
     def _bend(self, squared: FloatArray) -> FloatArray:
         """θ2 by Newton's method on the distance as a function of v = θ2²."""

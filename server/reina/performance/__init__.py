@@ -1,1 +1,14 @@
-"""The layer `performance`; docs/architecture.md says what it holds."""
+"""The whole player at any frame: gestures, body, inverse kinematics, valves and show put together."""
+
+from reina.performance.amounts import PLAYER_PARAMETERS
+from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
+from reina.performance.performance import Performance
+
+__all__ = [
+    "BLOCK_FRAMES",
+    "PLAYER_PARAMETERS",
+    "FrameBlock",
+    "FrameLayout",
+    "Performance",
+    "SkeletonLayout",
+]

@@ -56,5 +56,6 @@ def from_matrix(matrices: ArrayLike) -> FloatArray:
     rows[..., 1, 3] = rows[..., 3, 1] = m[..., 0, 2] - m[..., 2, 0]
     rows[..., 2, 3] = rows[..., 3, 2] = m[..., 1, 0] - m[..., 0, 1]
     best = np.argmax(np.einsum("...ii->...i", rows), axis=-1)
-    row = np.take_along_axis(rows, best[..., None, None], axis=-2)[..., 0, :]
+    flat = rows.reshape(-1, 4, 4)
+    row = flat[np.arange(len(flat)), best.ravel()].reshape(*m.shape[:-2], 4)
     return row / np.sqrt(np.einsum("...i,...i->...", row, row))[..., None]

@@ -37,13 +37,17 @@ def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
     """
     left = as_quaternions(a).view(np.complex128)
     right = as_quaternions(b).view(np.complex128)
+    conjugated = left.conj()
     b1, c1 = left[..., 0], left[..., 1]  # c = k conj(A)
     b2, c2 = right[..., 0], right[..., 1]
-    product = np.empty((*np.broadcast_shapes(b1.shape, b2.shape), 4))
-    halves = product.view(np.complex128)
-    halves[..., 0] = 1j * (c1.conj() * b2 - b1 * c2)
-    halves[..., 1] = -1j * (c1 * c2 + b1.conj() * b2)
-    return product
+    first = conjugated[..., 1] * b2
+    first -= b1 * c2
+    second = c1 * c2
+    second += conjugated[..., 0] * b2
+    halves = np.empty((*first.shape, 2), dtype=np.complex128)
+    np.multiply(first, 1j, out=halves[..., 0])
+    np.multiply(second, -1j, out=halves[..., 1])
+    return halves.view(np.float64)
 
 
 def conjugate(q: ArrayLike) -> FloatArray:
@@ -76,12 +80,12 @@ def rotate(q: ArrayLike, vectors: ArrayLike) -> FloatArray:
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     """Cross product over the last axis, ``(..., 3)``; on small blocks far faster than `numpy.cross`."""
-    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
-    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
-    product[..., 0] = ay * bz - az * by
-    product[..., 1] = az * bx - ax * bz
-    product[..., 2] = ax * by - ay * bx
+    # x y z x y, so that the cyclic shifts of a vector are slices of it.
+    a_cycle, b_cycle = np.empty((*a.shape[:-1], 5)), np.empty((*b.shape[:-1], 5))
+    a_cycle[..., :3], a_cycle[..., 3:] = a, a[..., :2]
+    b_cycle[..., :3], b_cycle[..., 3:] = b, b[..., :2]
+    product = a_cycle[..., 1:4] * b_cycle[..., 2:5]
+    product -= a_cycle[..., 2:5] * b_cycle[..., 1:4]
     return product
 
 

@@ -1,0 +1,62 @@
+"""How much of each gesture is shown: the player's own parameters, for the registry of a show."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.keyframes import Parameter
+
+if TYPE_CHECKING:
+    from reina.keyframes import ParameterRegistry
+    from reina.rotations.arrays import FloatArray
+
+
+def _amount(name: str, documentation: str, *, maximum: float = 2.0) -> Parameter:
+    return Parameter(
+        path=f"player/{name}",
+        type="number",
+        default=1.0,
+        minimum=0.0,
+        maximum=maximum,
+        documentation=documentation,
+    )
+
+
+PLAYER_PARAMETERS: tuple[Parameter, ...] = (
+    _amount("breath", "How deeply the player is seen to breathe: chest, shoulders, mouth."),
+    _amount("sway", "How far the player sways with the metre."),
+    _amount("lean", "How far the player leans into phrases and turns with them."),
+    _amount("lift", "How far head, shoulders and bell rise on high notes."),
+    _amount("vibrato", "How far the right hand rocks on long notes."),
+    _amount("finger_lift", "How far idle fingers lift off their valve caps."),
+    _amount("face", "How much cheeks, lips and brows work.", maximum=1.5),
+    _amount("blink", "How far the eyes close in a blink.", maximum=1.0),
+    _amount("gaze", "How far the eyes wander."),
+    _amount("lower", "How far the instrument is taken down in long rests.", maximum=1.0),
+)
+"""Amounts of gestures: 1 as played by default, 0 none."""
+
+
+class Amounts:
+    """Reads the amounts out of a show's values.
+
+    Args:
+        registry: The show's parameters; amounts that it has not stay at their defaults.
+    """
+
+    def __init__(self, registry: ParameterRegistry) -> None:
+        layout = registry.layout()
+        self._names = [parameter.path.removeprefix("player/") for parameter in PLAYER_PARAMETERS]
+        self._columns = [
+            layout[parameter.path][0] if parameter.path in layout else None for parameter in PLAYER_PARAMETERS
+        ]
+        self._defaults = [float(parameter.floats(parameter.default)[0]) for parameter in PLAYER_PARAMETERS]
+
+    def read(self, values: FloatArray) -> dict[str, FloatArray]:
+        """Amounts by name, ``(F,)`` each, from values ``(F, P)``; none is below 0."""
+        return {
+            name: np.full(len(values), default) if column is None else np.maximum(values[:, column], 0.0)
+            for name, column, default in zip(self._names, self._columns, self._defaults, strict=True)
+        }

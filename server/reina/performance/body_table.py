@@ -1,0 +1,153 @@
+"""How gestures look on a body: a table from signals to turns of joints, and the matrix that it makes.
+
+Turns are rotation vectors, radians, about the world's axes as the player stands in the rest pose (+x the
+player's left, +y up, +z ahead), at signal 1. Positive x bows forward, positive y turns left, positive z
+tips to the right.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.rotations import conjugate, rotate
+from reina.skeleton import forward_kinematics
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.rotations.arrays import FloatArray
+    from reina.skeleton import Rig
+
+Vector = tuple[float, float, float]
+
+SIGNALS: tuple[str, ...] = (
+    "breath",
+    "sway_side",
+    "sway_fore",
+    "sway_turn",
+    "lean",
+    "turn",
+    "effort",
+    "gaze_left",
+    "gaze_up",
+    "vibrato",
+)
+"""The rows of the matrix."""
+
+TRUNK: tuple[str, ...] = (
+    "hips",
+    "spine",
+    "chest",
+    "upperChest",
+    "neck",
+    "head",
+    "leftShoulder",
+    "rightShoulder",
+)
+"""Joints that gestures turn and whose world transforms the arms need, parents first; a rig may lack some."""
+
+EYES: tuple[str, ...] = ("leftEye", "rightEye")
+
+TURNS: dict[str, dict[str, Vector]] = {
+    "breath": {
+        "spine": (-0.008, 0.0, 0.0),
+        "chest": (-0.024, 0.0, 0.0),
+        "upperChest": (-0.020, 0.0, 0.0),
+        "neck": (0.026, 0.0, 0.0),
+        "head": (0.014, 0.0, 0.0),
+        "leftShoulder": (0.0, -0.012, 0.050),
+        "rightShoulder": (0.0, 0.012, -0.050),
+        "instrument": (-0.010, 0.0, 0.0),
+    },
+    "sway_side": {
+        "hips": (0.0, 0.0, 0.010),
+        "spine": (0.0, 0.0, -0.018),
+        "chest": (0.0, 0.0, -0.016),
+        "upperChest": (0.0, 0.0, -0.008),
+        "neck": (0.0, 0.0, 0.010),
+        "head": (0.0, 0.0, 0.008),
+    },
+    "sway_fore": {
+        "hips": (0.006, 0.0, 0.0),
+        "spine": (0.010, 0.0, 0.0),
+        "chest": (0.010, 0.0, 0.0),
+        "neck": (-0.010, 0.0, 0.0),
+        "instrument": (-0.008, 0.0, 0.0),
+    },
+    "sway_turn": {
+        "hips": (0.0, 0.010, 0.0),
+        "spine": (0.0, 0.012, 0.0),
+        "chest": (0.0, 0.014, 0.0),
+        "neck": (0.0, -0.010, 0.0),
+    },
+    "lean": {
+        "hips": (0.012, 0.0, 0.0),
+        "spine": (0.032, 0.0, 0.0),
+        "chest": (0.030, 0.0, 0.0),
+        "upperChest": (0.020, 0.0, 0.0),
+        "neck": (-0.022, 0.0, 0.0),
+        "head": (-0.018, 0.0, 0.0),
+        "leftShoulder": (0.0, -0.010, -0.006),
+        "rightShoulder": (0.0, 0.010, 0.006),
+        "instrument": (0.014, 0.0, 0.0),
+    },
+    "turn": {
+        "hips": (0.0, 0.018, 0.0),
+        "spine": (0.0, 0.026, 0.0),
+        "chest": (0.0, 0.028, 0.008),
+        "upperChest": (0.0, 0.020, 0.006),
+        "head": (0.0, 0.0, -0.014),
+    },
+    "effort": {
+        "chest": (-0.012, 0.0, 0.0),
+        "upperChest": (-0.018, 0.0, 0.0),
+        "neck": (-0.018, 0.0, 0.0),
+        "head": (-0.022, 0.0, 0.0),
+        "leftShoulder": (0.0, 0.0, 0.020),
+        "rightShoulder": (0.0, 0.0, -0.020),
+        "instrument": (-0.026, 0.0, 0.0),
+    },
+    "gaze_left": {"leftEye": (0.0, 0.22, 0.0), "rightEye": (0.0, 0.22, 0.0)},
+    "gaze_up": {"leftEye": (-0.10, 0.0, 0.0), "rightEye": (-0.10, 0.0, 0.0)},
+}
+"""Signal -> joint (or the instrument, about the lips) -> turn."""
+
+SHIFTS: dict[str, Vector] = {
+    "breath": (0.0, 0.0015, 0.0),
+    "sway_side": (0.013, 0.0, 0.0),
+    "sway_fore": (0.0, -0.0005, 0.006),
+    "lean": (0.0, -0.0015, 0.004),
+    "turn": (0.004, 0.0, 0.0),
+}
+"""Signal -> shift of the hips, metres."""
+
+HAND_SHIFTS: dict[str, Vector] = {"vibrato": (0.0, 0.0, 0.0008)}
+"""Signal -> shift of the right hand along the instrument, metres, in the instrument's frame."""
+
+
+def body_matrix(rig: Rig, joints: Sequence[str]) -> FloatArray:
+    """The table as a matrix for a rig.
+
+    Args:
+        rig: The player's rig.
+        joints: Columns: three for each of these joints' rotation vectors, in the joint's own rest frame;
+            then three
+            for the instrument's, three for the hips' shift and three for the right hand's.
+
+    Returns:
+        ``(len(SIGNALS), 3 * len(joints) + 9)``.
+    """
+    _, rest_world = forward_kinematics(rig.skeleton, rig.skeleton.rest_rotations)
+    matrix = np.zeros((len(SIGNALS), len(joints) + 3, 3))
+    for row, signal in enumerate(SIGNALS):
+        turns = TURNS.get(signal, {})
+        for column, joint in enumerate(joints):
+            if joint in turns:
+                world_to_joint = conjugate(rest_world[rig.skeleton.index(joint)])
+                matrix[row, column] = rotate(world_to_joint, turns[joint])
+        matrix[row, -3] = turns.get("instrument", (0.0, 0.0, 0.0))
+        matrix[row, -2] = SHIFTS.get(signal, (0.0, 0.0, 0.0))
+        matrix[row, -1] = HAND_SHIFTS.get(signal, (0.0, 0.0, 0.0))
+    return matrix.reshape(len(SIGNALS), -1)

@@ -1,0 +1,66 @@
+"""What a performance evaluates to: a block of frames, and the layout that all of them have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from reina.keyframes import Parameter
+    from reina.rotations.arrays import BoolArray, FloatArray
+
+BLOCK_FRAMES = 60
+"""Frames are evaluated in aligned blocks of so many, so that no byte depends on how a frame was asked for."""
+
+Float32Array = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class SkeletonLayout:
+    """A skeleton in the frame: its name there, its rig, its joints' names, parents first."""
+
+    name: str
+    rig: str
+    joints: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class FrameLayout:
+    """What every frame of a performance holds, and in which order.
+
+    Attributes:
+        fps: Frames a second of song time; frame k shows k / fps.
+        skeletons: The player, then the instrument.
+        parameters: The show's, then what the player gives: valves, slide, face.
+    """
+
+    fps: int
+    skeletons: tuple[SkeletonLayout, ...]
+    parameters: tuple[Parameter, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class FrameBlock:
+    """F frames.
+
+    Attributes:
+        first_frame: Index of the first, a multiple of F.
+        fps: Frames a second.
+        song_time_s: ``(F,)``, index / fps.
+        rotations: Local, rest included, of all skeletons in the layout's order, ``(F, J, 4)``; dot(q, rest)
+            >= 0.
+        root_positions: Of each skeleton's root, metres, ``(F, S, 3)``.
+        parameters: In the layout's order, ``(F, P)``.
+        cuts: Whether not to blend from the frame before, ``(F,)``.
+    """
+
+    first_frame: int
+    fps: int
+    song_time_s: FloatArray
+    rotations: Float32Array
+    root_positions: Float32Array
+    parameters: Float32Array
+    cuts: BoolArray

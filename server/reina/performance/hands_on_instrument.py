@@ -1,0 +1,72 @@
+"""Where the fingers that press buttons have to be, in their hand's frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.kinematics import FingerChains
+from reina.rotations import conjugate, rotate
+from reina.skeleton import RigError
+
+if TYPE_CHECKING:
+    from reina.kinematics.status import StatusArray
+    from reina.rotations.arrays import FloatArray
+    from reina.skeleton import Rig
+
+FINGER_LIFT_M = 0.0028
+"""How far an idle finger's pad is off its cap at lift 1."""
+
+
+class PressingFingers:
+    """The fingers of one hand on an instrument's buttons.
+
+    The hand keeps its place in the instrument's frame, so each target is linear in valve, lift and the
+    hand's shift: no world transform is needed.
+
+    Args:
+        rig: The player's rig.
+        instrument_rig: Its buttons say which effector presses what, where, how deep.
+        hand: Index of the hand's joint.
+        hand_position: The hand in the instrument's frame, ``(3,)``, metres.
+        hand_rotation: Its rotation there, ``(4,)``.
+
+    Raises:
+        RigError: A button's effector has no finger, or one of another hand.
+    """
+
+    def __init__(
+        self, rig: Rig, instrument_rig: Rig, hand: int, hand_position: FloatArray, hand_rotation: FloatArray
+    ) -> None:
+        buttons = instrument_rig.buttons
+        chains = [rig.chain_of_effector(button.effector) for button in buttons]
+        for button, chain in zip(buttons, chains, strict=True):
+            if int(rig.skeleton.parents[chain.joints[0]]) != hand:
+                raise RigError(
+                    f"{button.effector!r} is not on the hand that presses the buttons", where="buttons"
+                )
+        self.chains = FingerChains(rig, [chain.name for chain in chains])
+        self.valves = [button.valve - 1 for button in buttons]
+        """Valve index of each finger."""
+        to_hand = conjugate(hand_rotation)
+        position = np.array([button.position for button in buttons])
+        travel = np.array([button.travel for button in buttons])
+        up = -travel / np.sqrt(np.sum(travel * travel, axis=-1, keepdims=True))
+        self._base: FloatArray = rotate(to_hand, position - hand_position)
+        self._travel: FloatArray = rotate(to_hand, travel)
+        self._lift: FloatArray = rotate(to_hand, up * FINGER_LIFT_M)
+        self._to_hand = to_hand
+
+    def solve(
+        self, valves: FloatArray, lifts: FloatArray, shifts: FloatArray
+    ) -> tuple[FloatArray, StatusArray]:
+        """The fingers' local rotations ``(F, K, 3, 4)`` and a status each ``(F, K)``.
+
+        Args:
+            valves: How far down each finger's valve is, ``(F, K)``.
+            lifts: How far each finger is off its cap, ``(F, K)``.
+            shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
+        """
+        targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
+        return self.chains.solve(targets - rotate(self._to_hand, shifts)[:, None])

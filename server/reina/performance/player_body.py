@@ -1,0 +1,221 @@
+"""The whole player: gestures turn the trunk, the horn goes with the mouth, hands with the horn, feet stay."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.kinematics import TwistHelpers, TwoBoneLimbs
+from reina.performance.body_table import EYES, TRUNK, body_matrix
+from reina.performance.hands_on_instrument import PressingFingers
+from reina.performance.trunk import Trunk
+from reina.rotations import (
+    conjugate,
+    dot,
+    exp,
+    from_axis_angle,
+    multiply,
+    rotate,
+    same_hemisphere,
+)
+from reina.skeleton import Point, RigError, forward_kinematics
+
+if TYPE_CHECKING:
+    from reina.rotations.arrays import FloatArray, IntArray
+    from reina.skeleton import Hold, Rig
+
+LIMBS: tuple[str, ...] = ("leftArm", "rightArm", "leftLeg", "rightLeg")
+LOWERED_RAD = 0.85
+"""How far arms and instrument are turned down about the line of the shoulders in long rests."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """F frames of player and instrument."""
+
+    moving: FloatArray
+    """Local rotations, rest included, of the joints `PlayerBody.moving`, ``(F, M, 4)``; others hold still."""
+    root_positions: FloatArray
+    """The player's hips, metres, ``(F, 3)``."""
+    instrument_rotations: FloatArray
+    """``(F, 4)``."""
+    instrument_positions: FloatArray
+    """Metres, ``(F, 3)``."""
+    reached: bool
+    """Whether every hand, foot and finger is where it is meant to be."""
+
+
+class PlayerBody:
+    """Solves whole poses.
+
+    Args:
+        rig: The player's rig: a VRM humanoid with arms and legs as ``two_bone`` chains and a contact
+            ``lips``.
+        instrument_rig: One joint, a contact ``mouthpiece``, buttons.
+        hold: The playing position; in it hands and feet keep their places.
+
+    Raises:
+        RigError: Something that playing needs is not in the rigs.
+    """
+
+    def __init__(self, rig: Rig, instrument_rig: Rig, hold: Hold) -> None:
+        skeleton = rig.skeleton
+        self.rig, self.hold = rig, hold
+        rotations = hold.rotations(rig)
+        root = skeleton.rest_translations[0] if hold.hips_position is None else hold.hips_position
+        positions, world = forward_kinematics(skeleton, rotations, root)
+        trunk = [name for name in TRUNK if name in skeleton]
+        eyes = [name for name in EYES if name in skeleton]
+        self._limbs = TwoBoneLimbs(rig, LIMBS)
+        joints = self._limbs.joints
+        uppers = [
+            Point(LIMBS[k], int(skeleton.parents[upper]), skeleton.rest_translations[upper])
+            for k, upper in enumerate(joints[:, 0].tolist())
+        ]
+        self._trunk = Trunk(rig, trunk, [*uppers, rig.contact("lips")])
+        self._turned: IntArray = np.array([skeleton.index(name) for name in (*trunk, *eyes)], dtype=np.intp)
+        self._held: FloatArray = rotations[self._turned]
+        self._matrix = body_matrix(rig, [*trunk, *eyes])
+        self._eyes = slice(len(trunk), len(trunk) + len(eyes)) if eyes else None
+        self._root = root
+        self._head = trunk.index("head")
+        self._chest = self._carrier(
+            rig, int(skeleton.parents[skeleton.index("neck" if "neck" in trunk else "head")])
+        )
+
+        # The instrument rides on the head, its mouthpiece on the lips.
+        I_world, X_world = hold.instrument_rotation, hold.instrument_position
+        head = skeleton.index("head")
+        self._instrument_in_head = multiply(conjugate(world[head]), I_world)
+        self._mouthpiece = instrument_rig.contact("mouthpiece").offset
+
+        # Hands keep their place in the instrument's frame, feet in the world.
+        hands, feet = joints[:2, 2], joints[2:, 2]
+        self._hand_rotations = multiply(conjugate(I_world), world[hands])
+        self._hand_positions = rotate(conjugate(I_world), positions[hands] - X_world)
+        self._feet_rotations, self._feet_positions = world[feet], positions[feet]
+        self._limb_parents = [
+            self._carrier(rig, int(skeleton.parents[upper])) for upper in joints[:, 0].tolist()
+        ]
+
+        # Which way elbows and knees point: as in the hold; elbows turn with the chest, knees do not.
+        hinges = rotate(world[joints[:, 0]], self._limbs.hinge)
+        self._elbows = rotate(conjugate(world[self._trunk.joints[self._chest]]), hinges[:2])
+        self._knees = hinges[2:]
+
+        right = int(hands[1])
+        self._fingers = PressingFingers(
+            rig, instrument_rig, right, self._hand_positions[1], self._hand_rotations[1]
+        )
+        self._twists = TwistHelpers(rig)
+        self.held: FloatArray = same_hemisphere(rotations, skeleton.rest_rotations)
+        """All joints' local rotations in the hold, ``(J, 4)``."""
+        fingers = self._fingers.chains.joints
+        self.moving: IntArray = np.concatenate(
+            [self._turned, joints[:, 0], joints[:, 1], joints[:, 2], fingers.ravel(), self._twists.joints]
+        )
+        """Indices of the joints that move, ``(M,)``."""
+        place = {joint: index for index, joint in enumerate(self.moving.tolist())}
+        lost = [joint for joint in self._twists.sources.tolist() if joint not in place]
+        if lost:
+            raise RigError(f"a twist follows {skeleton.names[lost[0]]!r}, which never moves", where="twists")
+        self._twist_sources = np.array(
+            [place[joint] for joint in self._twists.sources.tolist()], dtype=np.intp
+        )
+        self._moving_rest: FloatArray = skeleton.rest_rotations[self.moving]
+
+    def _carrier(self, rig: Rig, joint: int) -> int:
+        found = np.flatnonzero(self._trunk.joints == joint)
+        if len(found) == 0:
+            raise RigError(f"{rig.skeleton.names[joint]!r} must be one of {', '.join(TRUNK)}", where="joints")
+        return int(found[0])
+
+    def solve(self, signals: FloatArray, lowered: FloatArray, valves: FloatArray, lifts: FloatArray) -> Pose:
+        """Poses for a block.
+
+        Args:
+            signals: ``(len(body_table.SIGNALS), F)``.
+            lowered: How far the instrument is taken down, 0..1, ``(F,)``.
+            valves: How far down each valve is, ``(F, V)``.
+            lifts: How far each valve's finger is off its cap, ``(F, V)``.
+        """
+        moved = (signals.T @ self._matrix).reshape(signals.shape[1], -1, 3)
+        turns = exp(moved[:, :-2])
+        if self._eyes is not None:
+            turns[:, self._eyes] = _glance(moved[:, self._eyes.start])[:, None]
+        local = multiply(self._held, turns[:, :-1])
+        hips = self._root + moved[:, -2]
+        shifts = moved[:, -1]
+        world, points = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
+
+        instrument = multiply(multiply(world[:, self._head], self._instrument_in_head), turns[:, -1])
+        place = points[:, 4] - rotate(instrument, self._mouthpiece)
+        elbows = rotate(world[:, self._chest, None], self._elbows)
+        if lowered.any():
+            instrument, place, elbows = _lower(lowered, points, instrument, place, elbows)
+
+        frames = len(hips)
+        targets = np.empty((frames, 4, 3))
+        targets[:, :2] = self._hand_positions
+        targets[:, 1] += shifts
+        targets[:, :2] = place[:, None] + rotate(instrument[:, None], targets[:, :2])
+        targets[:, 2:] = self._feet_positions
+        hinges = np.empty((frames, 4, 3))
+        hinges[:, :2] = elbows
+        hinges[:, 2:] = self._knees
+        limbs = self._limbs.solve(points[:, :4], targets, hinges)
+
+        outer = np.empty((frames, 8, 4))  # world rotations: uppers, then ends
+        outer[:, :4] = limbs.upper
+        outer[:, 4:6] = multiply(instrument[:, None], self._hand_rotations)
+        outer[:, 6:] = self._feet_rotations
+        inner = np.empty((frames, 8, 4))  # what each of them hangs on
+        inner[:, :4] = world[:, self._limb_parents]
+        inner[:, 4:] = multiply(limbs.upper, limbs.lower_local)
+        ends = multiply(conjugate(inner), outer)
+
+        used = self._fingers.valves
+        fingers, status = self._fingers.solve(valves[:, used], lifts[:, used], shifts)
+
+        turned = local.shape[1]
+        helpers = len(self.moving) - len(self._twist_sources)
+        moving = np.empty((frames, len(self.moving), 4))
+        moving[:, :turned] = local
+        moving[:, turned : turned + 4] = ends[:, :4]
+        moving[:, turned + 4 : turned + 8] = limbs.lower_local
+        moving[:, turned + 8 : turned + 12] = ends[:, 4:]
+        moving[:, turned + 12 : helpers] = fingers.reshape(frames, -1, 4)
+        moving[:, helpers:] = self._twists.solve(moving[:, self._twist_sources])
+        return Pose(
+            moving=same_hemisphere(moving, self._moving_rest),
+            root_positions=hips,
+            instrument_rotations=instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0),
+            instrument_positions=place,
+            reached=not (limbs.status.any() or status.any()),
+        )
+
+
+def _glance(turn: FloatArray) -> FloatArray:
+    """Eyes turned to the side, then up or down: Ry Rx ``(F, 4)`` of turns ``(F, 3)``; they never roll."""
+    half = 0.5 * turn
+    up, side = np.sin(half[:, 0]), np.sin(half[:, 1])
+    level, ahead = np.cos(half[:, 0]), np.cos(half[:, 1])
+    return np.stack([ahead * up, side * level, -side * up, ahead * level], axis=-1)
+
+
+def _lower(
+    lowered: FloatArray, points: FloatArray, instrument: FloatArray, place: FloatArray, elbows: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Turn instrument and elbows down about the line of the shoulders: arms keep their shape and reach."""
+    left, right = points[:, 0], points[:, 1]
+    axis = left - right
+    axis = axis / np.sqrt(dot(axis, axis))[:, None]
+    down = from_axis_angle(axis, LOWERED_RAD * lowered)
+    pivot = 0.5 * (left + right)
+    return (
+        multiply(down, instrument),
+        pivot + rotate(down, place - pivot),
+        rotate(down[:, None], elbows),
+    )
