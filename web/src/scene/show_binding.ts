@@ -1,6 +1,6 @@
 /** The show's parameters: where each goes in the scene. */
 
-import { Color, FogExp2, type Scene, type WebGLRenderer } from "three";
+import type { Color, FogExp2, Scene, WebGLRenderer } from "three";
 
 import type { NoteBlocks } from "./blocks/blocks";
 import type { StageCamera } from "./camera";

@@ -115,7 +115,8 @@ void main() {
 
   // Lit from within: brightest in the core, and still bright at the rim.
   float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
-  vec3 lit = soundingColor * (0.16 + glow * (0.1 + 0.34 * core)) + 0.35 * shaded;
+  float warmth = glow / (1.0 + 0.35 * glow);
+  vec3 lit = soundingColor * (0.16 + warmth * (0.14 + 0.42 * core)) + 0.3 * shaded;
   vec3 surface = mix(shaded, lit, vSounding);
 
   float pixel = max(fwidth(vInside.y), 1e-5);
@@ -188,7 +189,7 @@ varying vec2 vFrom;
 varying float vSight;
 void main() {
   float falloff = max(0.0, 1.0 - length(vFrom));
-  float light = falloff * falloff * falloff * glow * 0.13 * opacity * max(vSight, 0.35);
+  float light = falloff * falloff * falloff * glow / (1.0 + 0.35 * glow) * 0.17 * opacity * max(vSight, 0.35);
   gl_FragColor = vec4(soundingColor * light, 1.0);
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
