@@ -104,20 +104,23 @@ class ClockState:
         if not self.playing or end_s <= start_s:
             return ()
         run, until = self.song_time_s + (np.array([start_s, end_s]) - self.server_time_s) * self.rate
+        first, last = float(run), float(until)
         loop = self._looping
         if loop is None:
-            run, until = float(run), min(float(until), self.duration_s)
-            return (Span(start_s, run, until, until >= self.duration_s),) if until > run else ()
+            last = min(last, self.duration_s)
+            return (Span(start_s, first, last, last >= self.duration_s),) if last > first else ()
+        # As if song time ran on: turn n of the loop is [begin + n length, end + n length), and what comes before
+        # the loop belongs to turn 0.
         begin, end = loop
         length = end - begin
+        turn = max(0, math.floor((first - begin) / length))
         spans: list[Span] = []
-        turn = max(0, math.floor((float(run) - begin) / length))
-        while begin + turn * length < until:
-            first = max(float(run), begin + turn * length) if turn else float(run)
-            last = min(float(until), end + turn * length)
-            if last > first:
+        while first < last:
+            stop = min(last, end + turn * length)
+            if stop > first:
                 server = self.server_time_s + (first - self.song_time_s) / self.rate
-                spans.append(Span(server, first - turn * length, last - turn * length))
+                spans.append(Span(server, first - turn * length, stop - turn * length))
+                first = stop
             turn += 1
         return tuple(spans)
 

@@ -4,7 +4,7 @@ import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Generic, Literal, TypeVar
+from typing import Any, Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -42,7 +42,7 @@ class NoteEvent(Generic[N]):
 Listener = Callable[[NoteEvent[N]], None]
 
 
-def _log_failure(error: Exception, event: NoteEvent[object]) -> None:
+def _log_failure(error: Exception, event: NoteEvent[Any]) -> None:
     _log.error("a listener failed at %s of note %d", event.kind, event.index, exc_info=error)
 
 
@@ -75,7 +75,7 @@ class NoteEventEmitter(Generic[N]):
         pitch: ArrayLike,
         notes: Sequence[N],
         *,
-        on_error: Callable[[Exception, NoteEvent[N]], None] = _log_failure,
+        on_error: Callable[[Exception, NoteEvent[N]], None] | None = None,
     ) -> None:
         """Make an emitter that stands before the first event.
 
@@ -110,7 +110,7 @@ class NoteEventEmitter(Generic[N]):
         self._sounding: dict[int, None] = {}
         self._listeners: dict[int, Listener[N]] = {}
         self._listener_count = 0
-        self._on_error = on_error
+        self._on_error = on_error or _log_failure
         self._waiting: deque[NoteEvent[N]] = deque()
         self._telling = False
 

@@ -8,6 +8,9 @@ import numpy as np
 
 from reina.music.arrays import FloatArray, read_only
 
+SAME_BEAT = 1e-9
+"""Beats nearer than this are the same."""
+
 
 @dataclass(frozen=True)
 class TimeSignature:
@@ -86,7 +89,7 @@ class MetreMap:
             begin = max(signature.onset_beats, self.pickup_beats)
             later = index + 1 < len(self.signatures)
             end = min(self.signatures[index + 1].onset_beats, until_beats) if later else until_beats
-            count = math.ceil((end - begin) / signature.bar_beats - 1e-9)
+            count = math.ceil((end - begin) / signature.bar_beats - SAME_BEAT)
             if count > 0:
                 pieces.append(np.arange(count, dtype=np.float64) * signature.bar_beats + begin)
         lines = np.concatenate(pieces) if pieces else np.zeros(0)
@@ -108,10 +111,10 @@ class MetreMap:
         """Return the bar and the beat in it at each of `beats` (0 or later)."""
         if not len(beats):
             return []
-        lines = self.bar_lines(float(np.nextafter(np.max(beats), np.inf)))
-        bars = np.maximum(np.searchsorted(lines, beats, side="right") - 1, 0)
+        lines = self.bar_lines(float(np.max(beats)) + 1.0)
+        bars = np.maximum(np.searchsorted(lines, beats + SAME_BEAT, side="right") - 1, 0)
         first_bar = 0 if self.pickup_beats > 0 else 1
-        in_bar = beats - lines[bars]
+        in_bar = np.maximum(beats - lines[bars], 0.0)
         return [
             BarPosition(bar + first_bar, beat)
             for bar, beat in zip(bars.tolist(), in_bar.tolist(), strict=True)

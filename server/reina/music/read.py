@@ -36,6 +36,10 @@ def read_score(
         raise ScoreError("the file is empty", where="byte 0")
     limits.check("size_bytes", len(data), what="size in bytes")
     title = PurePath(filename).stem if filename else ""
-    if data.lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS):
+    if data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS):
+        if sequence not in {None, 0}:
+            raise ScoreError(
+                f"a JSON score is one sequence, so there is no sequence {sequence}", where="sequence"
+            )
         return read_json(data, title=title or "Untitled", limits=limits)
     return read_midi(data, title=title or "Untitled", sequence=sequence, limits=limits)

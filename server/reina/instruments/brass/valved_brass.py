@@ -19,6 +19,9 @@ from reina.music.errors import ScoreError
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
 
+MOST_TOLD = 200
+"""How many dropped or shortened notes are told of one by one; all of them stand in the line."""
+
 SLIDE_FROM_S = 0.15
 """A note has to last this long for the slide to go out for it."""
 
@@ -93,7 +96,7 @@ class ValvedBrass:
         """
         if not 0 <= part < len(score.parts):
             raise ScoreError(f"there is no part {part}; there are 0 to {len(score.parts) - 1}", where="part")
-        log = WarningLog()
+        log = WarningLog(MOST_TOLD)
         place = f"part {part}"
         if written:
             transposition -= self.model.written_above_sounding

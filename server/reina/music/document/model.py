@@ -25,7 +25,7 @@ def pitch_number(value: object) -> object:
     return 12 * (int(octave) + 1) + _STEPS[step.upper()] + _ACCIDENTALS[accidental]
 
 
-Beat = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Beat = Annotated[float, Field(ge=0, le=1e7, allow_inf_nan=False)]
 Pitch = Annotated[
     int,
     BeforeValidator(pitch_number, json_schema_input_type=int | str),
@@ -56,7 +56,7 @@ class NoteEntry(_Model):
     """A note."""
 
     beat: Beat = Field(description="Onset in quarter notes from the beginning.")
-    duration: float = Field(gt=0, allow_inf_nan=False, description="Duration in quarter notes.")
+    duration: float = Field(gt=0, le=1e7, allow_inf_nan=False, description="Duration in quarter notes.")
     pitch: Pitch = Field(description="MIDI number (60 is middle C) or a name such as C4, F#3, Bb5.")
     velocity: float = Field(default=0.7, ge=0, le=1, description="Loudness of the attack.")
 

@@ -77,7 +77,7 @@ def _metre_map(header: ToneHeader) -> MetreMap:
     signatures = [
         TimeSignature(entry.ticks / header.ppq, *entry.timeSignature) for entry in header.timeSignatures
     ]
-    if not signatures and header.timeSignature and min(header.timeSignature) > 0:
+    if not signatures and header.timeSignature:
         signatures = [TimeSignature(0.0, *header.timeSignature)]
     return MetreMap(signatures)
 
@@ -141,6 +141,10 @@ def _part(
     )
 
 
+def _controller(value: float) -> int:
+    return round(value * 127) if value <= 1 else round(value)
+
+
 def _controls(track: ToneTrack, path: str, channel: int, ppq: float, tempo_map: TempoMap) -> list[Control]:
     controls: list[Control] = []
     for number, entries in track.controlChanges.items():
@@ -150,7 +154,7 @@ def _controls(track: ToneTrack, path: str, channel: int, ppq: float, tempo_map: 
             )
         times = zip(*_times(entries, ppq, tempo_map, f"{path}/controlChanges/{number}"), strict=True)
         controls.extend(
-            Control("controller", float(second), float(beat), channel, int(number), round(entry.value * 127))
+            Control("controller", float(second), float(beat), channel, int(number), _controller(entry.value))
             for entry, (second, beat) in zip(entries, times, strict=True)
         )
     times = zip(*_times(track.pitchBends, ppq, tempo_map, f"{path}/pitchBends"), strict=True)

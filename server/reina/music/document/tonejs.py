@@ -9,8 +9,10 @@ from pydantic import AliasChoices, BaseModel, BeforeValidator, ConfigDict, Field
 
 from reina.music.document.model import Pitch
 
-Seconds = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Ticks = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Seconds = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
+Ticks = Annotated[float, Field(ge=0, le=1e12, allow_inf_nan=False)]
+Bpm = Annotated[float, Field(ge=1, le=1e8, allow_inf_nan=False)]
+MetreNumber = Annotated[int, Field(ge=1, le=1024)]
 
 
 class _Model(BaseModel):
@@ -20,7 +22,7 @@ class _Model(BaseModel):
 class ToneTempo(_Model):
     """An entry of ``header.tempos``."""
 
-    bpm: float = Field(gt=0, allow_inf_nan=False)
+    bpm: Bpm
     ticks: Ticks | None = None
     time: Seconds | None = None
 
@@ -28,7 +30,7 @@ class ToneTempo(_Model):
 class ToneTimeSignature(_Model):
     """An entry of ``header.timeSignatures``."""
 
-    timeSignature: tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]]  # noqa: N815
+    timeSignature: tuple[MetreNumber, MetreNumber]  # noqa: N815
     ticks: Ticks = 0.0
 
 
@@ -36,11 +38,13 @@ class ToneHeader(_Model):
     """The header; ``bpm``, ``PPQ`` and ``timeSignature`` are of the older form."""
 
     name: str = ""
-    ppq: float = Field(default=480.0, gt=0, allow_inf_nan=False, validation_alias=AliasChoices("ppq", "PPQ"))
+    ppq: float = Field(
+        default=480.0, ge=1, le=1e6, allow_inf_nan=False, validation_alias=AliasChoices("ppq", "PPQ")
+    )
     tempos: list[ToneTempo] = Field(default_factory=list[ToneTempo])
     timeSignatures: list[ToneTimeSignature] = Field(default_factory=list[ToneTimeSignature])  # noqa: N815
-    bpm: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    timeSignature: tuple[int, int] | None = None  # noqa: N815
+    bpm: Bpm | None = None
+    timeSignature: tuple[MetreNumber, MetreNumber] | None = None  # noqa: N815
 
 
 class ToneNote(_Model):
@@ -68,9 +72,9 @@ def _instrument(value: object) -> object:
 
 
 class ToneController(_Model):
-    """An entry of ``tracks[].controlChanges[number]``; values are 0 to 1."""
+    """An entry of ``tracks[].controlChanges[number]``; values are 0 to 1, above 1 they are MIDI's own."""
 
-    value: float = Field(ge=0, le=1)
+    value: float = Field(ge=0, le=127)
     time: Seconds | None = None
     ticks: Ticks | None = None
 

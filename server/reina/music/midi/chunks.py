@@ -37,11 +37,9 @@ def unwrap(data: bytes, log: WarningLog) -> tuple[bytes, int]:
     """
     start = 0
     if data[:4] == b"RIFF":
-        start = _riff_data(data)
-        if data[8:12] != b"RMID":
-            log.add(
-                "riff_type", "byte 8", "a RIFF file that does not call itself RMID; its MIDI data was read"
-            )
+        start, data = _riff_data(data)
+        if data[8:12] != b"RMID" or start == 0:
+            log.add("bad_riff", "byte 0", "a RIFF file that is not as RIFF MIDI is; its MIDI data was read")
     found = data.find(b"MThd", start, start + SEARCHED_FOR_HEADER)
     if found < 0:
         raise ScoreError(
@@ -49,21 +47,22 @@ def unwrap(data: bytes, log: WarningLog) -> tuple[bytes, int]:
             "program or sequencer (.mid), or a JSON score, would be right",
             where="byte 0",
         )
-    if found > start:
+    if found > start and data[:4] != b"RIFF":
         log.add(
             "leading_bytes", f"byte {start}", f"{found - start} bytes before the MIDI header were skipped"
         )
     return data[found:], found
 
 
-def _riff_data(data: bytes) -> int:
+def _riff_data(data: bytes) -> tuple[int, bytes]:
+    """Return where a RIFF file's data chunk begins, 0 if it has none, and the file up to its end."""
     at = 12
     while at + 8 <= len(data):
+        length = int.from_bytes(data[at + 4 : at + 8], "little")
         if data[at : at + 4] == b"data":
-            return at + 8
-        at += 8 + int.from_bytes(data[at + 4 : at + 8], "little")
-        at += at & 1
-    raise ScoreError("a RIFF file without a data chunk; RIFF MIDI (.rmi) has one", where="byte 12")
+            return at + 8, data[: at + 8 + length]
+        at += 8 + length + (length & 1)
+    return 0, data
 
 
 def read_header(data: bytes, log: WarningLog) -> Header:

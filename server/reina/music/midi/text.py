@@ -3,7 +3,7 @@
 import re
 
 _KANA = re.compile(r"[\u3040-\u30ff\uff66-\uff9f]{2}")
-_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]+")
+_CONTROL = re.compile(r"[\x00-\x20\x7f-\x9f]+")
 
 
 def decode_text(data: bytes) -> str:

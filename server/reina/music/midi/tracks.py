@@ -43,28 +43,23 @@ def _read_chunk(
 ) -> tuple[Track, int]:
     """Read the track chunk at `at`; return it and where to go on."""
     place = f"track {number}, byte {at + offset}"
-    claimed = int.from_bytes(data[at + 4 : at + 8], "big")
     begin = at + 8
+    claimed = int.from_bytes(data[at + 4 : begin], "big")
     end = begin + claimed
     if end > len(data):
-        end = next_track(data, begin)
-    elif not is_chunk(data, end):
-        end = next_track(data, end)
-    track = read_track(data, begin, end, number=number, offset=offset, most_events=most_events, log=log)
+        limit = next_track(data, begin)
+    else:
+        limit = end if is_chunk(data, end) else next_track(data, end)
+    track = read_track(data, begin, limit, number=number, offset=offset, most_events=most_events, log=log)
     if track.intact and not track.ended:
         log.add("no_end_of_track", place, "the track has no end-of-track event")
-    swallowed = data.find(b"MTrk", track.end, end)
-    if swallowed >= 0:
-        end = swallowed
-    claimed_end = min(begin + claimed, len(data))
-    if begin + claimed > len(data) or track.end > claimed_end or end < claimed_end:
+    following = data.find(b"MTrk", track.end, end)
+    if end > len(data) or track.end > end or following >= 0:
         log.add("track_length", place, f"the track claims {claimed} bytes; {track.end - begin} were read")
-    elif track.ended and track.end < claimed_end:
-        log.add(
-            "after_end_of_track", place, f"{claimed_end - track.end} bytes after the track's end were skipped"
-        )
-        end = claimed_end
-    return track, max(end if not track.ended or track.end <= claimed_end else track.end, track.end)
+        return track, track.end if following < 0 else following
+    if track.ended and track.end < end:
+        log.add("after_end_of_track", place, f"{end - track.end} bytes after the track's end were skipped")
+    return track, end
 
 
 def _pass_chunk(data: bytes, at: int, offset: int, log: WarningLog) -> int:
