@@ -1,7 +1,7 @@
 """Build the rigs: fetch the source, make the models, reduce and compress them, validate them, write rig.json.
 
-`python rigs/build/build.py` writes rigs/trumpeter and rigs/trumpet; the same input gives the same bytes. How the
-player holds the instrument is committed data and solved apart, by solve_hold.py.
+`python rigs/build/build.py` writes rigs/trumpeter and rigs/trumpet; the same input gives the same bytes. How
+the player holds the instrument is committed data and solved apart, by solve_hold.py.
 """
 
 from __future__ import annotations
@@ -27,7 +27,10 @@ TRIANGLES = {  # at most this many in a tier; 0 keeps what the scripts made
 
 
 def pack(raw: Path, rigs: Path) -> dict[str, dict[str, int]]:
-    """Reduce, compress and validate every model; what each came to, by rig/tier. A model with issues stops the build."""
+    """Reduce, compress and validate every model; what each came to, by rig/tier.
+
+    A model with issues stops the build.
+    """
     if not (HERE / "node_modules").exists():
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=HERE, check=True)
     results = {}
@@ -41,14 +44,17 @@ def pack(raw: Path, rigs: Path) -> dict[str, dict[str, int]]:
             if said["errors"] or said["warnings"]:
                 raise ValueError(f"{target} is not valid glTF: {messages}")
             results[f"{rig}/{tier}.glb"] = said
-            print(f"{rig}/{tier}.glb: {said['triangles']} triangles, {said['bytes']} bytes, no errors, no warnings")
+            print(f"{rig}/{tier}.glb: {said['triangles']} triangles, {said['bytes']} bytes, valid")
     return results
 
 
 def main() -> None:
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rigs", type=Path, default=HERE.parent, help="where the rigs are written")
-    parser.add_argument("--cache", type=Path, default=default_cache(), help="where the downloaded source is kept")
+    parser.add_argument(
+        "--cache", type=Path, default=default_cache(), help="where the downloaded source is kept"
+    )
     arguments = parser.parse_args()
     data = fetch(arguments.cache)
     raw = HERE / ".work"
@@ -58,7 +64,10 @@ def main() -> None:
         (arguments.rigs / rig).mkdir(parents=True, exist_ok=True)
     build_player(data, raw, arguments.rigs / PLAYER)
     build_instrument(raw, arguments.rigs / INSTRUMENT)
-    write_json(arguments.rigs / "validation.json", {"validator": "gltf-validator 2.0.0-dev.3.10", "models": pack(raw, arguments.rigs)})
+    write_json(
+        arguments.rigs / "validation.json",
+        {"validator": "gltf-validator 2.0.0-dev.3.10", "models": pack(raw, arguments.rigs)},
+    )
 
 
 if __name__ == "__main__":

@@ -19,8 +19,8 @@ from hold.collision import Obstacles
 from hold.grip import DEG, MM, Grip
 from hold.left_hand import LeftHand
 from hold.report import report
-from hold.right_hand import RightHand
 from hold.rig import Pose, Rig, turn
+from hold.right_hand import RightHand
 from hold.stance import Stance, stand
 
 Array = NDArray[np.float64]
@@ -31,7 +31,10 @@ STARTS = 6
 
 
 def place_trumpet(player: Rig, trumpet: Rig, stance: Stance) -> tuple[Array, Array]:
-    """The trumpet's world rotation (3, 3) and position (3,): rim on the lips, bell a little below horizontal."""
+    """The trumpet's world rotation (3, 3) and position (3,).
+
+    Rim on the lips, bell a little below horizontal.
+    """
     joint, offset = player.contact("lips")
     head, place = player.world(stance.pose, stance.hips)[joint]
     rotation = turn("x", np.radians(PITCH_DOWN_DEG))
@@ -54,19 +57,28 @@ def search(residuals: object, start: Array, label: str) -> Array:
 
 
 def solve_right(grip: Grip, trumpet: Rig) -> Pose:
+    """The right arm and hand."""
     buttons = np.array([b["position"] for b in trumpet.content["buttons"]])
     hand = RightHand(grip, buttons, trumpet.contact("thumb_right")[1], trumpet.contact("hook")[1])
     x = search(hand.residuals, right_hand.START, "right")
     rotation, position, arm = grip.reach(x)
     angles, lacking = hand.fingers(rotation, position)
     print("right hand", np.round(x, 4).tolist())
-    print("  wrist twist, flexion, deviation", np.round(arm.wrist * DEG, 1), "elbow", np.round(arm.elbow - grip.shoulder, 3))
+    print(
+        "  wrist twist, flexion, deviation",
+        np.round(arm.wrist * DEG, 1),
+        "elbow",
+        np.round(arm.elbow - grip.shoulder, 3),
+    )
     for finger, rows, gaps in zip(grip.fingers, angles, lacking, strict=True):
-        print(f"  {finger.name}", np.round(rows * DEG, 1).tolist(), "lacks mm", np.round(gaps * MM, 3).tolist())
+        print(
+            f"  {finger.name}", np.round(rows * DEG, 1).tolist(), "lacks mm", np.round(gaps * MM, 3).tolist()
+        )
     return grip.pose(arm, [rows[0] for rows in angles], x[9:14])
 
 
 def solve_left(grip: Grip, trumpet: Rig) -> Pose:
+    """The left arm and hand."""
     ring, saddle = trumpet.contact("ring")[1], trumpet.contact("saddle")[1]
     third = trumpet.content["buttons"][2]["position"]
     casing = trumpet.contact("grip_left")[1][0]
@@ -74,13 +86,19 @@ def solve_left(grip: Grip, trumpet: Rig) -> Pose:
     x = search(hand.residuals, left_hand.START, "left")
     arm = grip.reach(x)[2]
     print("left hand", np.round(x, 4).tolist())
-    print("  wrist twist, flexion, deviation", np.round(arm.wrist * DEG, 1), "elbow", np.round(arm.elbow - grip.shoulder, 3))
+    print(
+        "  wrist twist, flexion, deviation",
+        np.round(arm.wrist * DEG, 1),
+        "elbow",
+        np.round(arm.elbow - grip.shoulder, 3),
+    )
     for finger, row in zip(grip.fingers, hand.angles(x), strict=True):
         print(f"  {finger.name}", np.round(row * DEG, 1).tolist())
     return grip.pose(arm, hand.angles(x), x[9:14])
 
 
 def main() -> None:
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rigs", type=Path, default=RIGS, help="the folder of rigs")
     folder = parser.parse_args().rigs
@@ -96,7 +114,10 @@ def main() -> None:
         "instrument": "trumpet",
         "player": "trumpeter",
         "pose": quaternions,
-        "instrument_pose": {"position": instrument[1].tolist(), "rotation": Rotation.from_matrix(instrument[0]).as_quat().tolist()},
+        "instrument_pose": {
+            "position": instrument[1].tolist(),
+            "rotation": Rotation.from_matrix(instrument[0]).as_quat().tolist(),
+        },
         "hips": stance.hips.tolist(),
     }
     (folder / "trumpeter" / "holds").mkdir(exist_ok=True)
@@ -112,12 +133,16 @@ def whole_pose(player: Rig, pose: Pose) -> dict[str, list[float]]:
         rest_quaternion = np.array(next(j["rotation"] for j in player.content["joints"] if j["name"] == name))
         result[name] = (quaternion if quaternion @ rest_quaternion >= 0 else -quaternion).tolist()
     for twist in player.content["twists"]:
-        source = Rotation.from_matrix(player.rests[twist["source"]].T @ pose.get(twist["source"], player.rests[twist["source"]]))
+        source = Rotation.from_matrix(
+            player.rests[twist["source"]].T @ pose.get(twist["source"], player.rests[twist["source"]])
+        )
         x, _, _, w = source.as_quat()
         angle = 2 * np.arctan2(x, w)
         angle = (angle + np.pi) % (2 * np.pi) - np.pi
         half = angle * twist["fraction"] / 2
-        helper = Rotation.from_matrix(player.rests[twist["joint"]]) * Rotation.from_quat([np.sin(half), 0, 0, np.cos(half)])
+        helper = Rotation.from_matrix(player.rests[twist["joint"]]) * Rotation.from_quat(
+            [np.sin(half), 0, 0, np.cos(half)]
+        )
         result[twist["joint"]] = helper.as_quat().tolist()
     return result
 

@@ -1,16 +1,21 @@
-"""Where the player touches things: lips and soles; and capsules that stand for the body in collision tests."""
+"""Where the player touches things: lips and soles.
+
+And capsules that stand for the body in collision tests.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from body.figure import Figure
 from body.joint_names import FINGERS, PHALANGES, SIDES
-from body.skeleton import Skeleton
 from common.raycast import ray_distances
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -21,7 +26,10 @@ PITCH_DOWN_RAD = float(np.radians(10.0))  # of the mouthpiece from the head, as 
 
 
 def lips_contact(figure: Figure, lip_centre: Array) -> Array:
-    """Where the middle of a mouthpiece's rim rests (3,), world: a circle laid against the mouth, pressed in a little."""
+    """Where the middle of a mouthpiece's rim rests (3,), world.
+
+    A circle laid against the mouth, pressed in a little.
+    """
     faces = figure.mesh.triangles(["body"])
     forward = np.array([0.0, -np.sin(PITCH_DOWN_RAD), np.cos(PITCH_DOWN_RAD)])
     up = np.cross(forward, [1.0, 0.0, 0.0])
@@ -97,7 +105,7 @@ def capsules(figure: Figure, skeleton: Skeleton, weights: Array) -> list[dict[st
         add(f"{side}UpperLeg", p[f"{side}UpperLeg"], p[f"{side}LowerLeg"], 0.070)
         add(f"{side}LowerLeg", p[f"{side}LowerLeg"], p[f"{side}Foot"], 0.050)
     head = p["head"]
-    add("head", head + [0, 0.045, 0.005], head + [0, 0.105, 0.005], 0.080)
+    add("head", head + np.array([0, 0.045, 0.005]), head + np.array([0, 0.105, 0.005]), 0.080)
     add("neck", p["neck"], head, 0.052)
     add("upperChest", p["upperChest"] + [-0.05, 0.06, 0], p["upperChest"] + [0.05, 0.06, 0], 0.105)
     add("chest", p["chest"] + [-0.03, 0, 0.01], p["chest"] + [0.03, 0, 0.01], 0.100)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
-from body.figure import Figure
 from body.images import eye_picture, jpeg
 from body.joint_names import SIDES
-from body.skeleton import Skeleton
 from common.meshes import Mesh, joined
 from common.parts import Part, Surface
 from common.shapes import grid_faces
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -34,7 +38,12 @@ def eyes(figure: Figure, skeleton: Skeleton, rings: int, sectors: int) -> Part:
 
 def _cap(rings: int, sectors: int) -> tuple[Array, Array, Array]:
     """Unit directions (N, 3) about +Z, texture coordinates (N, 2), and the cornea's bulge (N,)."""
-    polar, azimuth = (g.ravel() for g in np.meshgrid(np.linspace(0, 0.75 * np.pi, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij"))
+    polar, azimuth = (
+        g.ravel()
+        for g in np.meshgrid(
+            np.linspace(0, 0.75 * np.pi, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij"
+        )
+    )
     directions = np.c_[np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)]
     reach = np.minimum(polar / (np.pi / 2) * 0.5 * 1.15, 0.5)
     uv = np.c_[0.5 + reach * np.cos(azimuth), 0.5 - reach * np.sin(azimuth)]

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from body.makehuman import BODY_VERTEX_COUNT, BaseMesh
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 Array = NDArray[np.float64]
 
@@ -61,7 +64,10 @@ MORPHS: dict[str, tuple[tuple[str, ...], float]] = {
 
 @dataclass
 class Figure:
-    """The shaped body: `vertices` (V, 3) in metres, floor at y = 0 under the soles; `morphs` by name (V, 3)."""
+    """The shaped body: `vertices` (V, 3) in metres, floor at y = 0 under the soles.
+
+    `morphs` by name (V, 3).
+    """
 
     mesh: BaseMesh
     vertices: Array
@@ -97,6 +103,7 @@ def shape_figure(data: Path) -> Figure:
         bone_heads={name: (bone.head - floor) * METRES_PER_DECIMETRE for name, bone in bones.items()},
         bone_tails={name: (bone.tail - floor) * METRES_PER_DECIMETRE for name, bone in bones.items()},
         morphs={
-            name: mesh.face_unit(units) * METRES_PER_DECIMETRE * weight for name, (units, weight) in MORPHS.items()
+            name: mesh.face_unit(units) * METRES_PER_DECIMETRE * weight
+            for name, (units, weight) in MORPHS.items()
         },
     )

@@ -1,18 +1,23 @@
-"""Skin weights of the hands, laid anew because the knuckles were moved from the web to where a person has them.
+"""Skin weights of the hands, laid anew because the knuckles were moved to where a person has them.
 
-Along a finger, weight passes from bone to bone across each joint by a smooth step; across the palm, the skin between
-knuckles is shared by how near each metacarpal line is. The thumb keeps the source's weights.
+Along a finger, weight passes from bone to bone across each joint by a smooth step; across the palm, the
+skin between knuckles is shared by how near each metacarpal line is. The thumb keeps the source's weights.
 """
 
 from __future__ import annotations
 
+import itertools
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
-from body.figure import Figure
 from body.joint_names import FINGERS, PHALANGES
-from body.skeleton import Skeleton
 from common.meshes import smoothed, smoothstep
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -66,7 +71,7 @@ def _distance_to_finger(skeleton: Skeleton, side: str, finger: str, points: Arra
     start = 0.35 * skeleton.positions[f"{side}Hand"] + 0.65 * chain[0]
     path = [start, *chain, skeleton.effectors[f"{side}{finger}Tip"][1]]
     best = np.full(len(points), np.inf)
-    for a, b in zip(path[:-1], path[1:], strict=True):
+    for a, b in itertools.pairwise(path):
         t = np.clip((points - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)[:, None]
         best = np.minimum(best, np.linalg.norm(points - a - t * (b - a), axis=1))
     return np.maximum(best, 1e-4)

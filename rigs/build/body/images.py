@@ -20,7 +20,9 @@ def jpeg(picture: NDArray[np.floating], quality: int) -> tuple[bytes, str]:
 
 def blurred(grey: NDArray[np.floating], radius_px: float) -> Picture:
     """A grey picture 0…1 (H, W), blurred."""
-    image = Image.fromarray((grey * 255).clip(0, 255).astype(np.uint8)).filter(ImageFilter.GaussianBlur(radius_px))
+    image = Image.fromarray((grey * 255).clip(0, 255).astype(np.uint8)).filter(
+        ImageFilter.GaussianBlur(radius_px)
+    )
     return np.asarray(image, np.float32) / 255
 
 
@@ -53,17 +55,23 @@ def eye_picture(size: int = 512) -> Picture:
     r = np.hypot(x - half + 0.5, y - half + 0.5) / half
     angle = np.arctan2(y - half, x - half)
     iris, pupil = 0.46, 0.19
-    spokes = np.interp(angle, np.linspace(-np.pi, np.pi, 181), np.convolve(rng.random(181), np.ones(3) / 3, "same"))
+    spokes = np.interp(
+        angle, np.linspace(-np.pi, np.pi, 181), np.convolve(rng.random(181), np.ones(3) / 3, "same")
+    )
     picture = np.ones((size, size, 3)) * [0.96, 0.955, 0.95]
     picture *= 1 - 0.18 * np.clip(r - 0.55, 0, 1)[..., None] * np.array([0.6, 1, 1])
     t = np.clip((r - pupil) / (iris - pupil), 0, 1)
     brown = np.array([0.216, 0.12, 0.06]) * (1 - t)[..., None] + np.array([0.50, 0.30, 0.14]) * t[..., None]
-    brown *= (0.75 + 0.5 * spokes[..., None]) * (1.15 - 0.55 * np.clip((half - y) / (size * 0.23), -1, 1))[..., None]
+    brown *= (0.75 + 0.5 * spokes[..., None]) * (1.15 - 0.55 * np.clip((half - y) / (size * 0.23), -1, 1))[
+        ..., None
+    ]
     brown *= (1 - 0.75 * np.clip((t - 0.80) / 0.2, 0, 1))[..., None]
     for edge, colour, soft in ((iris, brown, 1.5), (pupil, np.full(3, 0.02), 2.0)):
         inside = np.clip((edge - r) * half / soft, 0, 1)[..., None]
         picture = picture * (1 - inside) + colour * inside
     for cx, cy, radius, amount in ((-0.15, -0.17, 0.085, 1.0), (0.14, 0.15, 0.04, 0.7)):
-        light = np.clip((radius - np.hypot((x - half) / half - cx, (y - half) / half - cy)) * half / 2, 0, 1)[..., None]
+        light = np.clip((radius - np.hypot((x - half) / half - cx, (y - half) / half - cy)) * half / 2, 0, 1)[
+            ..., None
+        ]
         picture = picture * (1 - light * amount) + light * amount
     return picture.astype(np.float32)

@@ -37,7 +37,10 @@ def source_bones() -> dict[str, tuple[str | None, str]]:
             full = parent if parent in TRUNK else f"{side}{parent}"
             joints[f"{side}{name}"] = (full, f"{bone}_{letter}")
         for k, part in enumerate(THUMB):
-            joints[f"{side}{part}"] = (f"{side}{THUMB[k - 1]}" if k else f"{side}Hand", f"thumb_0{k + 1}_{letter}")
+            joints[f"{side}{part}"] = (
+                f"{side}{THUMB[k - 1]}" if k else f"{side}Hand",
+                f"thumb_0{k + 1}_{letter}",
+            )
         for finger in FINGERS:
             for k, part in enumerate(PHALANGES):
                 parent = f"{side}{finger}{PHALANGES[k - 1]}" if k else f"{side}Hand"

@@ -1,18 +1,20 @@
 """Joint limits, chains and twist helpers of the player's rig.
 
-A limit is of rest⁻¹·q, decomposed as R_a(α)·R_b(β)·R_c(γ) for `order` "abc". Fingers' limits come from the planar
-model's angles (degrees: θ1 −70…80 from the palm plane, θ2 −135…0, θ3 −45…0), less the angles at rest.
+A limit is of rest⁻¹·q, decomposed as R_a(α)·R_b(β)·R_c(γ) for `order` "abc". Fingers' limits come from the
+planar model's angles (degrees: θ1 −70…80 from the palm plane, θ2 −135…0, θ3 −45…0), less the angles at rest.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from body.joint_names import FINGERS, PHALANGES, SIDES
-from body.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 Limits = dict[str, Any]
@@ -56,14 +58,19 @@ def joint_limits(skeleton: Skeleton) -> dict[str, Limits]:
     for side, _ in SIDES:
         for finger in FINGERS:
             for part in PHALANGES:
-                low, high = (angle - rest_angle_deg(skeleton, side, finger, part) for angle in THETA_DEG[part])
+                low, high = (
+                    angle - rest_angle_deg(skeleton, side, finger, part) for angle in THETA_DEG[part]
+                )
                 spread = (-ABDUCTION_DEG, ABDUCTION_DEG) if part == "Proximal" else (0.0, 0.0)
                 limits[f"{side}{finger}{part}"] = _radians("yzx", (0, 0), spread, (low, high))
     return limits
 
 
 def rest_angle_deg(skeleton: Skeleton, side: str, finger: str, phalanx: str) -> float:
-    """The planar angle at rest: of the proximal bone from the palm plane, of the others from the bone before."""
+    """The planar angle at rest: of the proximal bone from the palm plane.
+
+    Of the others from the bone before.
+    """
     joint = f"{side}{finger}{phalanx}"
     if phalanx == "Proximal":
         x_in_hand = skeleton.axes[f"{side}Hand"].T @ skeleton.axes[joint][:, 0]
@@ -85,16 +92,16 @@ def chains() -> list[dict[str, Any]]:
         result.append({"name": f"{side}Arm", "joints": arm, "solver": "two_bone"})
         leg = [f"{side}{part}" for part in ("UpperLeg", "LowerLeg", "Foot")]
         result.append({"name": f"{side}Leg", "joints": leg, "solver": "two_bone"})
-        for finger in FINGERS:
-            result.append(
-                {
-                    "name": f"{side}{finger}",
-                    "joints": [f"{side}{finger}{part}" for part in PHALANGES],
-                    "effector": f"{side}{finger}Tip",
-                    "solver": "coupled_three_bone",
-                    "kappa": COUPLING,
-                }
-            )
+        result.extend(
+            {
+                "name": f"{side}{finger}",
+                "joints": [f"{side}{finger}{part}" for part in PHALANGES],
+                "effector": f"{side}{finger}Tip",
+                "solver": "coupled_three_bone",
+                "kappa": COUPLING,
+            }
+            for finger in FINGERS
+        )
     return result
 
 

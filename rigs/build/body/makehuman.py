@@ -8,13 +8,15 @@ from __future__ import annotations
 import gzip
 import itertools
 import json
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -82,7 +84,10 @@ class BaseMesh:
         self.vertices[indices] += weight * offsets
 
     def apply_macro(self, races: Mapping[str, float], shape: Mapping[str, float]) -> None:
-        """Apply a young woman's macro targets; `shape` holds muscle, weight, height, proportions, cup, firmness in 0…1."""
+        """Apply a young woman's macro targets.
+
+        `shape` holds muscle, weight, height, proportions, cup, firmness in 0…1.
+        """
         muscle = _thirds(shape["muscle"], "minmuscle", "averagemuscle", "maxmuscle")
         weight = _thirds(shape["weight"], "minweight", "averageweight", "maxweight")
         height = _thirds(shape["height"], "minheight", "", "maxheight")
@@ -136,7 +141,9 @@ class BaseMesh:
         elif strategy == "VERTEX":
             place = self.vertices[entry["vertex_index"]].copy()
         elif strategy == "XYZ":
-            place = np.array([self.vertices[index][axis] for axis, index in enumerate(entry["vertex_indices"])])
+            place = np.array(
+                [self.vertices[index][axis] for axis, index in enumerate(entry["vertex_indices"])]
+            )
         else:
             raise ValueError(f"unknown joint strategy {strategy!r}; known are CUBE, MEAN, VERTEX, XYZ")
         return place

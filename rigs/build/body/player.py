@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +23,9 @@ from dress.hair import bob
 from dress.tailor import Tailor
 from dress.trimmings import trimming_parts
 from dress.uniform import blazer, uniform_parts
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 Array = NDArray[np.float64]
 
@@ -90,7 +92,13 @@ def rig_content(figure: Figure, skeleton: Skeleton, weights: Array, mouth: Array
     joints = []
     for name, parent in skeleton.parents.items():
         translation, rotation = skeleton.local(name)
-        joint = {"name": name, "parent": parent, "translation": translation.tolist(), "rotation": rotation.tolist(), "node": name}
+        joint = {
+            "name": name,
+            "parent": parent,
+            "translation": translation.tolist(),
+            "rotation": rotation.tolist(),
+            "node": name,
+        }
         if name in limits:
             joint["limits"] = limits[name]
         joints.append(joint)
@@ -105,7 +113,11 @@ def rig_content(figure: Figure, skeleton: Skeleton, weights: Array, mouth: Array
         ],
         "contacts": contacts(figure, skeleton, mouth),
         "capsules": capsules(figure, skeleton, weights),
-        "morphs": [{"parameter": path, "target": target} for path, target in MORPH_PARAMETERS.items() if target in MORPHS],
+        "morphs": [
+            {"parameter": path, "target": target}
+            for path, target in MORPH_PARAMETERS.items()
+            if target in MORPHS
+        ],
         "chains": chains(),
         "twists": twists(),
     }

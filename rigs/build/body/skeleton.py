@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from body.fingers import finger_joints, hand_axes, knuckles, thumb_joints
-from body.figure import Figure
 from body.joint_names import FINGERS, PHALANGES, SIDES, source_bones
+
+if TYPE_CHECKING:
+    from body.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -26,6 +29,7 @@ class Skeleton:
 
     @property
     def names(self) -> list[str]:
+        """The joints' names, parents first."""
         return list(self.parents)
 
     def add(self, name: str, parent: str | None, position: Array, axes: Array | None = None) -> None:
@@ -65,8 +69,10 @@ def build_skeleton(figure: Figure) -> Skeleton:
                 places[f"{side}{finger}{part}"] = place
             axes.update({f"{side}{finger}{p}": a for p, a in zip(PHALANGES, joints.axes, strict=True)})
             skeleton.effectors[f"{side}{finger}Tip"] = (f"{side}{finger}Distal", joints.pad)
-        thumb = thumb_joints(figure, letter, side, places[f"{side}LittleProximal"], faces)
-        for part, place, turn in zip(("ThumbMetacarpal", "ThumbProximal", "ThumbDistal"), thumb.places, thumb.axes, strict=True):
+        thumb = thumb_joints(figure, letter, places[f"{side}LittleProximal"], faces)
+        for part, place, turn in zip(
+            ("ThumbMetacarpal", "ThumbProximal", "ThumbDistal"), thumb.places, thumb.axes, strict=True
+        ):
             places[f"{side}{part}"], axes[f"{side}{part}"] = place, turn
         skeleton.effectors[f"{side}ThumbTip"] = (f"{side}ThumbDistal", thumb.pad)
         axes.update(_arm_axes(side, places))
@@ -83,7 +89,10 @@ def build_skeleton(figure: Figure) -> Skeleton:
 
 
 def _arm_axes(side: str, places: dict[str, Array]) -> dict[str, Array]:
-    """Upper and lower arm: X along the bone, Y the elbow's hinge (up), shared, so that the elbow is a pure Y turn."""
+    """Upper and lower arm: X along the bone.
+
+    Y the elbow's hinge (up), shared, so that the elbow is a pure Y turn.
+    """
     shoulder, elbow, wrist = (places[f"{side}{part}"] for part in ("UpperArm", "LowerArm", "Hand"))
     hinge = np.cross(wrist - elbow, elbow - shoulder)
     hinge *= np.sign(hinge[1]) / np.linalg.norm(hinge)
@@ -95,6 +104,6 @@ def _arm_axes(side: str, places: dict[str, Array]) -> dict[str, Array]:
 
 
 def _quaternion(matrix: Array) -> Array:
-    """x y z w with w ≥ 0."""
+    """X y z w with w ≥ 0."""
     quaternion: Array = Rotation.from_matrix(matrix).as_quat()
     return -quaternion if quaternion[3] < 0 else quaternion

@@ -1,18 +1,25 @@
-"""The visible skin: its texture, painted by where each texel lies on the body, and the faces that clothes leave bare."""
+"""The visible skin: its texture.
+
+Painted by where each texel lies on the body, and the faces that clothes leave bare.
+"""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from body.figure import Figure
 from body.images import Picture, blurred, jpeg, mixed
 from body.joint_names import SIDES
-from body.makehuman import Face
-from body.skeleton import Skeleton
 from common.meshes import Mesh, normals
 from common.parts import Part, Surface
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from body.makehuman import Face
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -76,8 +83,14 @@ def paint_skin(figure: Figure, skeleton: Skeleton, positions: Array, covered: ND
     mouth = lip_centre(figure, positions, covered)
     eyes = {sign: figure.centre(f"helper-{letter}-eye") for sign, letter in ((1, "l"), (-1, "r"))}
     for sign, eye in eyes.items():
-        picture = mixed(picture, (0.93, 0.52, 0.47), 0.38 * spot(eye + [sign * 0.012, -0.030, 0], [0.014, 0.010, 0.05]))
-        picture = mixed(picture, (0.80, 0.50, 0.45), 0.30 * spot(eye + [0, 0.010, 0.01], [0.016, 0.007, 0.03]))
+        picture = mixed(
+            picture,
+            (0.93, 0.52, 0.47),
+            0.38 * spot(eye + np.array([sign * 0.012, -0.03, 0]), [0.014, 0.010, 0.05]),
+        )
+        picture = mixed(
+            picture, (0.80, 0.50, 0.45), 0.30 * spot(eye + np.array([0, 0.01, 0.01]), [0.016, 0.007, 0.03])
+        )
     nose = np.array([0, eyes[1][1] - 0.032, mouth[2] + 0.012])
     picture = mixed(picture, (0.93, 0.62, 0.55), 0.35 * spot(nose, [0.009, 0.009, 0.012]))
     picture = mixed(picture, (0.90, 0.58, 0.52), 0.35 * blurred(_mask(figure, "ears"), 4))
@@ -97,7 +110,9 @@ def _brow(positions: Array, covered: NDArray[np.bool_], eye: Array, sign: int) -
     arch = eye[1] + 0.0185 + 0.0045 * np.sin(np.clip(t, 0, 1) * np.pi * 0.85) - 0.006 * np.clip(t - 0.6, 0, 1)
     half = 0.0026 * (1 - 0.65 * np.clip(t, 0, 1))
     stroke = np.clip(1.2 - np.abs(positions[..., 1] - arch) / half, 0, 1) * (t > 0) * (t < 1)
-    stroke *= np.clip(t * 6, 0, 1) * np.clip((1 - t) * 5, 0, 1) * covered * (positions[..., 2] > eye[2] - 0.01)
+    stroke *= (
+        np.clip(t * 6, 0, 1) * np.clip((1 - t) * 5, 0, 1) * covered * (positions[..., 2] > eye[2] - 0.01)
+    )
     return blurred(stroke, 0.8)
 
 
@@ -105,7 +120,11 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
     """Head, neck and hands as one part with morphs; body faces under cloth are left out."""
     v = figure.vertices
     column = {name: k for k, name in enumerate(skeleton.names)}
-    hands = [k for name, k in column.items() if any(p in name for p in ("Hand", "Thumb", "Index", "Middle", "Ring", "Little"))]
+    hands = [
+        k
+        for name, k in column.items()
+        if any(p in name for p in ("Hand", "Thumb", "Index", "Middle", "Ring", "Little"))
+    ]
     keep = weights[:, hands].sum(axis=1) > 0.05
     for side, _ in SIDES:
         elbow, wrist = skeleton.positions[f"{side}LowerArm"], skeleton.positions[f"{side}Hand"]
@@ -120,7 +139,13 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
     body_normals = normals(figure.vertices, figure.mesh.triangles(["body"]))
     mesh = Mesh(v[rows], weights[rows], triangles, figure.mesh.uv[uv_rows] * [1, -1] + [0, 1])
     surface = Surface("skin", 0.52, image=jpeg(picture, 88))
-    return Part("Skin", mesh, surface, body_normals[rows], {name: offsets[rows] for name, offsets in figure.morphs.items()})
+    return Part(
+        "Skin",
+        mesh,
+        surface,
+        body_normals[rows],
+        {name: offsets[rows] for name, offsets in figure.morphs.items()},
+    )
 
 
 def _split_at_seams(faces: list[Face]) -> tuple[list[int], list[int], NDArray[np.int64]]:
@@ -140,4 +165,6 @@ def lashes(figure: Figure, weights: Array) -> Part:
     used = np.unique(faces)
     mesh = Mesh(figure.vertices, weights, faces).compact()
     surface = Surface("lashes", 0.8, colour=(0.07, 0.05, 0.05), both_sides=True)
-    return Part("Lashes", mesh, surface, None, {name: offsets[used] for name, offsets in figure.morphs.items()})
+    return Part(
+        "Lashes", mesh, surface, None, {name: offsets[used] for name, offsets in figure.morphs.items()}
+    )

@@ -1,15 +1,22 @@
-"""Skin weights (V, J): the source's, moved to the skeleton's joints, with twist helpers and re-laid fingers."""
+"""Skin weights (V, J): the source's.
+
+Moved to the skeleton's joints, with twist helpers and re-laid fingers.
+"""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from body.figure import Figure
 from body.finger_weights import lay_finger_weights
 from body.joint_names import SIDES, source_bones
-from body.skeleton import Skeleton
 from common.meshes import smoothstep
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -39,18 +46,26 @@ def skin_weights(figure: Figure, skeleton: Skeleton) -> Array:
 def _split_twist(
     figure: Figure, skeleton: Skeleton, weights: Array, bone: str, child: str, *, helper_is_near: bool
 ) -> None:
-    """Share a bone's weight with its twist helper: the upper arm's near the shoulder, the lower arm's near the wrist."""
+    """Share a bone's weight with its twist helper.
+
+    The upper arm's near the shoulder, the lower arm's near the wrist.
+    """
     column, helper = skeleton.names.index(bone), skeleton.names.index(f"{bone}Twist1")
     along = skeleton.positions[child] - skeleton.positions[bone]
     share = (figure.vertices - skeleton.positions[bone]) @ along / (along @ along)
-    toward_child = smoothstep((share - 0.12) / 0.62) if not helper_is_near else smoothstep((share - 0.30) / 0.55)
+    toward_child = (
+        smoothstep((share - 0.12) / 0.62) if not helper_is_near else smoothstep((share - 0.30) / 0.55)
+    )
     part = 1 - toward_child if helper_is_near else toward_child
     weights[:, helper] = weights[:, column] * part
     weights[:, column] *= 1 - part
 
 
 def strongest(weights: Array) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """The four strongest joints of each vertex (V, 4) and their weights (V, 4), normalised; unused ones are zero."""
+    """The four strongest joints of each vertex (V, 4) and their weights (V, 4), normalised.
+
+    Unused ones are zero.
+    """
     joints = np.argsort(-weights, axis=1, kind="stable")[:, :INFLUENCES]
     values = np.take_along_axis(weights, joints, axis=1)
     values[values < LEAST_WEIGHT] = 0

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from brass import measures as m
-from brass.metals import Metals
 from brass.paths import arc_length, at_lengths, bezier, joined_path, line
 from brass.turning import Workpiece
+
+if TYPE_CHECKING:
+    from brass.metals import Metals
 
 KNURLS = 28
 
@@ -17,12 +21,19 @@ def bell_path() -> np.ndarray:
     low, bow = m.Y_LOW, m.Z_BELL_BOW
     return joined_path(
         line([0.004, low, m.VALVE_Z[0] - 0.009], [0.012, low, bow], 20),
-        bezier([0.012, low, bow], [0.017, low, bow - 0.085], [m.X_BELL, m.Y_TOP, bow - 0.085], [m.X_BELL, m.Y_TOP, bow], 60),
+        bezier(
+            [0.012, low, bow],
+            [0.017, low, bow - 0.085],
+            [m.X_BELL, m.Y_TOP, bow - 0.085],
+            [m.X_BELL, m.Y_TOP, bow],
+            60,
+        ),
         line([m.X_BELL, m.Y_TOP, bow], [m.X_BELL, m.Y_TOP, m.Z_BELL_END], 10),
     )
 
 
 def build_body(detail: float, metals: Metals) -> Workpiece:
+    """All that does not move."""
     body = Workpiece(detail)
     _bell(body, metals)
     _leadpipe(body, metals)
@@ -50,10 +61,23 @@ def _bell(body: Workpiece, metals: Metals) -> None:
 
 def _leadpipe(body: Workpiece, metals: Metals) -> None:
     x, y = m.X_LEADPIPE, m.Y_TOP
-    body.sweep(metals.brass, line([x, y, m.Z_RECEIVER + 0.03], [x, y, 0.118], 6), np.linspace(0.0052, m.TUBE, 6))
-    receiver = [(0, 0.0056), (0, 0.0074), (0.004, 0.0076), (0.005, 0.0070), (0.030, 0.0066), (0.0345, 0.0072), (0.036, 0.0072), (0.0365, 0.0056)]
+    body.sweep(
+        metals.brass, line([x, y, m.Z_RECEIVER + 0.03], [x, y, 0.118], 6), np.linspace(0.0052, m.TUBE, 6)
+    )
+    receiver = [
+        (0, 0.0056),
+        (0, 0.0074),
+        (0.004, 0.0076),
+        (0.005, 0.0070),
+        (0.030, 0.0066),
+        (0.0345, 0.0072),
+        (0.036, 0.0072),
+        (0.0365, 0.0056),
+    ]
     body.lathe(metals.brass, [x, y, m.Z_RECEIVER], [0, 0, 1], receiver, 36)
-    body.sweep(metals.brass, line([m.X_RETURN, m.Y_LOW, 0.118], [0, m.Y_LOW, m.VALVE_Z[2] + 0.008], 4), m.TUBE)
+    body.sweep(
+        metals.brass, line([m.X_RETURN, m.Y_LOW, 0.118], [0, m.Y_LOW, m.VALVE_Z[2] + 0.008], 4), m.TUBE
+    )
     for leg_x, leg_y in ((x, y), (m.X_RETURN, m.Y_LOW)):
         body.ferrule(metals.silver, [leg_x, leg_y, 0.110], [leg_x, leg_y, 0.122], m.TUBE + 0.0010)
         body.sweep(metals.silver, line([leg_x, leg_y, 0.12], [leg_x, leg_y, 0.135]), m.TUBE + 0.0001)
@@ -61,10 +85,31 @@ def _leadpipe(body: Workpiece, metals: Metals) -> None:
 
 def _casing(body: Workpiece, metals: Metals, z: float) -> None:
     bottom = m.CASING_BOTTOM
-    body.lathe(metals.brass, [0, bottom, z], [0, 1, 0], [(0, m.CASING), (m.CASING_TOP - bottom, m.CASING)], 48)
-    lower = [(0, 0.0), (0, 0.0036), (0.0012, 0.0040), (0.0015, 0.0085), (0.0035, 0.0112), (0.0045, 0.0118), (0.0065, 0.0121), (0.0105, 0.0121), (0.0115, 0.0117)]
+    body.lathe(
+        metals.brass, [0, bottom, z], [0, 1, 0], [(0, m.CASING), (m.CASING_TOP - bottom, m.CASING)], 48
+    )
+    lower = [
+        (0, 0.0),
+        (0, 0.0036),
+        (0.0012, 0.0040),
+        (0.0015, 0.0085),
+        (0.0035, 0.0112),
+        (0.0045, 0.0118),
+        (0.0065, 0.0121),
+        (0.0105, 0.0121),
+        (0.0115, 0.0117),
+    ]
     body.lathe(metals.silver, [0, bottom - 0.0115, z], [0, 1, 0], lower, 48)
-    upper = [(0, 0.0117), (0.001, 0.0121), (0.0055, 0.0121), (0.0070, 0.0115), (0.0085, 0.0106), (0.0092, 0.0060), (0.0092, 0.0042), (0.0085, 0.0042)]
+    upper = [
+        (0, 0.0117),
+        (0.001, 0.0121),
+        (0.0055, 0.0121),
+        (0.0070, 0.0115),
+        (0.0085, 0.0106),
+        (0.0092, 0.0060),
+        (0.0092, 0.0042),
+        (0.0085, 0.0042),
+    ]
     body.lathe(metals.silver, [0, 0.057, z], [0, 1, 0], upper, 48)
     if body.detail > 0.8:
         for k in range(KNURLS):
@@ -89,8 +134,20 @@ def _braces(body: Workpiece, metals: Metals) -> None:
 def _hook(body: Workpiece, metals: Metals) -> None:
     """The little finger's hook on the leadpipe."""
     x, y, z = m.X_LEADPIPE, m.Y_TOP, m.HOOK_Z
-    rise = bezier([x, y + 0.005, z + 0.004], [x - 0.002, y + 0.020, z + 0.006], [x - 0.004, y + 0.030, z - 0.004], [x - 0.006, y + 0.031, z - 0.016], 20)
-    turn = bezier([x - 0.006, y + 0.031, z - 0.016], [x - 0.008, y + 0.032, z - 0.028], [x - 0.010, y + 0.022, z - 0.031], [x - 0.010, y + 0.016, z - 0.024], 14)
+    rise = bezier(
+        [x, y + 0.005, z + 0.004],
+        [x - 0.002, y + 0.020, z + 0.006],
+        [x - 0.004, y + 0.030, z - 0.004],
+        [x - 0.006, y + 0.031, z - 0.016],
+        20,
+    )
+    turn = bezier(
+        [x - 0.006, y + 0.031, z - 0.016],
+        [x - 0.008, y + 0.032, z - 0.028],
+        [x - 0.010, y + 0.022, z - 0.031],
+        [x - 0.010, y + 0.016, z - 0.024],
+        14,
+    )
     radius = np.r_[np.linspace(0.0030, 0.0024, 20), np.linspace(0.0024, 0.0016, 13)]
     body.sweep(metals.brass, joined_path(rise, turn), radius, 12, caps=True, oval=(1.5, 0.8))
 

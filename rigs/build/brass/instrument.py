@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from brass import measures as m
 from brass.body_tubes import build_body
@@ -12,6 +11,9 @@ from brass.moving_parts import first_slide, mouthpiece, second_slide, third_slid
 from brass.obstacles import trumpet_capsules
 from common.glb import GlbWriter
 from common.rig_file import write_json
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 NAME = "trumpet"
 JOINT = "trumpet"
@@ -48,7 +50,9 @@ def write_model(path: Path, detail: float) -> None:
         "slide3": third_slide(detail, metals),
         "mouthpiece": mouthpiece(detail, metals),
     }
-    children = [writer.node(name, mesh=writer.mesh(name, piece.primitives(writer))) for name, piece in pieces.items()]
+    children = [
+        writer.node(name, mesh=writer.mesh(name, piece.primitives(writer))) for name, piece in pieces.items()
+    ]
     stem = writer.mesh("valve", valve(detail, metals).primitives(writer))
     for number, z in enumerate(m.VALVE_Z, start=1):
         children.append(writer.node(f"valve{number}", mesh=stem, translation=[0.0, m.STEM_Y, z]))
@@ -70,9 +74,19 @@ def rig_content() -> dict[str, Any]:
         "name": NAME,
         "licence": "CC0-1.0",
         "models": {tier: f"{tier}.glb" for tier in DETAIL},
-        "joints": [{"name": JOINT, "parent": None, "translation": [0.0, 0.0, 0.0], "rotation": [0.0, 0.0, 0.0, 1.0], "node": JOINT}],
+        "joints": [
+            {
+                "name": JOINT,
+                "parent": None,
+                "translation": [0.0, 0.0, 0.0],
+                "rotation": [0.0, 0.0, 0.0, 1.0],
+                "node": JOINT,
+            }
+        ],
         "effectors": [],
-        "contacts": [{"name": name, "joint": JOINT, "offset": list(offset)} for name, offset in CONTACTS.items()],
+        "contacts": [
+            {"name": name, "joint": JOINT, "offset": list(offset)} for name, offset in CONTACTS.items()
+        ],
         "capsules": trumpet_capsules(),
         "morphs": [],
         "chains": [],

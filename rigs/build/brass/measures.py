@@ -1,4 +1,6 @@
-"""The trumpet's measures in metres. Its frame: +Z to the bell, +Y up, +X the player's left; origin in the second valve.
+"""The trumpet's measures in metres.
+
+Its frame: +Z to the bell, +Y up, +X the player's left; the origin lies in the second valve.
 
 Valve 1 is nearest the player's face.
 """

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from common.glb import GlbWriter
+if TYPE_CHECKING:
+    from common.glb import GlbWriter
 
 
 @dataclass(frozen=True)
 class Metals:
+    """Indices of the materials."""
+
     brass: int
     silver: int
     felt: int
@@ -16,12 +20,24 @@ class Metals:
 
     @classmethod
     def into(cls, writer: GlbWriter) -> Metals:
+        """Add the materials to a file."""
         clearcoat = "KHR_materials_clearcoat"
         lacquer = {clearcoat: {"clearcoatFactor": 0.6, "clearcoatRoughnessFactor": 0.06}}
         shell = {clearcoat: {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.05}}
         return cls(
-            brass=writer.material("brass", metallic=1.0, roughness=0.14, colour=(0.93, 0.62, 0.20), doubleSided=True, extensions=lacquer),
-            silver=writer.material("silver", metallic=1.0, roughness=0.16, colour=(0.86, 0.86, 0.84), doubleSided=True),
+            brass=writer.material(
+                "brass",
+                metallic=1.0,
+                roughness=0.14,
+                colour=(0.93, 0.62, 0.20),
+                doubleSided=True,
+                extensions=lacquer,
+            ),
+            silver=writer.material(
+                "silver", metallic=1.0, roughness=0.16, colour=(0.86, 0.86, 0.84), doubleSided=True
+            ),
             felt=writer.material("felt", metallic=0.0, roughness=0.95, colour=(0.03, 0.03, 0.035)),
-            pearl=writer.material("pearl", metallic=0.0, roughness=0.12, colour=(0.93, 0.91, 0.88), extensions=shell),
+            pearl=writer.material(
+                "pearl", metallic=0.0, roughness=0.12, colour=(0.93, 0.91, 0.88), extensions=shell
+            ),
         )

@@ -1,37 +1,68 @@
-"""The trumpet's moving parts: slides, valves and mouthpiece. All but the valves are made in the instrument's frame."""
+"""The trumpet's moving parts: slides, valves and mouthpiece.
+
+All but the valves are made in the instrument's frame.
+"""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from brass import measures as m
-from brass.metals import Metals
 from brass.paths import joined_path, line, u_bend
 from brass.turning import Workpiece
 
+if TYPE_CHECKING:
+    from brass.metals import Metals
+
 
 def tuning_slide(detail: float, metals: Metals) -> Workpiece:
+    """The main tuning slide with its water key."""
     piece, x, low_x = Workpiece(detail), m.X_LEADPIPE, m.X_RETURN
     bow = u_bend(x, low_x, m.Y_TOP, m.Y_LOW, 0.158, 0.036, piece.facets(48, 14))
-    piece.sweep(metals.brass, joined_path(line([x, m.Y_TOP, 0.133], bow[0], 4), bow, line(bow[-1], [low_x, m.Y_LOW, 0.133], 4)), m.TUBE)
+    piece.sweep(
+        metals.brass,
+        joined_path(line([x, m.Y_TOP, 0.133], bow[0], 4), bow, line(bow[-1], [low_x, m.Y_LOW, 0.133], 4)),
+        m.TUBE,
+    )
     for leg_x, y in ((x, m.Y_TOP), (low_x, m.Y_LOW)):
         piece.ferrule(metals.silver, [leg_x, y, 0.133], [leg_x, y, 0.141], m.TUBE + 0.0009)
     piece.brace(metals.brass, [x, m.Y_TOP - 0.005, 0.152], [low_x, m.Y_LOW + 0.005, 0.152], 0.0019)
     key = np.array([low_x, m.Y_LOW - 0.007, 0.170])
-    lever = joined_path(line(key + [0, -0.001, 0.010], key + [0, -0.003, -0.008], 6), line(key + [0, -0.003, -0.008], key + [0, -0.001, -0.030], 8))
+    lever = joined_path(
+        line(key + np.array([0, -0.001, 0.01]), key + np.array([0, -0.003, -0.008]), 6),
+        line(key + np.array([0, -0.003, -0.008]), key + np.array([0, -0.001, -0.03]), 8),
+    )
     piece.sweep(metals.brass, lever, 0.0013, 10, caps=True, oval=(1.6, 0.7))
-    piece.lathe(metals.brass, key + [0, 0.004, 0.008], [0, -1, 0], [(0, 0.0034), (0.006, 0.0034), (0.0062, 0)], 20)
-    piece.sweep(metals.brass, line(key + [-0.005, -0.001, -0.006], key + [0.005, -0.001, -0.006]), 0.0015, 10, caps=True)
+    piece.lathe(
+        metals.brass,
+        key + np.array([0, 0.004, 0.008]),
+        [0, -1, 0],
+        [(0, 0.0034), (0.006, 0.0034), (0.0062, 0)],
+        20,
+    )
+    piece.sweep(
+        metals.brass,
+        line(key + np.array([-0.005, -0.001, -0.006]), key + np.array([0.005, -0.001, -0.006])),
+        0.0015,
+        10,
+        caps=True,
+    )
     return piece
 
 
-def _valve_slide(detail: float, metals: Metals, x: float, y: tuple[float, float], z: float, reach: float) -> Workpiece:
+def _valve_slide(
+    detail: float, metals: Metals, x: float, y: tuple[float, float], z: float, reach: float
+) -> Workpiece:
     """A U-shaped slide from z, straight for |reach| less its bow; the sign of `reach` is its direction."""
     piece = Workpiece(detail)
     half, sign = (y[1] - y[0]) / 2, np.sign(reach)
     end = z + reach - sign * half
     bow = u_bend(x, x, y[1], y[0], end, sign * half, piece.facets(36, 12))
-    piece.sweep(metals.brass, joined_path(line([x, y[1], z], bow[0], 4), bow, line(bow[-1], [x, y[0], z], 4)), m.TUBE)
+    piece.sweep(
+        metals.brass, joined_path(line([x, y[1], z], bow[0], 4), bow, line(bow[-1], [x, y[0], z], 4)), m.TUBE
+    )
     for height in y:
         piece.ferrule(metals.silver, [x, height, z], [x, height, z + sign * 0.007], m.TUBE + 0.0009)
     return piece
@@ -48,12 +79,17 @@ def first_slide(detail: float, metals: Metals) -> Workpiece:
 
 
 def second_slide(detail: float, metals: Metals) -> Workpiece:
+    """The short slide on the right."""
     piece = Workpiece(detail)
     low, high = m.SLIDE2_Y
     middle, half = (low + high) / 2, (high - low) / 2
     a = np.linspace(0, np.pi, piece.facets(30, 10))
     bow = np.column_stack([-0.026 - half * np.sin(a), middle + half * np.cos(a), np.zeros(len(a))])
-    piece.sweep(metals.brass, joined_path(line([-0.022, high, 0], bow[0], 3), bow, line(bow[-1], [-0.022, low, 0], 3)), m.TUBE * 0.95)
+    piece.sweep(
+        metals.brass,
+        joined_path(line([-0.022, high, 0], bow[0], 3), bow, line(bow[-1], [-0.022, low, 0], 3)),
+        m.TUBE * 0.95,
+    )
     piece.ring(metals.brass, [-0.028 - half - m.TUBE, middle, 0], [0, 0, 1], 0.0032, 0.0008, 20, 8)
     return piece
 
@@ -73,21 +109,49 @@ def valve(detail: float, metals: Metals) -> Workpiece:
     piece = Workpiece(detail)
     base = m.BUTTON_TOP - 0.0042
     piece.lathe(metals.silver, [0, 0, 0], [0, 1, 0], [(-0.030, 0.0030), (0.020, 0.0030)], 20)
-    piece.lathe(metals.felt, [0, base - 0.0020, 0], [0, 1, 0], [(0, 0.0030), (0, 0.0066), (0.002, 0.0066), (0.002, 0.003)], 28)
-    button = [(0, 0.003), (0, 0.0058), (0.0008, 0.0078), (0.0022, 0.0085), (0.0036, 0.0086), (0.0044, 0.0082), (0.0046, 0.0074)]
+    piece.lathe(
+        metals.felt,
+        [0, base - 0.0020, 0],
+        [0, 1, 0],
+        [(0, 0.0030), (0, 0.0066), (0.002, 0.0066), (0.002, 0.003)],
+        28,
+    )
+    button = [
+        (0, 0.003),
+        (0, 0.0058),
+        (0.0008, 0.0078),
+        (0.0022, 0.0085),
+        (0.0036, 0.0086),
+        (0.0044, 0.0082),
+        (0.0046, 0.0074),
+    ]
     piece.lathe(metals.silver, [0, base, 0], [0, 1, 0], button, 40)
-    piece.lathe(metals.pearl, [0, base, 0], [0, 1, 0], [(0.0046, 0.0075), (0.0045, 0.0060), (0.0043, 0.0035), (0.0042, 0.0)], 40, smooth=True)
+    piece.lathe(
+        metals.pearl,
+        [0, base, 0],
+        [0, 1, 0],
+        [(0.0046, 0.0075), (0.0045, 0.0060), (0.0043, 0.0035), (0.0042, 0.0)],
+        40,
+        smooth=True,
+    )
     return piece
 
 
 def mouthpiece(detail: float, metals: Metals) -> Workpiece:
+    """Cup, rim and shank."""
     piece = Workpiece(detail)
     outside = [
-        (0, 0.0043), (0, 0.0049), (0.030, 0.0056), (0.044, 0.0060), (0.050, 0.0068), (0.056, 0.0090), (0.062, 0.0113),
-        (0.068, 0.0122), (0.078, 0.0126), (0.0815, 0.0130), (0.0835, 0.01345), (0.0855, 0.0135), (0.0868, 0.0130),
+        (0, 0.0043), (0, 0.0049), (0.030, 0.0056), (0.044, 0.0060), (0.050, 0.0068), (0.056, 0.0090),
+        (0.062, 0.0113), (0.068, 0.0122), (0.078, 0.0126), (0.0815, 0.0130), (0.0835, 0.01345),
+        (0.0855, 0.0135), (0.0868, 0.0130),
     ]  # fmt: skip
-    rim = [(0.0868 + 0.0010 * np.sin(a), 0.0108 + 0.0022 * np.cos(a)) for a in np.linspace(0.1, np.pi - 0.3, 12)]
-    cup = [(0.0868 - 0.0022 - 0.0115 * t, 0.0084 * (1 - t**2.2) ** 0.5 * 0.99 + 0.0019 * t) for t in np.linspace(0, 1, 14)]
+    rim = [
+        (0.0868 + 0.0010 * np.sin(a), 0.0108 + 0.0022 * np.cos(a)) for a in np.linspace(0.1, np.pi - 0.3, 12)
+    ]
+    cup = [
+        (0.0868 - 0.0022 - 0.0115 * t, 0.0084 * (1 - t**2.2) ** 0.5 * 0.99 + 0.0019 * t)
+        for t in np.linspace(0, 1, 14)
+    ]
     origin = [m.X_LEADPIPE, m.Y_TOP, m.Z_MOUTHPIECE]
     piece.lathe(metals.silver, origin, [0, 0, -1], outside, 48, smooth=True)
     piece.lathe(metals.silver, origin, [0, 0, -1], rim + cup, 48, smooth=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ def trumpet_capsules() -> list[dict[str, Any]]:
         result.append({"joint": "trumpet", "from": ends[0], "to": ends[1], "radius": float(radius)})
 
     def add_path(path: np.ndarray, radius: float) -> None:
-        for a, b in zip(path[:-1], path[1:], strict=True):
+        for a, b in itertools.pairwise(path):
             add(a, b, radius)
 
     for z in m.VALVE_Z:

@@ -43,8 +43,13 @@ def at_lengths(path: Array, lengths: Array) -> Array:
     return np.column_stack([np.interp(lengths, known, path[:, k]) for k in range(3)])
 
 
-def u_bend(x_top: float, x_bottom: float, y_top: float, y_bottom: float, z: float, depth: float, points: int) -> Array:
-    """A half-round bow in the YZ plane from (x_top, y_top) to (x_bottom, y_bottom) at z, reaching `depth` beyond."""
+def u_bend(
+    x_top: float, x_bottom: float, y_top: float, y_bottom: float, z: float, depth: float, points: int
+) -> Array:
+    """A half-round bow in the YZ plane from (x_top.
+
+    Y_top) to (x_bottom, y_bottom) at z, reaching `depth` beyond.
+    """
     a = np.linspace(0, np.pi, points)
     middle, half = (y_top + y_bottom) / 2, (y_top - y_bottom) / 2
     x = x_top + (x_bottom - x_top) * (1 - np.cos(a)) / 2

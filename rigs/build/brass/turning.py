@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from common.glb import GlbWriter
 from common.shapes import grid_faces
+
+if TYPE_CHECKING:
+    from common.glb import GlbWriter
 
 Array = NDArray[np.float64]
 Point = Sequence[float] | Array
@@ -36,6 +40,7 @@ class Workpiece:
         self._pieces.setdefault(material, []).append((vertices, normals, faces))
 
     def primitives(self, writer: GlbWriter) -> list[dict[str, object]]:
+        """The piece as glTF primitives, one a material."""
         result = []
         for material, pieces in self._pieces.items():
             starts = np.cumsum([0] + [len(v) for v, _, _ in pieces[:-1]])
@@ -60,18 +65,32 @@ class Workpiece:
         length = np.r_[0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
         slope = np.gradient(radii, length)
         angle = np.linspace(0, 2 * np.pi, sides + 1)
-        ring = np.cos(angle)[:, None] * frames[:, None, 0] * oval[0] + np.sin(angle)[:, None] * frames[:, None, 1] * oval[1]
+        ring = (
+            np.cos(angle)[:, None] * frames[:, None, 0] * oval[0]
+            + np.sin(angle)[:, None] * frames[:, None, 1] * oval[1]
+        )
         vertices = path[:, None] + radii[:, None, None] * ring
         normals = ring - (slope[:, None] * tangent)[:, None]
         normals /= np.linalg.norm(normals, axis=2, keepdims=True)
-        self.add(material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(count, sides + 1, flip=True))
+        self.add(
+            material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(count, sides + 1, flip=True)
+        )
         if caps:
             for end, sign in ((0, -1), (count - 1, 1)):
                 disc = np.vstack([path[end], vertices[end]])
                 fan = np.array([[0, k + 1, k + 2] for k in range(sides)])
                 self.add(material, disc, np.tile(tangent[end] * sign, (len(disc), 1)), fan)
 
-    def lathe(self, material: int, origin: Point, axis: Point, profile: Sequence[Point], sides: int = 40, *, smooth: bool = False) -> None:
+    def lathe(
+        self,
+        material: int,
+        origin: Point,
+        axis: Point,
+        profile: Sequence[Point],
+        sides: int = 40,
+        *,
+        smooth: bool = False,
+    ) -> None:
         """Turn a profile of (axial, radius) points about an axis; flat between its points unless `smooth`."""
         start, along, u, w = _axes(origin, axis)
         angle = np.linspace(0, 2 * np.pi, self.facets(sides, 8) + 1)
@@ -83,9 +102,11 @@ class Workpiece:
             vertices = start + along * points[:, 0, None, None] + spokes * points[:, 1, None, None]
             normals = spokes * step[:, 0, None, None] - along * step[:, 1, None, None]
             normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-9)
-            self.add(material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(len(points), columns))
+            self.add(
+                material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(len(points), columns)
+            )
             return
-        for (z0, r0), (z1, r1) in zip(points[:-1], points[1:], strict=True):
+        for (z0, r0), (z1, r1) in itertools.pairwise(points):
             normals = spokes * (z1 - z0) - along * (r1 - r0)
             lengths = np.linalg.norm(normals, axis=1, keepdims=True)
             if lengths.max() < 1e-9:
@@ -94,7 +115,16 @@ class Workpiece:
             rings = np.vstack([start + along * z0 + spokes * r0, start + along * z1 + spokes * r1])
             self.add(material, rings, np.vstack([normals, normals]), grid_faces(2, columns))
 
-    def ring(self, material: int, centre: Point, axis: Point, radius: float, thickness: float, sides: int = 32, round_sides: int = 8) -> None:
+    def ring(
+        self,
+        material: int,
+        centre: Point,
+        axis: Point,
+        radius: float,
+        thickness: float,
+        sides: int = 32,
+        round_sides: int = 8,
+    ) -> None:
         """A torus."""
         middle, along, u, w = _axes(centre, axis)
         a = np.linspace(0, 2 * np.pi, self.facets(sides, 10) + 1)
@@ -102,13 +132,21 @@ class Workpiece:
         spoke = np.cos(a)[:, None] * u + np.sin(a)[:, None] * w
         normals = np.cos(b)[None, :, None] * spoke[:, None] + np.sin(b)[None, :, None] * along
         vertices = middle + radius * spoke[:, None] + thickness * normals
-        self.add(material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(len(a), len(b), flip=True))
+        self.add(
+            material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(len(a), len(b), flip=True)
+        )
 
     def ferrule(self, material: int, start: Point, end: Point, radius: float) -> None:
         """A sleeve over a tube with a bead at each end."""
         a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
         length = float(np.linalg.norm(b - a))
-        self.lathe(material, a, b - a, [(0, radius - 0.0006), (0, radius), (length, radius), (length, radius - 0.0006)], 28)
+        self.lathe(
+            material,
+            a,
+            b - a,
+            [(0, radius - 0.0006), (0, radius), (length, radius), (length, radius - 0.0006)],
+            28,
+        )
         if self.detail > 0.5:
             for z in (0.0008, length - 0.0008):
                 self.ring(material, a + (b - a) / length * z, b - a, radius, 0.0006)
@@ -117,7 +155,11 @@ class Workpiece:
         """A turned stay with a bead in the middle and feet at its ends."""
         a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
         t = np.linspace(0, 1, self.facets(17, 7))
-        bead = 0.55 * np.exp(-(((t - 0.5) / 0.1) ** 2)) + 0.9 * np.exp(-((t / 0.08) ** 2)) + 0.9 * np.exp(-(((t - 1) / 0.08) ** 2))
+        bead = (
+            0.55 * np.exp(-(((t - 0.5) / 0.1) ** 2))
+            + 0.9 * np.exp(-((t / 0.08) ** 2))
+            + 0.9 * np.exp(-(((t - 1) / 0.08) ** 2))
+        )
         self.sweep(material, a + (b - a) * t[:, None], radius * (1 + bead), 12)
 
 

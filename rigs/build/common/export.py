@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from body.skeleton import Skeleton
 from body.skinning import strongest
 from common.glb import GlbWriter, linear
 from common.meshes import normals
-from common.parts import Part, Surface
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from body.skeleton import Skeleton
+    from common.parts import Part, Surface
 
 
 def add_surface(writer: GlbWriter, surface: Surface, known: dict[str, int]) -> int:
@@ -30,7 +34,10 @@ def add_surface(writer: GlbWriter, surface: Surface, known: dict[str, int]) -> i
 
 
 def write_skinned(path: Path, name: str, skeleton: Skeleton, parts: list[Part]) -> None:
-    """One node for each joint, rest transforms as in rig.json; each part a skinned mesh at the scene's root."""
+    """One node for each joint, rest transforms as in rig.json.
+
+    Each part a skinned mesh at the scene's root.
+    """
     writer = GlbWriter()
     nodes = {}
     for joint in skeleton.names:

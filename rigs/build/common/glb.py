@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import struct
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 Array = NDArray[Any]
 
@@ -48,9 +50,16 @@ class GlbWriter:
     def accessor(self, values: Array, kind: str, target: int | None = None, *, bounds: bool = False) -> int:
         """Store an array (N, …) as an accessor of glTF type `kind`."""
         values = np.ascontiguousarray(values)
-        component = {"f4": FLOAT, "u1": UNSIGNED_BYTE, "u2": UNSIGNED_SHORT, "u4": UNSIGNED_INT}[values.dtype.str[1:]]
+        component = {"f4": FLOAT, "u1": UNSIGNED_BYTE, "u2": UNSIGNED_SHORT, "u4": UNSIGNED_INT}[
+            values.dtype.str[1:]
+        ]
         view = self._view(values.tobytes(), target)
-        item: dict[str, Any] = {"bufferView": view, "componentType": component, "count": len(values), "type": kind}
+        item: dict[str, Any] = {
+            "bufferView": view,
+            "componentType": component,
+            "count": len(values),
+            "type": kind,
+        }
         if bounds:
             item["min"] = [float(x) for x in values.min(axis=0)]
             item["max"] = [float(x) for x in values.max(axis=0)]
@@ -59,13 +68,21 @@ class GlbWriter:
     def texture(self, data: bytes, mime: str, name: str) -> int:
         """Embed an image and return its texture's index."""
         if not self.content.get("samplers"):
-            sampler = {"magFilter": LINEAR, "minFilter": LINEAR_MIPMAP_LINEAR, "wrapS": REPEAT, "wrapT": REPEAT}
+            sampler = {
+                "magFilter": LINEAR,
+                "minFilter": LINEAR_MIPMAP_LINEAR,
+                "wrapS": REPEAT,
+                "wrapT": REPEAT,
+            }
             self._append("samplers", sampler)
         image = self._append("images", {"bufferView": self._view(data), "mimeType": mime, "name": name})
         return self._append("textures", {"source": image, "sampler": 0})
 
     def material(self, name: str, *, metallic: float, roughness: float, **rest: Any) -> int:
-        """Add a metallic-roughness material; `colour` (linear RGB) or `texture` give its base, the rest is glTF's own."""
+        """Add a metallic-roughness material.
+
+        `colour` (linear RGB) or `texture` give its base, the rest is glTF's own.
+        """
         surface: dict[str, Any] = {"metallicFactor": metallic, "roughnessFactor": roughness}
         if "colour" in rest:
             surface["baseColorFactor"] = [*(float(c) for c in rest.pop("colour")), 1.0]
@@ -104,11 +121,13 @@ class GlbWriter:
         part: dict[str, Any] = {"attributes": attributes, "indices": indices, "material": material, "mode": 4}
         if targets:
             part["targets"] = [
-                {"POSITION": self.accessor(t.astype("<f4"), "VEC3", ARRAY_BUFFER, bounds=True)} for t in targets
+                {"POSITION": self.accessor(t.astype("<f4"), "VEC3", ARRAY_BUFFER, bounds=True)}
+                for t in targets
             ]
         return part
 
     def mesh(self, name: str, primitives: list[dict[str, Any]], morphs: list[str] | None = None) -> int:
+        """Add a mesh and return its index."""
         item: dict[str, Any] = {"name": name, "primitives": primitives}
         if morphs:
             item["weights"] = [0.0] * len(morphs)
@@ -116,12 +135,15 @@ class GlbWriter:
         return self._append("meshes", item)
 
     def node(self, name: str, **rest: Any) -> int:
+        """Add a node and return its index."""
         return self._append("nodes", {"name": name, **rest})
 
     def skin(self, name: str, joints: list[int], inverse_binds: Array) -> int:
         """`inverse_binds` is (J, 4, 4), row-major as NumPy writes matrices."""
         columns = np.swapaxes(inverse_binds, 1, 2).reshape(len(joints), 16).astype("<f4")
-        return self._append("skins", {"name": name, "joints": joints, "inverseBindMatrices": self.accessor(columns, "MAT4")})
+        return self._append(
+            "skins", {"name": name, "joints": joints, "inverseBindMatrices": self.accessor(columns, "MAT4")}
+        )
 
     def save(self, path: Path, roots: list[int]) -> None:
         """Write the file with these nodes as the scene's roots."""
@@ -138,5 +160,5 @@ class GlbWriter:
 
 
 def linear(srgb: tuple[float, float, float]) -> list[float]:
-    """sRGB components 0…1 to linear ones."""
+    """SRGB components 0…1 to linear ones."""
     return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in srgb]

@@ -77,7 +77,9 @@ class Mesh:
 
 def welded(mesh: Mesh, digits: int = 5) -> Mesh:
     """Join the vertices that lie at one place, to `digits` decimals of a metre."""
-    _, first, inverse = np.unique(np.round(mesh.vertices, digits), axis=0, return_index=True, return_inverse=True)
+    _, first, inverse = np.unique(
+        np.round(mesh.vertices, digits), axis=0, return_index=True, return_inverse=True
+    )
     faces = inverse.ravel()[mesh.faces]
     proper = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 0] != faces[:, 2])
     return Mesh(mesh.vertices[first], mesh.weights[first], faces[proper])
@@ -126,7 +128,9 @@ def on_border(count: int, faces: Indices) -> Flags:
     return border
 
 
-def smoothed(values: Array, faces: Indices, rounds: int, fixed: Flags | None = None, step: float = 0.5) -> Array:
+def smoothed(
+    values: Array, faces: Indices, rounds: int, fixed: Flags | None = None, step: float = 0.5
+) -> Array:
     """Laplacian smoothing of per-vertex values (V, N); `fixed` vertices keep theirs."""
     mean = neighbour_mean(len(values), faces)
     values = values.copy()

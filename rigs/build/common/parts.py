@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from common.meshes import Mesh
+if TYPE_CHECKING:
+    from common.meshes import Mesh
 
 Array = NDArray[np.float64]
 
@@ -28,7 +29,10 @@ class Surface:
 
 @dataclass
 class Part:
-    """`normals` (V, 3) where they are not the mesh's own; `morphs` name → offsets (V, 3); `share` of triangles kept when reduced."""
+    """`normals` (V, 3) where they are not the mesh's own; `morphs` name → offsets (V, 3).
+
+    `share` of triangles kept when reduced.
+    """
 
     name: str
     mesh: Mesh

@@ -10,7 +10,7 @@ Indices = NDArray[np.int64]
 
 
 def ray_distances(origin: Array, direction: Array, vertices: Array, faces: Indices) -> Array:
-    """The sorted distances (N,) at which a ray from `origin` along unit `direction` crosses faces (Möller-Trumbore)."""
+    """The sorted distances (N,) at which a ray along unit `direction` crosses faces (Möller and Trumbore)."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     edge1, edge2 = b - a, c - a
     p = np.cross(direction, edge2)

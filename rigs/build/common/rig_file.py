@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 DIGITS = 9
 
@@ -13,7 +15,9 @@ DIGITS = 9
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Write `content`, floats rounded to nine decimals, lists of numbers kept on one line."""
     text = json.dumps(_rounded(content), indent=1, ensure_ascii=False)
-    text = re.sub(r"\[\s+([^\[\]{}]*?)\s+\]", lambda match: "[" + " ".join(match.group(1).split()) + "]", text)
+    text = re.sub(
+        r"\[\s+([^\[\]{}]*?)\s+\]", lambda match: "[" + " ".join(match.group(1).split()) + "]", text
+    )
     path.write_text(text + "\n", encoding="utf-8")
 
 

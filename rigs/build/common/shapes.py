@@ -18,8 +18,13 @@ def grid_faces(rows: int, columns: int, *, flip: bool = False) -> Indices:
     return np.hstack(order).reshape(-1, 3)
 
 
-def tube(path: Array, radius: Array | float, up: Array, sides: int = 10, flat: float = 1.0) -> tuple[Array, Indices, Array]:
-    """A closed-round tube along `path` (N, 3); `up` (N, 3) or (3,) gives the flattened axis. Vertices, faces, uv."""
+def tube(
+    path: Array, radius: Array | float, up: Array, sides: int = 10, flat: float = 1.0
+) -> tuple[Array, Indices, Array]:
+    """A closed-round tube along `path` (N, 3); `up` (N, 3) or (3,) gives the flattened axis.
+
+    Vertices, faces, uv.
+    """
     count = len(path)
     radii = np.broadcast_to(radius, count)
     tangent = np.gradient(path, axis=0)

@@ -25,7 +25,17 @@ def fetch(cache: Path) -> Path:
     wheel = cache / WHEEL
     if not wheel.exists():
         cache.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", str(cache), PACKAGE]
+        command = [
+            sys.executable,
+            "-m",
+            "pip",
+            "download",
+            "--quiet",
+            "--no-deps",
+            "--dest",
+            str(cache),
+            PACKAGE,
+        ]
         subprocess.run(command, check=True)
     digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
     if digest != SHA256:

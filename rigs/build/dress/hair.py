@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from body.figure import Figure
 from common.meshes import Mesh, joined, normals
 from common.shapes import tube
-from dress.tailor import Tailor
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from dress.tailor import Tailor
 
 Array = NDArray[np.float64]
 
@@ -29,6 +32,7 @@ class Scalp:
 
     @classmethod
     def of(cls, tailor: Tailor) -> Scalp:
+        """Measure the head."""
         figure = tailor.figure
         head = figure.body[tailor.weights[: len(figure.body), tailor.column("head")] > 0.5]
         eye_y = float(figure.centre("helper-l-eye")[1])
@@ -38,6 +42,7 @@ class Scalp:
         return cls(centre, eye_y, cKDTree(offsets / radii[:, None]), radii)
 
     def radius(self, direction: Array) -> float:
+        """The head's radius in a direction (3,), metres."""
         distance, index = self.directions.query(direction / np.linalg.norm(direction), k=8)
         near = 1 / (distance + 0.02) ** 2
         return float((self.radii[index] * near).sum() / near.sum())
@@ -60,6 +65,7 @@ class Lock:
     blunt: float = 0.6
 
     def mesh(self, scalp: Scalp, steps: int, sides: int) -> tuple[Array, NDArray[np.int64], Array]:
+        """The lock as a tube: vertices, faces, texture coordinates."""
         hanging = 0.62
         path: list[Array] = []
         up: list[Array] = []
@@ -74,11 +80,19 @@ class Lock:
                 outward = np.array([np.sin(self.azimuth), 0, np.cos(self.azimuth)])
                 aside = np.array([np.cos(self.azimuth), 0, -np.sin(self.azimuth)])
                 fall = outward * (self.out_m * np.sin(k * np.pi * 0.9) - self.curl_m * k * k)
-                point = path[int(hanging * (steps - 1))] + [0, -self.drop_m * k, 0] + fall + aside * self.swing * 0.05 * k
+                point = (
+                    path[int(hanging * (steps - 1))]
+                    + [0, -self.drop_m * k, 0]
+                    + fall
+                    + aside * self.swing * 0.05 * k
+                )
             path.append(point)
             up.append((point - scalp.centre) / np.linalg.norm(point - scalp.centre))
         t_all = np.linspace(0, 1, steps)
-        radius = self.width_m * np.clip(0.55 + 0.9 * t_all, 0, 1) * np.clip((1 - t_all) * 2.6, 0, 1) ** self.blunt + 0.0004
+        radius = (
+            self.width_m * np.clip(0.55 + 0.9 * t_all, 0, 1) * np.clip((1 - t_all) * 2.6, 0, 1) ** self.blunt
+            + 0.0004
+        )
         return tube(np.array(path), radius, np.array(up), sides, self.flat)
 
 
@@ -89,14 +103,21 @@ def _side_and_back_locks(rng: np.random.Generator, share: float) -> list[Lock]:
         for i in range(number):
             azimuth = 0.85 + (2 * np.pi - 1.7) * (i + 0.5) / number + rng.uniform(-0.06, 0.06)
             drop = (0.105 if np.cos(azimuth) > -0.2 else 0.115) * length * rng.uniform(0.94, 1.06)
-            start, end, width = rng.uniform(0.10, 0.35), 1.62 + rng.uniform(-0.05, 0.05), rng.uniform(0.013, 0.017)
+            start, end, width = (
+                rng.uniform(0.10, 0.35),
+                1.62 + rng.uniform(-0.05, 0.05),
+                rng.uniform(0.013, 0.017),
+            )
             curl, swing, out = rng.uniform(0.020, 0.034), rng.uniform(-0.10, 0.10), rng.uniform(0.003, 0.008)
             locks.append(Lock(azimuth, start, end, lift, width / share**0.8, drop, curl, swing, out))
     return locks
 
 
 def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
-    """Layers of fine strands of uneven length down to the brows, swept apart at a parting, longer at the temples."""
+    """Layers of fine strands of uneven length down to the brows.
+
+    Swept apart at a parting, longer at the temples.
+    """
     locks = []
     parting = 0.22
     for lift, count, extra in ((0.0125, 30, 0.03), (0.0155, 26, 0.0), (0.0180, 20, -0.04)):
@@ -104,7 +125,11 @@ def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
         for i in range(number):
             a = -1.06 + 2.08 * (i + 0.5) / number + rng.uniform(-0.035, 0.035)
             length = 1.475 + 0.13 * a * a + extra + rng.uniform(-0.055, 0.045)
-            sweep = 0.16 * a + 0.05 * np.sign(a - parting) * np.exp(-(((a - parting) / 0.22) ** 2)) + rng.uniform(-0.03, 0.03)
+            sweep = (
+                0.16 * a
+                + 0.05 * np.sign(a - parting) * np.exp(-(((a - parting) / 0.22) ** 2))
+                + rng.uniform(-0.03, 0.03)
+            )
             width = rng.uniform(0.0066, 0.0098) / share**0.9
             start = 0.20 + rng.uniform(-0.05, 0.05)
             locks.append(Lock(a * 0.86, start, length, lift, width, swing=sweep, flat=0.30, blunt=1.0))
@@ -139,7 +164,10 @@ def _cap(tailor: Tailor, scalp: Scalp) -> Mesh:
 
 
 def bob(tailor: Tailor, steps: int, sides: int, share: float) -> tuple[Mesh, Array]:
-    """The whole head of hair and its normals (V, 3); `share` is the part of the locks that a lower tier keeps (they grow wider)."""
+    """The whole head of hair and its normals (V, 3).
+
+    `share` is the part of the locks that a lower tier keeps (they grow wider).
+    """
     rng = np.random.default_rng(SEED)
     scalp = Scalp.of(tailor)
     locks = _side_and_back_locks(rng, share) + _fringe(rng, share) + _temple_locks()

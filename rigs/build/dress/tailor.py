@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from body.figure import Figure
 from body.joint_names import SIDES
-from body.skeleton import Skeleton
 from common.meshes import Flags, Mesh, normals, on_border, smoothed, welded
+
+if TYPE_CHECKING:
+    from body.figure import Figure
+    from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -20,7 +23,10 @@ LEG_PARTS = ("UpperLeg", "LowerLeg", "Foot", "Toes")
 
 @dataclass
 class Tailor:
-    """The figure, its skeleton and skin weights, and the helper surface `tights` that lies close over the body."""
+    """The figure, its skeleton and skin weights.
+
+    And the helper surface `tights` that lies close over the body.
+    """
 
     figure: Figure
     skeleton: Skeleton
@@ -29,6 +35,7 @@ class Tailor:
 
     @classmethod
     def measure(cls, figure: Figure, skeleton: Skeleton, weights: Array) -> Tailor:
+        """Lay the tights over the figure."""
         faces = figure.mesh.triangles(["helper-tights"])
         return cls(figure, skeleton, weights, welded(Mesh(figure.vertices, weights, faces).compact()))
 
@@ -38,9 +45,11 @@ class Tailor:
 
     @property
     def neck_y(self) -> float:
+        """Height of the neck joint, metres."""
         return float(self.at("neck")[1])
 
     def column(self, joint: str) -> int:
+        """The joint's column in weights."""
         return self.skeleton.names.index(joint)
 
     def weight_of(self, weights: Array, *joints: str) -> Array:
@@ -49,6 +58,7 @@ class Tailor:
         return total
 
     def leg_weight(self, weights: Array) -> Array:
+        """The summed weight (V,) of both legs."""
         return self.weight_of(weights, *(f"{side}{part}" for side, _ in SIDES for part in LEG_PARTS))
 
     def forearm(self, vertices: Array, weights: Array, side: str) -> tuple[Flags, Array]:
@@ -60,7 +70,7 @@ class Tailor:
         return arm > 0.5, along
 
     def cloth(self, keep: Flags, offset_m: float, drape: int, subdivisions: int = 1) -> Mesh:
-        """The tights where `keep`, held `offset_m` off the body and smoothed `drape` rounds without sinking in."""
+        """The tights where `keep`, held `offset_m` off the body, smoothed `drape` rounds, never sunk in."""
         mesh = self.tights.where(keep)
         for _ in range(subdivisions):
             mesh = mesh.subdivided()

@@ -21,7 +21,10 @@ RIBBON = Surface("ribbon", 0.6, colour=(0.62, 0.10, 0.14), both_sides=True)
 
 
 def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
-    """Depth (N,) of the chest's front at (x, y), from the uncut cloth so that it also holds inside the opening."""
+    """Depth (N,) of the chest's front at (x.
+
+    Y), from the uncut cloth so that it also holds inside the opening.
+    """
     cloth = outer.vertices[outer.vertices[:, 2] > tailor.at("upperChest")[2] - 0.02]
     distance, index = cKDTree(cloth[:, :2]).query(np.c_[x, y], k=8)
     near = 1 / (distance + 0.004)
@@ -56,7 +59,10 @@ def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
         y = top_button_y(tailor) - 0.025 - 0.075 * k
         depth = float(_front_z(tailor, outer, np.array([0.004]), np.array([y]))[0])
         angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)
-        rings = [np.c_[0.004 + r * np.cos(angle), y + r * np.sin(angle), np.full(sides, depth + z)] for r, z in ((0.0078, 0.0), (0.0070, 0.0030))]
+        rings = [
+            np.c_[0.004 + r * np.cos(angle), y + r * np.sin(angle), np.full(sides, depth + z)]
+            for r, z in ((0.0078, 0.0), (0.0070, 0.0030))
+        ]
         points = np.vstack([*rings, [[0.004, y, depth + 0.0038]]])
         faces = []
         for i in range(sides):
@@ -84,7 +90,9 @@ def collar(tailor: Tailor, steps: int = 64) -> Mesh:
     )
     rows = [np.c_[np.sin(angle) * r, y, centre_z + np.cos(angle) * r] for r, y in profile]
     points = np.stack(rows, axis=1).reshape(-1, 3)
-    return Mesh(points, tailor.rigid(len(points), neck=0.45, upperChest=0.55), grid_faces(steps + 1, 5, flip=True))
+    return Mesh(
+        points, tailor.rigid(len(points), neck=0.45, upperChest=0.55), grid_faces(steps + 1, 5, flip=True)
+    )
 
 
 def blazer_collar(tailor: Tailor, outer: Mesh, steps: int = 48) -> Mesh:
@@ -92,7 +100,10 @@ def blazer_collar(tailor: Tailor, outer: Mesh, steps: int = 48) -> Mesh:
     centre_z = _neck_centre_z(tailor)
     angle = np.linspace(1.30, 2 * np.pi - 1.30, steps + 1)
     back = (1 - np.cos(angle)) / 2
-    stand = gaussian_filter1d(_neck_radius(tailor, centre_z, angle, np.full(steps + 1, tailor.neck_y + 0.012)), 6) + 0.0285
+    stand = (
+        gaussian_filter1d(_neck_radius(tailor, centre_z, angle, np.full(steps + 1, tailor.neck_y + 0.012)), 6)
+        + 0.0285
+    )
     top = tailor.neck_y + 0.002 + 0.016 * back
     shoulder = _outer_height(tailor, outer, centre_z, angle, stand + 0.026)
     fall = np.maximum(gaussian_filter1d(shoulder, 3) + 0.0035, top - 0.040)
@@ -106,14 +117,18 @@ def blazer_collar(tailor: Tailor, outer: Mesh, steps: int = 48) -> Mesh:
     )
     rows = [np.c_[np.sin(angle) * r, y, centre_z + np.cos(angle) * r] for r, y in profile]
     points = np.stack(rows, axis=1).reshape(-1, 3)
-    weights = 0.5 * borrowed_weights(points, outer) + 0.5 * tailor.rigid(len(points), upperChest=0.75, neck=0.25)
+    weights = 0.5 * borrowed_weights(points, outer) + 0.5 * tailor.rigid(
+        len(points), upperChest=0.75, neck=0.25
+    )
     return Mesh(points, weights, grid_faces(steps + 1, len(profile), flip=True))
 
 
 def _outer_height(tailor: Tailor, outer: Mesh, centre_z: float, angles: Array, radii: Array) -> Array:
     """Height (N,) of the blazer's shoulders at places round the neck."""
     cloth = outer.vertices[outer.vertices[:, 1] > tailor.neck_y - 0.14]
-    distance, index = cKDTree(cloth[:, [0, 2]]).query(np.c_[np.sin(angles) * radii, centre_z + np.cos(angles) * radii], k=6)
+    distance, index = cKDTree(cloth[:, [0, 2]]).query(
+        np.c_[np.sin(angles) * radii, centre_z + np.cos(angles) * radii], k=6
+    )
     near = 1 / (distance + 0.003)
     height: Array = (cloth[index, 1] * near).sum(axis=1) / near.sum(axis=1)
     return height
@@ -131,8 +146,13 @@ def bow(tailor: Tailor) -> Mesh:
         loop = np.c_[sign * 0.048 * t, 0.004 * swell, 0.006 * swell - 0.012 * t * t]
         loop_width = 0.005 + 0.016 * np.sin(np.minimum(t * 1.15, 1) * np.pi / 2)
         tail = np.c_[sign * (0.006 + 0.020 * t), -0.075 * t, 0.002 - 0.004 * t]
-        for path, width, across in ((loop, loop_width, [0, 1, 0]), (tail, 0.005 + 0.009 * t, [1, 0.25 * sign, 0])):
-            rows = [knot + path + np.outer(width * k, across) + [0, 0, 0.004 * (1 - abs(k))] for k in (-1, 0, 1)]
+        for path, width, across in (
+            (loop, loop_width, [0, 1, 0]),
+            (tail, 0.005 + 0.009 * t, [1, 0.25 * sign, 0]),
+        ):
+            rows = [
+                knot + path + np.outer(width * k, across) + [0, 0, 0.004 * (1 - abs(k))] for k in (-1, 0, 1)
+            ]
             points = np.stack(rows, axis=1).reshape(-1, 3)
             pieces.append(Mesh(points, tailor.rigid(len(points), upperChest=1), grid_faces(9, 3)))
     path = knot + np.array([[0, 0.009, 0.002], [0, 0.005, 0.006], [0, -0.005, 0.006], [0, -0.009, 0.002]])
@@ -143,7 +163,9 @@ def bow(tailor: Tailor) -> Mesh:
 
 def _neck_centre_z(tailor: Tailor) -> float:
     body, weights = tailor.figure.body, tailor.weights[: len(tailor.figure.body)]
-    ring = (np.abs(body[:, 1] - (tailor.neck_y + 0.035)) < 0.012) & (tailor.weight_of(weights, "head", "neck") > 0.2)
+    ring = (np.abs(body[:, 1] - (tailor.neck_y + 0.035)) < 0.012) & (
+        tailor.weight_of(weights, "head", "neck") > 0.2
+    )
     return float(body[ring, 2].mean())
 
 
@@ -161,6 +183,7 @@ def _neck_radius(tailor: Tailor, centre_z: float, angles: Array, heights: Array)
 
 
 def trimming_parts(tailor: Tailor, outer: Mesh) -> list[Part]:
+    """All trimmings, made for the blazer `outer`."""
     return [
         Part("Lapels", joined([lapels(tailor, outer), blazer_collar(tailor, outer)]), LAPEL),
         Part("Buttons", buttons(tailor, outer), BRASS),

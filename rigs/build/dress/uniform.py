@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
@@ -10,7 +12,9 @@ from body.joint_names import SIDES
 from common.meshes import Mesh, smoothstep
 from common.parts import Part, Surface
 from common.shapes import grid_faces
-from dress.tailor import Tailor
+
+if TYPE_CHECKING:
+    from dress.tailor import Tailor
 
 Array = NDArray[np.float64]
 
@@ -27,6 +31,7 @@ SHIRT_SLEEVE = 0.93
 
 
 def top_button_y(tailor: Tailor) -> float:
+    """Height of the blazer's top button, metres."""
     return float(tailor.at("upperChest")[1]) - 0.055
 
 
@@ -53,7 +58,9 @@ def blazer(tailor: Tailor, subdivisions: int) -> Mesh:
     button = top_button_y(tailor)
     parted = np.where(v[:, 1] < button - 0.16, (button - 0.16 - v[:, 1]) * 0.25, 0)
     front = v[:, 2] > chest[2] + 0.01
-    keep = np.where(front, np.minimum(keep, np.abs(v[:, 0]) - np.maximum(opening(tailor, v[:, 1]), parted) - 0.0005), keep)
+    keep = np.where(
+        front, np.minimum(keep, np.abs(v[:, 0]) - np.maximum(opening(tailor, v[:, 1]), parted) - 0.0005), keep
+    )
     around_neck = np.hypot(v[:, 0], (v[:, 2] - tailor.at("neck")[2]) / 1.1) - NECKLINE_M
     behind = np.clip((tailor.at("neck")[2] + 0.01 - v[:, 2]) / 0.05, 0, 1)
     below_neck = tailor.neck_y - 0.055 + 0.050 * behind - v[:, 1]
@@ -100,21 +107,33 @@ def shirt(tailor: Tailor, subdivisions: int) -> Mesh:
 
 def skirt(tailor: Tailor, rows: int, columns: int, pleats: int = 24) -> Mesh:
     """A pleated skirt from waist to above the knee, laid over the helper skirt on a polar grid."""
-    helper = Mesh(tailor.figure.vertices, tailor.weights, tailor.figure.mesh.triangles(["helper-skirt"])).compact()
+    helper = Mesh(
+        tailor.figure.vertices, tailor.weights, tailor.figure.mesh.triangles(["helper-skirt"])
+    ).compact()
     waist, knee = tailor.at("hips")[1] + 0.05, tailor.at("leftLowerLeg")[1] + 0.06
     hem = tailor.at("hips")[1] - 0.035
     centre = np.array([0.0, 0.0, helper.vertices[:, 2].mean()])
     angle = np.arctan2(helper.vertices[:, 0], helper.vertices[:, 2] - centre[2])
     radius = np.hypot(helper.vertices[:, 0], helper.vertices[:, 2] - centre[2])
     tree = cKDTree(np.c_[np.cos(angle) * 0.15, np.sin(angle) * 0.15, helper.vertices[:, 1]])
-    t, a = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij"))
+    t, a = (
+        grid.ravel()
+        for grid in np.meshgrid(
+            np.linspace(0, 1, rows), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij"
+        )
+    )
     y = waist + (knee - waist) * t
     distance, index = tree.query(np.c_[np.cos(a) * 0.15, np.sin(a) * 0.15, y], k=6)
     near = 1 / (distance + 0.004)
     near /= near.sum(axis=1, keepdims=True)
     phase = (a / (2 * np.pi) * pleats) % 1
     fold = np.where(phase < 0.82, phase / 0.82, (1 - phase) / 0.18)
-    r = (radius[index] * near).sum(axis=1) * (0.97 + 0.03 * t) + 0.006 + 0.035 * t + (0.003 + 0.016 * t) * (fold - 0.5)
+    r = (
+        (radius[index] * near).sum(axis=1) * (0.97 + 0.03 * t)
+        + 0.006
+        + 0.035 * t
+        + (0.003 + 0.016 * t) * (fold - 0.5)
+    )
     r -= 0.022 * np.clip((y - hem + 0.03) / 0.05, 0, 1)  # drawn in where the blazer covers it
     vertices = np.c_[np.sin(a) * r, y, centre[2] + np.cos(a) * r]
     weights = (helper.weights[index] * near[..., None]).sum(axis=1)
@@ -122,8 +141,11 @@ def skirt(tailor: Tailor, rows: int, columns: int, pleats: int = 24) -> Mesh:
 
 
 def tights(tailor: Tailor, subdivisions: int) -> Mesh:
+    """Cloth close over the legs."""
     mesh, waist = tailor.tights, tailor.at("hips")[1] + 0.0
-    return tailor.cloth((tailor.leg_weight(mesh.weights) > 0.3) & (mesh.vertices[:, 1] < waist), 0.0015, 0, subdivisions)
+    return tailor.cloth(
+        (tailor.leg_weight(mesh.weights) > 0.3) & (mesh.vertices[:, 1] < waist), 0.0015, 0, subdivisions
+    )
 
 
 def shoes(tailor: Tailor, subdivisions: int) -> Mesh:

@@ -15,7 +15,10 @@ Array = NDArray[np.float64]
 
 @dataclass
 class ArmPose:
-    """Local rotations by joint, the elbow's world position, the wrist's twist, flexion and deviation (rad), lacking reach (m)."""
+    """Local rotations by joint, the elbow's world position.
+
+    The wrist's twist, flexion and deviation (rad), lacking reach (m).
+    """
 
     local: dict[str, Array]
     elbow: Array
@@ -32,13 +35,18 @@ class Arm:
     chest: tuple[Array, Array]
 
     def reach(self, hand_position: Array, hand_rotation: Array, swivel: float, shoulder: Array) -> ArmPose:
-        """Place the wrist at a world pose; `swivel` turns the elbow about the line shoulder–wrist, 0 is straight down."""
+        """Place the wrist at a world pose.
+
+        `swivel` turns the elbow about the line shoulder–wrist, 0 is straight down.
+        """
         rig, side = self.rig, self.side
         joints = [f"{side}{part}" for part in ("Shoulder", "UpperArm", "LowerArm", "Hand")]
         outward = 1.0 if side == "left" else -1.0
         clavicle = rig.rests[joints[0]] @ turn("yz", outward * shoulder[0], outward * shoulder[1])
         frame = self.chest[0] @ clavicle
-        root = self.chest[1] + self.chest[0] @ rig.translations[joints[0]] + frame @ rig.translations[joints[1]]
+        root = (
+            self.chest[1] + self.chest[0] @ rig.translations[joints[0]] + frame @ rig.translations[joints[1]]
+        )
         upper, lower = (float(np.linalg.norm(rig.translations[j])) for j in joints[2:])
         line = hand_position - root
         distance = float(np.linalg.norm(line))

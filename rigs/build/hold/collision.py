@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -31,5 +32,5 @@ class Obstacles:
 def along_bones(points: Array, radii: Array, samples: int = 4) -> tuple[Array, Array]:
     """Sphere centres (P, 3) and radii (P,) along a chain of joints (N, 3) with one radius a bone (N-1,)."""
     t = (np.arange(samples) + 0.5)[:, None] / samples
-    centres = [a + (b - a) * t for a, b in zip(points[:-1], points[1:], strict=True)]
+    centres = [a + (b - a) * t for a, b in itertools.pairwise(points)]
     return np.vstack(centres), np.repeat(radii, samples)

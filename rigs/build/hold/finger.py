@@ -24,7 +24,10 @@ LEAST_THETA2 = np.radians(-135.0)
 
 @dataclass
 class Finger:
-    """`knuckle` (3,) and `rest` (3, 3) in the hand's frame; bone `lengths` (3,) m; planar `rest_angles` (3,) rad."""
+    """`knuckle` (3,) and `rest` (3, 3) in the hand's frame; bone `lengths` (3,) m.
+
+    Planar `rest_angles` (3,) rad.
+    """
 
     name: str
     knuckle: Array
@@ -44,10 +47,15 @@ class Finger:
         radii = [next(c["radius"] for c in rig.content["capsules"] if c["joint"] == j) for j in joints]
         first = float(np.arcsin(rest[1, 0]))
         lengths = np.array([np.linalg.norm(b) for b in bones])
-        return cls(name, rig.translations[joints[0]], rest, lengths, np.array([first, *turns]), np.array(radii))
+        return cls(
+            name, rig.translations[joints[0]], rest, lengths, np.array([first, *turns]), np.array(radii)
+        )
 
     def solve(self, targets: Array) -> tuple[Array, Array]:
-        """For pad targets (N, 3) in the hand's frame: angles (N, 4) abduction, θ1, θ2, θ3, and what reach lacks (N,) m."""
+        """For pad targets (N, 3) in the hand's frame.
+
+        Angles (N, 4) abduction, θ1, θ2, θ3, and what reach lacks (N,) m.
+        """
         local = (targets - self.knuckle) @ self.rest
         abduction = np.arctan2(-local[:, 2], local[:, 0])
         x, y = np.hypot(local[:, 0], local[:, 2]), local[:, 1]
@@ -62,14 +70,18 @@ class Finger:
         theta2 = (low + high) / 2
         l1, l2, l3 = self.lengths
         outer = theta2 * (1 + KAPPA)
-        bend = np.arctan2(l2 * np.sin(theta2) + l3 * np.sin(outer), l1 + l2 * np.cos(theta2) + l3 * np.cos(outer))
+        bend = np.arctan2(
+            l2 * np.sin(theta2) + l3 * np.sin(outer), l1 + l2 * np.cos(theta2) + l3 * np.cos(outer)
+        )
         theta1 = np.arctan2(y, x) - bend + self.rest_angles[0]
         return np.column_stack([abduction, theta1, theta2, KAPPA * theta2]), distance - reachable
 
     def _reach(self, theta2: Array) -> Array:
         l1, l2, l3 = self.lengths
         outer = theta2 * (1 + KAPPA)
-        reach: Array = np.hypot(l1 + l2 * np.cos(theta2) + l3 * np.cos(outer), l2 * np.sin(theta2) + l3 * np.sin(outer))
+        reach: Array = np.hypot(
+            l1 + l2 * np.cos(theta2) + l3 * np.cos(outer), l2 * np.sin(theta2) + l3 * np.sin(outer)
+        )
         return reach
 
     def points(self, angles: Array) -> Array:
@@ -82,17 +94,31 @@ class Finger:
         return self.knuckle + plane @ self.rest.T
 
     def spheres(self, angles: Array, samples: int, bones: int = 3) -> tuple[Array, Array]:
-        """Spheres (P, 3), (P,) that stand for the finger's first `bones` bones, in the hand's frame; the last touches the pad."""
+        """Spheres (P, 3), (P,) that stand for the finger's first `bones` bones, in the hand's frame.
+
+        The last touches the pad.
+        """
         points = self.points(angles)
         direction = angles[1] - self.rest_angles[0] + angles[2] + angles[3]
-        dorsal = np.array([-np.sin(direction) * np.cos(angles[0]), np.cos(direction), np.sin(direction) * np.sin(angles[0])])
+        dorsal = np.array(
+            [-np.sin(direction) * np.cos(angles[0]), np.cos(direction), np.sin(direction) * np.sin(angles[0])]
+        )
         points[3] = points[3] + PAD_DEPTH * self.radii[2] * (self.rest @ dorsal)
         return along_bones(points[: bones + 1], self.radii[:bones], samples)
 
     def pad_direction(self, angles: Array) -> Array:
-        """Where the pad looks (3,), in the hand's frame: square to the line from outer joint to pad, on the palm's side."""
+        """Where the pad looks (3,), in the hand's frame.
+
+        Square to the line from outer joint to pad, on the palm's side.
+        """
         direction = angles[1] - self.rest_angles[0] + angles[2] + angles[3]
-        palmar = np.array([np.sin(direction) * np.cos(angles[0]), -np.cos(direction), -np.sin(direction) * np.sin(angles[0])])
+        palmar = np.array(
+            [
+                np.sin(direction) * np.cos(angles[0]),
+                -np.cos(direction),
+                -np.sin(direction) * np.sin(angles[0]),
+            ]
+        )
         looking: Array = self.rest @ palmar
         return looking
 

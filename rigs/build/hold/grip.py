@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,11 @@ from scipy.spatial.transform import Rotation
 from hold.arm import Arm, ArmPose
 from hold.collision import Obstacles, along_bones
 from hold.finger import Finger
-from hold.rig import Pose, Rig
-from hold.stance import Stance
 from hold.thumb import Thumb
+
+if TYPE_CHECKING:
+    from hold.rig import Pose, Rig
+    from hold.stance import Stance
 
 Array = NDArray[np.float64]
 
@@ -47,14 +50,20 @@ class Grip:
         self.palm = [c for c in self.rig.content["capsules"] if c["joint"] == f"{self.side}Hand"]
 
     def reach(self, x: Array) -> tuple[Array, Array, ArmPose]:
-        """Hand rotation and position in the instrument's frame, and the arm; x is position m, rotation vector, swivel, shoulder (2)."""
+        """Hand rotation and position in the instrument's frame, and the arm.
+
+        X is position m, rotation vector, swivel, shoulder (2).
+        """
         turn, place = self.instrument
         rotation = Rotation.from_rotvec(x[3:6]).as_matrix()
         arm = self.arm.reach(place + turn @ x[:3], turn @ rotation, x[6], x[7:9])
         return rotation, x[:3], arm
 
     def arm_cost(self, arm: ArmPose, x: Array) -> list[Array]:
-        """Residuals of posture: relaxed shoulder, elbow out and down, straight wrist, nothing out of reach."""
+        """Residuals of posture: relaxed shoulder.
+
+        Elbow out and down, straight wrist, nothing out of reach.
+        """
         twist, flexion, deviation = arm.wrist * DEG
         return [
             np.array([arm.lacking * MM]),
@@ -71,8 +80,13 @@ class Grip:
         parts = [along_bones(np.array([c["from"], c["to"]]), np.array([c["radius"]]), 5) for c in self.palm]
         return np.vstack([p for p, _ in parts]), np.concatenate([r for _, r in parts])
 
-    def depth(self, rotation: Array, position: Array, centres: Array, radii: Array, allowed_m: float = 0.0005) -> Array:
-        """How deep (P,) in mm spheres of the hand's frame lie inside the instrument, beyond what flesh gives."""
+    def depth(
+        self, rotation: Array, position: Array, centres: Array, radii: Array, allowed_m: float = 0.0005
+    ) -> Array:
+        """How deep (P,) in mm spheres of the hand's frame lie inside the instrument.
+
+        Beyond what flesh gives.
+        """
         inside = radii - allowed_m - self.obstacles.clearance(position + centres @ rotation.T)
         deep: Array = np.maximum(inside, 0) * MM
         return deep

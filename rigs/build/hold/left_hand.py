@@ -1,8 +1,12 @@
-"""The left hand round the valve casings: index and middle finger round the third casing, ring finger in the third slide's
-ring, little finger at the slide, thumb in the first slide's saddle, palm against the casings."""
+"""The left hand round the valve casings.
+
+Index and middle finger lie round the third casing, the ring finger in the third slide's ring, the little
+finger along the slide, the thumb in the first slide's saddle, the palm against the casings.
+"""
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +31,10 @@ PAD_HEIGHTS_M = (0.0185, 0.0030)  # of index and middle finger on the casing
 
 @dataclass
 class LeftHand:
-    """Places in the instrument's frame (3,): the `ring`, the `saddle`'s bottom, the `slide` for the little finger; the third
-    casing stands at `casing_z` with `casing_radius`."""
+    """Places in the instrument's frame (3,): `ring`, bottom of the `saddle`, `slide` for the little finger.
+
+    The third casing stands at `casing_z` with `casing_radius`.
+    """
 
     grip: Grip
     ring: Array
@@ -42,6 +48,7 @@ class LeftHand:
         return [np.array([a, t1, t2, KAPPA * t2]) for a, t1, t2 in x[14:26].reshape(4, 3)]
 
     def residuals(self, x: Array) -> Array:
+        """All residuals at once, for `least_squares`."""
         rotation, position, arm = self.grip.reach(x)
         angles = self.angles(x)
         terms = self.grip.arm_cost(arm, x)
@@ -55,7 +62,11 @@ class LeftHand:
         for a in angles:
             abduction, theta1, theta2, _ = a * DEG
             terms.append(np.array([abduction / 11, (theta1 + 30) / 40, (theta2 + 50) / 40]))
-            terms += [beyond(abduction, -17, 17) / 1.5, beyond(theta1, -67, 12) / 2, beyond(theta2, -84, -6) / 2]
+            terms += [
+                beyond(abduction, -17, 17) / 1.5,
+                beyond(theta1, -67, 12) / 2,
+                beyond(theta2, -84, -6) / 2,
+            ]
         thumb_points, looking = self.grip.thumb.points(x[9:14])
         terms.append((position + rotation @ thumb_points[3] - self.saddle) * MM / [2.0, 0.8, 1.5])
         terms.append((rotation @ looking - [-0.3, -0.8, -0.3]) / 0.8)
@@ -69,7 +80,9 @@ class LeftHand:
         radius = float(np.linalg.norm(spoke))
         aside = beyond(pad[0], -1.0, -0.005) * MM
         square = 1 + looking @ spoke / radius
-        return np.array([(radius - self.casing_radius) * MM / 0.4, (pad[1] - height) * MM / 3, aside / 2, square / 0.35])
+        return np.array(
+            [(radius - self.casing_radius) * MM / 0.4, (pad[1] - height) * MM / 3, aside / 2, square / 0.35]
+        )
 
     def _through_ring(self, chain: Array) -> Array:
         """The ring finger's middle bone goes through the middle of the ring, more or less square to it."""
@@ -83,9 +96,12 @@ class LeftHand:
         """Depths inside metal, fingers inside one another, and the palm's gap from the casings."""
         fingers = [f.spheres(a, 5) for f, a in zip(self.grip.fingers, angles, strict=True)]
         palm = self.grip.palm_spheres()
-        terms = [self.grip.depth(rotation, position, *each) / 0.7 for each in (*fingers, self.grip.thumb.spheres(thumb, 4))]
+        terms = [
+            self.grip.depth(rotation, position, *each) / 0.7
+            for each in (*fingers, self.grip.thumb.spheres(thumb, 4))
+        ]
         terms.append(self.grip.depth(rotation, position, *palm, allowed_m=0.002) / 0.7)
-        for (first, first_radii), (second, second_radii) in zip(fingers[:-1], fingers[1:], strict=True):
+        for (first, first_radii), (second, second_radii) in itertools.pairwise(fingers):
             gap = np.linalg.norm(first[5:, None] - second[None, 5:], axis=2)  # inner bones lie in one palm
             depth = first_radii[5:, None] + second_radii[None, 5:] - 0.0015 - gap
             terms.append(np.maximum(depth, 0) * MM / 1.0)

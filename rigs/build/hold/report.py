@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hold.collision import Obstacles, along_bones
-from hold.rig import Rig
+
+if TYPE_CHECKING:
+    from hold.rig import Rig
 
 Array = NDArray[np.float64]
 
@@ -33,12 +35,23 @@ def report(player: Rig, trumpet: Rig, hold: dict[str, Any]) -> None:
         print(button["effector"], "to button, mm:", round(1000 * float(gap), 4))
     for side in ("left", "right"):
         joint, offset = player.contact(f"{side}Sole")
-        print(side, "sole's height, mm:", round(1000 * float((world[joint][1] + world[joint][0] @ offset)[1]), 3))
+        print(
+            side,
+            "sole's height, mm:",
+            round(1000 * float((world[joint][1] + world[joint][0] @ offset)[1]), 3),
+        )
     obstacles = Obstacles(trumpet.content["capsules"])
     for side in ("left", "right"):
         for digit in ("Thumb", "Index", "Middle", "Ring", "Little"):
             pad = in_trumpet(*player.effector(f"{side}{digit}Tip"))
-            print(side, digit, "pad at mm", np.round(pad * 1000, 1).tolist(), "from metal", round(1000 * float(obstacles.clearance(pad[None])[0]), 2))
+            print(
+                side,
+                digit,
+                "pad at mm",
+                np.round(pad * 1000, 1).tolist(),
+                "from metal",
+                round(1000 * float(obstacles.clearance(pad[None])[0]), 2),
+            )
     for capsule in player.content["capsules"]:
         if not capsule["joint"].startswith(("left", "right")) or "Leg" in capsule["joint"]:
             continue

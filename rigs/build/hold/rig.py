@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 Array = NDArray[np.float64]
 Pose = dict[str, Array]  # joint → local rotation matrix (3, 3), rest included
@@ -17,7 +19,10 @@ Pose = dict[str, Array]  # joint → local rotation matrix (3, 3), rest included
 
 @dataclass
 class Rig:
-    """A rig's rest pose: parents, local translations (3,) and local rotations (3, 3) by joint, parents first."""
+    """A rig's rest pose: parents.
+
+    Local translations (3,) and local rotations (3, 3) by joint, parents first.
+    """
 
     content: dict[str, Any]
     parents: dict[str, str | None]
@@ -26,6 +31,7 @@ class Rig:
 
     @classmethod
     def read(cls, path: Path) -> Rig:
+        """Read a rig.json."""
         content = json.loads(path.read_text(encoding="utf-8"))
         joints = content["joints"]
         return cls(

@@ -1,4 +1,7 @@
-"""The right hand on the valves: every pad on its button over the whole stroke, thumb under the leadpipe, little finger at its hook."""
+"""The right hand on the valves.
+
+Every pad on its button over the whole stroke, thumb under the leadpipe, little finger at its hook.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,10 @@ class RightHand:
     heights: Array = field(default_factory=lambda: np.array([[0.0, h, 0.0] for h in HEIGHTS_M]))
 
     def fingers(self, rotation: Array, position: Array) -> tuple[list[Array], list[Array]]:
-        """For each finger the angles (N, 4) at its targets (three heights; one for the little finger) and lacking reach (N,)."""
+        """For each finger the angles (N, 4) at its targets (three heights.
+
+        One for the little finger) and lacking reach (N,).
+        """
         angles, lacking = [], []
         for k, finger in enumerate(self.grip.fingers):
             targets = self.buttons[k] + self.heights if k < 3 else self.hook[None]
@@ -42,19 +48,37 @@ class RightHand:
         return angles, lacking
 
     def residuals(self, x: Array) -> Array:
+        """All residuals at once, for `least_squares`."""
         rotation, position, arm = self.grip.reach(x)
         angles, lacking = self.fingers(rotation, position)
         terms = self.grip.arm_cost(arm, x)
         for k in range(3):
             abduction, theta1, theta2, _ = angles[k].T * DEG
-            terms += [lacking[k] * MM / 0.2, (theta2 - CURL_DEG[k])[:1] / 9, abduction[:1] / 7, (theta1[:1] + 20) / 9]
-            terms += [beyond(abduction, -ABDUCTION_DEG, ABDUCTION_DEG) / 1.0, beyond(theta1, *THETA1_DEG) / 2, beyond(theta2, *THETA2_DEG) / 2]
+            terms += [
+                lacking[k] * MM / 0.2,
+                (theta2 - CURL_DEG[k])[:1] / 9,
+                abduction[:1] / 7,
+                (theta1[:1] + 20) / 9,
+            ]
+            terms += [
+                beyond(abduction, -ABDUCTION_DEG, ABDUCTION_DEG) / 1.0,
+                beyond(theta1, *THETA1_DEG) / 2,
+                beyond(theta2, *THETA2_DEG) / 2,
+            ]
             terms += [beyond(theta2, -82, -18) / 4]
             points = self.grip.fingers[k].points(angles[k][0]) @ rotation.T
             bone = (points[3] - points[2]) / np.linalg.norm(points[3] - points[2])
             terms.append(np.array([np.arcsin(np.clip(-bone[1], -1, 1)) * DEG - 58]) / 9)
         little = angles[3][0] * DEG
-        terms += [lacking[3] * MM / 2, little[:1] / 9, (little[1:2] + 35) / 20, (little[2:3] + 40) / 14, beyond(little[:1], -18, 18) / 1.5, beyond(little[1:2], *THETA1_DEG) / 3, beyond(little[2:3], -95, -12) / 5]
+        terms += [
+            lacking[3] * MM / 2,
+            little[:1] / 9,
+            (little[1:2] + 35) / 20,
+            (little[2:3] + 40) / 14,
+            beyond(little[:1], -18, 18) / 1.5,
+            beyond(little[1:2], *THETA1_DEG) / 3,
+            beyond(little[2:3], -95, -12) / 5,
+        ]
         thumb_points, pad_direction = self.grip.thumb.points(x[9:14])
         thumb_points = position + thumb_points @ rotation.T
         terms.append((thumb_points[3] - self.thumb) * MM / [1.0, 2.5, 1.5])
@@ -76,5 +100,11 @@ class RightHand:
 def thumb_cost(angles: Array) -> Array:
     """A thumb's residuals: near rest, inside its limits; angles (5,) rad."""
     a = angles * DEG
-    limits = [beyond(a[0], -32, 32), beyond(a[1], -50, 36), beyond(a[2], -32, 32), beyond(a[3], -60, 15), beyond(a[4], -75, 15)]
+    limits = [
+        beyond(a[0], -32, 32),
+        beyond(a[1], -50, 36),
+        beyond(a[2], -32, 32),
+        beyond(a[3], -60, 15),
+        beyond(a[4], -75, 15),
+    ]
     return np.r_[a / [30, 35, 30, 40, 40], np.array(limits) / 2]

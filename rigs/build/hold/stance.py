@@ -1,4 +1,7 @@
-"""How the player stands: a relaxed stance with the weight a little on the left leg, feet flat, head upright."""
+"""How the player stands: a relaxed stance with the weight a little on the left leg.
+
+Feet flat, head upright.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +38,9 @@ class Stance:
 
 def stand(rig: Rig) -> Stance:
     """Trunk as written above, the head levelled, each leg solved so that its foot is flat on the floor."""
-    pose: Pose = {name: rig.rests[name] @ turn("yxz", *np.radians([y, x, z])) for name, (x, y, z) in TURNS_DEG.items()}
+    pose: Pose = {
+        name: rig.rests[name] @ turn("yxz", *np.radians([y, x, z])) for name, (x, y, z) in TURNS_DEG.items()
+    }
     hips = rig.translations["hips"] + HIPS_SHIFT_M
     neck = rig.world(pose, hips)["neck"][0]
     pose["head"] = neck.T @ turn("x", np.radians(HEAD_WORLD_DEG[0]))
@@ -47,7 +52,9 @@ def stand(rig: Rig) -> Stance:
 def _leg(rig: Rig, pose: Pose, hips: Array, side: str) -> Pose:
     outward = 1.0 if side == "left" else -1.0
     rest = rig.world({}, None)
-    ankle = np.array([FEET_M[side][0], rest[f"{side}Foot"][1][1], rest[f"{side}Foot"][1][2] + FEET_M[side][1]])
+    ankle = np.array(
+        [FEET_M[side][0], rest[f"{side}Foot"][1][1], rest[f"{side}Foot"][1][2] + FEET_M[side][1]]
+    )
     rest_toe = rest[f"{side}Toes"][1] - rest[f"{side}Foot"][1]
     already_out = np.arctan2(outward * rest_toe[0], rest_toe[2])
     flat = turn("y", outward * (np.radians(TOES_OUT_DEG[side]) - already_out))

@@ -18,7 +18,10 @@ PARTS = ("Metacarpal", "Proximal", "Distal")
 
 @dataclass
 class Thumb:
-    """Local `offsets` (3, 3) and `rests` (3, 3, 3) of its joints, first in the hand's frame; `pad` (3,) in the last's."""
+    """Local `offsets` (3, 3) and `rests` (3, 3, 3) of its joints, first in the hand's frame.
+
+    `pad` (3,) in the last's.
+    """
 
     name: str
     offsets: Array
@@ -28,6 +31,7 @@ class Thumb:
 
     @classmethod
     def of(cls, rig: Rig, side: str) -> Thumb:
+        """From the rig, for one side."""
         joints = [f"{side}Thumb{part}" for part in PARTS]
         radii = [next(c["radius"] for c in rig.content["capsules"] if c["joint"] == j) for j in joints]
         return cls(
@@ -39,10 +43,17 @@ class Thumb:
         )
 
     def _turns(self, angles: Array) -> list[Array]:
-        return [self.rests[0] @ turn("yzx", *angles[:3]), self.rests[1] @ turn("z", angles[3]), self.rests[2] @ turn("z", angles[4])]
+        return [
+            self.rests[0] @ turn("yzx", *angles[:3]),
+            self.rests[1] @ turn("z", angles[3]),
+            self.rests[2] @ turn("z", angles[4]),
+        ]
 
     def points(self, angles: Array) -> tuple[Array, Array]:
-        """Three joints and the pad (4, 3), and the pad's outward direction (3,), in the hand's frame, for angles (5,)."""
+        """Three joints and the pad (4.
+
+        3), and the pad's outward direction (3,), in the hand's frame, for angles (5,).
+        """
         places, frame, place = [], np.eye(3), np.zeros(3)
         for offset, local in zip(self.offsets, self._turns(angles), strict=True):
             place = place + frame @ offset

@@ -1,7 +1,8 @@
-"""The committed hold: the mouthpiece is at the lips, and every finger reaches its button over the whole stroke."""
+"""The committed hold: lips at the rim, pads on their buttons over the whole stroke, both hands at the metal."""
 
 from __future__ import annotations
 
+import itertools
 import json
 from dataclasses import dataclass
 from functools import cache
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 Array = NDArray[np.float64]
 
@@ -44,7 +46,9 @@ class Held:
     def in_trumpet(self, joint: str, offset: Any) -> Array:
         rotation, place = self.world[joint]
         instrument = self.hold["instrument_pose"]
-        point: Array = matrix(instrument["rotation"]).T @ (place + rotation @ np.asarray(offset) - instrument["position"])
+        point: Array = matrix(instrument["rotation"]).T @ (
+            place + rotation @ np.asarray(offset) - instrument["position"]
+        )
         return point
 
 
@@ -119,7 +123,11 @@ def test_fingers_reach_their_buttons_within_limits_over_the_whole_stroke(valve: 
     hand_rotation, hand_place = h.world["rightHand"]
     knuckle = hand_place + hand_rotation @ np.array(parts[0]["translation"])
     local = (hand_rotation @ matrix(parts[0]["rotation"])).T @ (world - knuckle)
-    lengths = [parts[1]["translation"][0], parts[2]["translation"][0], item(h.player["effectors"], f"{name}Tip")["offset"][0]]
+    lengths = [
+        parts[1]["translation"][0],
+        parts[2]["translation"][0],
+        item(h.player["effectors"], f"{name}Tip")["offset"][0],
+    ]
     theta2 = coupled_angle(lengths, chain["kappa"], float(np.linalg.norm(local)))
     outer = theta2 * (1 + chain["kappa"])
     bend = np.arctan2(
@@ -148,7 +156,9 @@ def coupled_angle(lengths: list[float], kappa: float, distance: float) -> float:
 
     def reach(theta2: float) -> float:
         outer = theta2 * (1 + kappa)
-        return float(np.hypot(l1 + l2 * np.cos(theta2) + l3 * np.cos(outer), l2 * np.sin(theta2) + l3 * np.sin(outer)))
+        return float(
+            np.hypot(l1 + l2 * np.cos(theta2) + l3 * np.cos(outer), l2 * np.sin(theta2) + l3 * np.sin(outer))
+        )
 
     low, high = np.radians(-135.0), 0.0
     assert reach(low) < distance < reach(high)
@@ -156,3 +166,59 @@ def coupled_angle(lengths: list[float], kappa: float, distance: float) -> float:
         middle = (low + high) / 2
         low, high = (middle, high) if reach(middle) < distance else (low, middle)
     return float((low + high) / 2)
+
+
+def test_every_joint_is_within_its_limits() -> None:
+    h = held()
+    for joint in h.player["joints"]:
+        limits = joint.get("limits")
+        if limits:
+            turn = Rotation.from_quat(joint["rotation"]).inv() * Rotation.from_quat(
+                h.hold["pose"][joint["name"]]
+            )
+            for axis, angle in zip(limits["order"], turn.as_euler(limits["order"].upper()), strict=True):
+                low, high = limits[axis]
+                assert low - 1e-6 <= angle <= high + 1e-6, (joint["name"], axis, np.degrees(angle))
+
+
+def clearance(trumpet: dict[str, Any], point: Array) -> float:
+    """Distance from the nearest of the instrument's capsules, negative inside."""
+    best = np.inf
+    for capsule in trumpet["capsules"]:
+        start, bone = np.array(capsule["from"]), np.subtract(capsule["to"], capsule["from"])
+        t = np.clip((point - start) @ bone / max(bone @ bone, 1e-12), 0, 1)
+        best = min(best, float(np.linalg.norm(point - start - t * bone)) - capsule["radius"])
+    return best
+
+
+@pytest.mark.parametrize("pad", ["leftIndexTip", "leftMiddleTip", "leftLittleTip", "rightThumbTip"])
+def test_gripping_pads_touch_the_metal(pad: str) -> None:
+    h = held()
+    effector = item(h.player["effectors"], pad)
+    assert abs(clearance(h.trumpet, h.in_trumpet(effector["joint"], effector["offset"]))) < 0.002
+
+
+def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring() -> None:
+    h = held()
+    thumb = item(h.player["effectors"], "leftThumbTip")
+    saddle = np.array(item(h.trumpet["contacts"], "saddle")["offset"])
+    assert np.linalg.norm(h.in_trumpet(thumb["joint"], thumb["offset"]) - saddle) < 0.003
+    ring = np.array(item(h.trumpet["contacts"], "ring")["offset"])
+    tip = item(h.player["effectors"], "leftRingTip")
+    chain = [h.in_trumpet(f"leftRing{part}", np.zeros(3)) for part in ("Intermediate", "Distal")]
+    chain.append(h.in_trumpet(tip["joint"], tip["offset"]))
+    gaps = []
+    for a, b in itertools.pairwise(chain):
+        t = np.clip((ring - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
+        gaps.append(np.linalg.norm(a + t * (b - a) - ring))
+    assert min(gaps) < 0.004
+
+
+@pytest.mark.parametrize("joint", ["leftHand", "rightHand"])
+def test_palms_stay_out_of_the_metal(joint: str) -> None:
+    h = held()
+    for capsule in h.player["capsules"]:
+        if capsule["joint"] == joint:
+            for t in np.linspace(0, 1, 7):
+                along = (1 - t) * np.array(capsule["from"]) + t * np.array(capsule["to"])
+                assert clearance(h.trumpet, h.in_trumpet(joint, along)) > capsule["radius"] - 0.003

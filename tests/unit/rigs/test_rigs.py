@@ -93,7 +93,11 @@ def test_models_have_each_joint_at_its_rest_transform(name: str, tier: str) -> N
     gltf = read_gltf(RIGS / name / f"{tier}.glb")
     nodes = {node["name"]: node for node in gltf["nodes"]}
     assert len(nodes) == len(gltf["nodes"]), "node names are unique"
-    parents = {gltf["nodes"][child]["name"]: node["name"] for node in gltf["nodes"] for child in node.get("children", [])}
+    parents = {
+        gltf["nodes"][child]["name"]: node["name"]
+        for node in gltf["nodes"]
+        for child in node.get("children", [])
+    }
     for joint in read_rig(name)["joints"]:
         node = nodes[joint["node"]]
         assert node.get("translation", [0, 0, 0]) == pytest.approx(joint["translation"], abs=1e-6)
@@ -108,7 +112,9 @@ def test_player_has_one_skin_and_all_morphs(tier: str) -> None:
     rig = read_rig("trumpeter")
     gltf = read_gltf(RIGS / "trumpeter" / f"{tier}.glb")
     assert len(gltf["skins"]) == 1
-    assert [gltf["nodes"][k]["name"] for k in gltf["skins"][0]["joints"]] == [joint["node"] for joint in rig["joints"]]
+    assert [gltf["nodes"][k]["name"] for k in gltf["skins"][0]["joints"]] == [
+        joint["node"] for joint in rig["joints"]
+    ]
     targets = {name for mesh in gltf["meshes"] for name in mesh.get("extras", {}).get("targetNames", [])}
     assert {morph["target"] for morph in rig["morphs"]} <= targets
 
