@@ -65,6 +65,8 @@ class Performance:
         fps: int = 60,
         seed: int = 0,
     ) -> None:
+        self.played = played
+        """The part as it is played."""
         self._show_plan = show_plan
         self._amounts = Amounts(registry)
         self._idle = IdleMotion(score, seed)

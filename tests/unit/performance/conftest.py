@@ -1,0 +1,112 @@
+"""Performances of small made-up scores on the shipped rigs."""
+
+import io
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import mido
+import numpy as np
+import pytest
+
+from reina.instruments import INSTRUMENTS
+from reina.keyframes import ParameterRegistry, Show, TimeMap, stage_registry
+from reina.music import read_score
+from reina.performance import PLAYER_PARAMETERS, Performance
+from reina.skeleton import Hold, Rig, load_hold, load_rig
+
+RIGS = Path(__file__).parents[3] / "rigs"
+
+NoteBeats = tuple[float, float, int]
+"""Onset and duration in beats at 120 to the minute, sounding pitch."""
+
+Perform = Callable[..., Performance]
+
+
+@pytest.fixture(scope="session")
+def player_rig() -> Rig:
+    return load_rig(RIGS / "trumpeter")
+
+
+@pytest.fixture(scope="session")
+def trumpet_rig() -> Rig:
+    return load_rig(RIGS / "trumpet")
+
+
+@pytest.fixture(scope="session")
+def hold() -> Hold:
+    return load_hold(RIGS / "trumpeter", "trumpet")
+
+
+@pytest.fixture(scope="session")
+def registry() -> ParameterRegistry:
+    known = stage_registry()
+    return known.extended([parameter for parameter in PLAYER_PARAMETERS if parameter.path not in known])
+
+
+def midi(notes: Sequence[NoteBeats], velocity: int) -> bytes:
+    track = mido.MidiTrack(
+        [mido.MetaMessage("track_name", name="Trumpet"), mido.Message("program_change", program=56)]
+    )
+    events = [(round(on * 480), 1, pitch) for on, _, pitch in notes]
+    events += [(round((on + length) * 480), 0, pitch) for on, length, pitch in notes]
+    last = 0
+    for tick, kind, pitch in sorted(events):
+        name = "note_on" if kind else "note_off"
+        track.append(mido.Message(name, note=pitch, velocity=velocity if kind else 0, time=tick - last))
+        last = tick
+    file = mido.MidiFile(ticks_per_beat=480, tracks=[track])
+    data = io.BytesIO()
+    file.save(file=data)
+    return data.getvalue()
+
+
+@pytest.fixture(scope="session")
+def perform(player_rig: Rig, trumpet_rig: Rig, hold: Hold, registry: ParameterRegistry) -> Perform:
+    """Make a performance of notes; ``values`` are constant values of show parameters."""
+
+    def make(
+        notes: Sequence[NoteBeats],
+        *,
+        values: Mapping[str, float] | None = None,
+        velocity: int = 90,
+        seed: int = 0,
+    ) -> Performance:
+        score = read_score(midi(notes, velocity))
+        instrument = INSTRUMENTS["trumpet"]
+        tracks = [
+            {"parameter": path, "keyframes": [{"time": 0, "value": value}]}
+            for path, value in (values or {}).items()
+        ]
+        show = Show.from_document({"version": 1, "tracks": tracks}, registry)
+        return Performance(
+            score=score,
+            played=instrument.play(score, 0),
+            instrument=instrument,
+            player_rig=player_rig,
+            instrument_rig=trumpet_rig,
+            hold=hold,
+            show_plan=show.plan(registry, TimeMap.steady()),
+            registry=registry,
+            seed=seed,
+        )
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def tune() -> list[NoteBeats]:
+    """Twenty seconds: a scale, leaps, repeats, a breath, a long rest, a long note, one note out of range."""
+    rng = np.random.default_rng(7)
+    notes: list[NoteBeats] = []
+    beat = 2.0
+    for pitch in [60, 62, 64, 65, 67, 69, 70, 72, 72, 72, 58, 79, 54, 82]:
+        notes.append((beat, 0.5, pitch))
+        beat += 0.5
+    beat += 1.0
+    for _ in range(24):
+        notes.append((beat, 0.24, int(rng.integers(54, 86))))
+        beat += 0.25
+    notes.append((beat, 1.0, 30))
+    beat += 16.0
+    notes.append((beat, 6.0, 74))
+    return notes
