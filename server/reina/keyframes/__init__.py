@@ -2,7 +2,7 @@
 
 from reina.keyframes.eased_keyframe import CubicBezierKeyframe, EasedKeyframe
 from reina.keyframes.errors import KeyNotFoundError, ShowError
-from reina.keyframes.interpolations import InterpolationError, interpolations
+from reina.keyframes.interpolation import InterpolationError, interpolations
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import option
 from reina.keyframes.outside import Outside

@@ -37,6 +37,8 @@ class Channel:
         directions: ``(K + 1,)`` codes of `DIRECTION_CODES`.
         options: ``(K + 1, Q)`` the ease-ins' options.
         stretches: Segments with a formula of their own.
+        quaternion_splines: Orientation segments that are splines of the quaternion's components: ``(4, 4)``
+            start, slope there times the duration, end, slope there times the duration.
         jumps: ``(K + 1,)`` how many keys up to the segment's beginning are come to by a jump.
         jumps_a_lap: How many jumps a whole loop has, the one from its end to its beginning included.
     """
@@ -57,5 +59,6 @@ class Channel:
     directions: FloatArray
     options: FloatArray
     stretches: Mapping[int, Stretch]
+    quaternion_splines: Mapping[int, FloatArray]
     jumps: IntArray
     jumps_a_lap: int

@@ -1,9 +1,7 @@
 """Many channels evaluated at once.
 
-All of a show's segments lie in common rows, and a block is a few operations on them.
-
 What costs time in NumPy is the number of calls, not of numbers. So a block looks up the segment of every
-channel at every time, sorts the samples by the pace function of their segments, and calls each function once
+channel at every time, sorts the samples by the pace functions of their segments, and calls each function once
 for all of its samples.
 """
 
@@ -13,11 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from reina.keyframes.arrays import FloatArray, IntArray
-from reina.keyframes.channel import Channel, Stretch
-from reina.keyframes.easings import EASE_IN, EaseIn, Reflection
+from reina.keyframes.channel import Channel
+from reina.keyframes.easings import EaseIn, Reflection
 from reina.keyframes.outside import REPEATING, fold
+from reina.keyframes.segment_table import SegmentTable
 from reina.keyframes.spaces import OKLAB, ORIENTATION
-from reina.keyframes.spline_keyframe import arriving_weight, leaving_weight, spline_pace
+from reina.keyframes.spline_keyframe import (
+    arriving_weight,
+    blend_weight,
+    leaving_weight,
+    quaternion_pace,
+    spline_pace,
+)
 
 
 @dataclass(frozen=True)
@@ -40,144 +45,135 @@ class Samples:
 
 
 class ChannelBank:
-    """C channels, their segments in common rows."""
+    """C channels: first all that are plain, then the colours in OKLab, then the orientations."""
 
     def __init__(self, channels: Sequence[Channel]) -> None:
+        """Lay the channels' segments out in common rows.
+
+        Raises:
+            ValueError: The channels are not in the order of their `rank`.
+        """
+        ranks = [self.rank(channel) for channel in channels]
+        if ranks != sorted(ranks):
+            raise ValueError("the channels of a bank are in the order of their rank")
         self.channels = tuple(channels)
-        counts = [channel.begins.size for channel in channels]
-        self._first = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
-        self._searched = [channel.times for channel in channels]
-        self._begins = _stacked([channel.begins for channel in channels])
-        self._durations = _stacked([channel.durations for channel in channels])
-        self._directions = _stacked([channel.directions for channel in channels])
-        self._jumps = _stacked([channel.jumps.astype(np.float64) for channel in channels]).astype(np.int64)
-        self._starts = _padded([channel.starts for channel in channels])
-        self._deltas = _padded([channel.deltas for channel in channels])
-        self._leaving = _padded([channel.leaving for channel in channels])
-        self._arriving = _padded([channel.arriving for channel in channels])
-        self._options = _padded([channel.options for channel in channels])
-        self._paces: list[EaseIn] = [EASE_IN["linear"]]
-        self._pace = np.concatenate([np.zeros(0, np.uint16), *map(self._pace_of, channels)]).astype(np.uint16)
-        self._stretches: dict[int, Stretch] = {
-            int(first) + segment: stretch
-            for first, channel in zip(self._first, channels, strict=False)
-            for segment, stretch in channel.stretches.items()
-        }
-        self._own_formula = np.zeros(self._begins.size, dtype=np.bool_)
-        self._own_formula[list(self._stretches)] = True
+        self._table = SegmentTable(channels)
+        self._colors = slice(ranks.count(0), ranks.count(0) + ranks.count(1))
+        self._orientations = slice(self._colors.stop, len(channels))
         self._repeating = [
             (row, channel)
             for row, channel in enumerate(channels)
             if REPEATING & {channel.before, channel.after}
         ]
-        self._colors = np.array(
-            [i for i, channel in enumerate(channels) if channel.space is OKLAB], dtype=np.int64
-        )
-        self.orientations = np.array(
-            [i for i, channel in enumerate(channels) if channel.space is ORIENTATION], dtype=np.int64
-        )
-        """Rows of the channels that are orientations, ascending."""
-        origins = [channel.origins for channel in channels if channel.space is ORIENTATION]
-        self._origins = np.concatenate([np.zeros((0, 4)), *origins])
-        sizes = np.cumsum([0, *(origin.shape[0] for origin in origins)])[:-1]
-        self._origin_shift = (sizes - self._first[self.orientations]).astype(np.int64)
 
-    def _pace_of(self, channel: Channel) -> IntArray:
-        for pace in channel.paces:
-            if pace not in self._paces:
-                self._paces.append(pace)
-        return np.array([self._paces.index(pace) for pace in channel.paces])[channel.pace]
+    @staticmethod
+    def rank(channel: Channel) -> int:
+        """Where in a bank a channel belongs: 0 plain, 1 colour in OKLab, 2 orientation."""
+        return 1 if channel.space is OKLAB else 2 if channel.space is ORIENTATION else 0
 
-    def locate(self, times: FloatArray) -> "Samples":
+    @property
+    def width(self) -> int:
+        """W: how many floats a channel's row of values has at most."""
+        return self._table.width
+
+    def locate(self, times: FloatArray) -> Samples:
         """Find the segments at ``times`` ``(C, Q)``, each channel's in its own unit."""
-        rows, queries = times.shape
-        local = np.empty((rows, queries), dtype=np.int64)
-        folded = times
+        local = np.empty(times.shape, dtype=np.int64)
+        folded = times.copy() if self._repeating else times
         laps: list[tuple[int, IntArray, IntArray]] = []
         for row, channel in self._repeating:
-            if folded is times:
-                folded = times.copy()
             ends = (float(channel.times[0]), float(channel.times[-1]))
             folded[row], lap, way = fold(times[row], *ends, channel.before, channel.after)
             laps.append((row, lap, way))
-        for row, keys in enumerate(self._searched):
-            local[row] = keys.searchsorted(folded[row], "right")
-        segment = local + self._first[:-1, None]
-        jumps = self._jumps.take(segment)
+        for row, channel in enumerate(self.channels):
+            local[row] = channel.times.searchsorted(folded[row], "right")
+        segment = local + self._table.first[:, None]
+        jumps = self._table.jumps.take(segment)
         for row, lap, way in laps:
-            channel = self.channels[row]
-            loops = np.where(lap > 0, channel.after == "loop", channel.before == "loop")
-            whole = int(channel.jumps[-1])
-            gone_by: IntArray = jumps[row]
-            there_and_back = lap * whole + np.where(way > 0, gone_by, whole - gone_by)
-            jumps[row] = np.where(loops, lap * channel.jumps_a_lap + gone_by, there_and_back)
+            jumps[row] = _jumps_with_laps(self.channels[row], jumps[row], lap, way)
         return Samples(segment, folded, jumps)
 
     def evaluate(self, samples: Samples) -> tuple[FloatArray, FloatArray]:
         """The values at located times.
 
         Returns:
-            Values ``(C, F, W)``, W being the longest channel's width (what an orientation's row holds means
-            nothing),
-            and the orientations' quaternions ``(O, F, 4)``, in the order of `orientations`.
+            Values ``(W, C, F)``, padded to the widest channel; those of orientations are rotation vectors.
+            And the orientations' quaternions ``(O, F, 4)``.
         """
-        rows, frames = samples.segment.shape
-        segment = samples.segment.reshape(-1)
-        t = samples.times.reshape(-1)
-        pace = self._pace.take(segment)
-        u = (t - self._begins.take(segment)) / self._durations.take(segment)
-        reflection = Reflection.of(u, self._directions.take(segment))
-        eased = reflection.at.copy()
-        spline_samples = np.zeros(0, dtype=np.int64)
-        order = pace.argsort(kind="stable")
-        bounds = np.cumsum(np.bincount(pace, minlength=len(self._paces))).tolist()
-        for code in range(1, len(self._paces)):
-            members = order[bounds[code - 1] : bounds[code]]
-            if members.size == 0:
-                continue
-            function = self._paces[code]
-            if function is spline_pace:
-                spline_samples = members
-            eased[members] = function(eased[members], self._options.take(segment[members], axis=0))
-        way = reflection.read(eased)
-        points = self._starts.take(segment, axis=0)
-        points += self._deltas.take(segment, axis=0) * way[:, None]
-        if spline_samples.size:
-            where, fraction = segment[spline_samples], u[spline_samples, None]
-            points[spline_samples] += self._leaving.take(where, axis=0) * leaving_weight(fraction)
-            points[spline_samples] += self._arriving.take(where, axis=0) * arriving_weight(fraction)
-        if self._stretches:
+        table = self._table
+        segment, t = samples.segment.reshape(-1), samples.times.reshape(-1)
+        # Neighbouring samples mostly lie in one segment: each run of them reads its row once.
+        changes = np.empty(segment.size, dtype=np.bool_)
+        changes[:1] = True
+        np.not_equal(segment[1:], segment[:-1], out=changes[1:])
+        run = np.cumsum(changes) - 1
+        rows = table.rows.take(segment[changes], axis=0)
+        columns = np.ascontiguousarray(rows.T)
+        u = (t - columns[table.begins].take(run)) / columns[table.durations].take(run)
+        reflection = Reflection.of(u, columns[table.directions].take(run))
+        eased = reflection.at
+        groups = self._by_pace(columns[table.pace], run)
+        options = np.ascontiguousarray(rows[:, table.options])
+        for function, members in groups.items():
+            eased[members] = function(eased.take(members), options.take(run.take(members), axis=0))
+        points = columns[table.deltas].take(run, axis=1)
+        points *= reflection.read(eased)
+        points += columns[table.starts].take(run, axis=1)
+        if spline_pace in groups:
+            members = groups[spline_pace]
+            where, fraction = run[members], u[members]
+            slopes = columns[table.leaving].take(where, axis=1) * leaving_weight(fraction)
+            points[:, members] += slopes + columns[table.arriving].take(where, axis=1) * arriving_weight(
+                fraction
+            )
+        if table.stretches:
             self._evaluate_stretches(points, segment, t)
-        values = points.reshape(rows, frames, -1)
-        quaternions = self._orientation_values(values, samples.segment)
-        if self._colors.size:
-            values[self._colors, :, :3] = OKLAB.to_values(values[self._colors, :, :3], values)
-        return values, quaternions
+        values = points.reshape(-1, *samples.segment.shape)
+        colors = values[:3, self._colors]
+        if colors.size:
+            lab = colors.reshape(3, -1).T
+            colors[...] = OKLAB.to_values(lab, lab).T.reshape(colors.shape)
+        if self._orientations.start == len(self.channels):
+            return values, np.zeros((0, samples.segment.shape[1], 4))
+        turning = slice(self._orientations.start * samples.segment.shape[1], None)
+        origins = rows[:, table.origins].take(run[turning], axis=0)
+        quaternions = ORIENTATION.to_values(np.ascontiguousarray(points[:3, turning].T), origins)
+        if quaternion_pace in groups:
+            members = groups[quaternion_pace]
+            quaternions[members - turning.start] = self._splines_of_quaternions(segment[members], u[members])
+        return values, quaternions.reshape(-1, samples.segment.shape[1], 4)
+
+    def _by_pace(self, pace_of_runs: FloatArray, run: IntArray) -> dict[EaseIn, IntArray]:
+        """The samples of each pace function that is met, but for the linear one."""
+        count = len(self._table.paces)
+        pace = pace_of_runs.astype(np.uint8 if count < 256 else np.uint16).take(run)
+        order = pace.argsort(kind="stable")
+        ends = [*pace.take(order).searchsorted(np.arange(count, dtype=pace.dtype)).tolist(), pace.size]
+        return {
+            function: order[ends[code] : ends[code + 1]]
+            for code, function in enumerate(self._table.paces)
+            if code and ends[code] < ends[code + 1]
+        }
 
     def _evaluate_stretches(self, points: FloatArray, segment: IntArray, t: FloatArray) -> None:
-        own = np.flatnonzero(self._own_formula.take(segment))
-        for row in np.unique(segment[own]).tolist():
+        own = np.flatnonzero(self._table.has_stretch.take(segment))
+        for row in sorted(set(segment[own].tolist())):
             members = own[segment[own] == row]
-            values = self._stretches[row](t[members, None])
-            points[members, : values.shape[1]] = values
+            found = self._table.stretches[row](t[members, None])
+            points[: found.shape[1], members] = found.T
 
-    def _orientation_values(self, values: FloatArray, segment: IntArray) -> FloatArray:
-        if self.orientations.size == 0:
-            return np.zeros((0, values.shape[1], 4))
-        origin = self._origins[segment[self.orientations] + self._origin_shift[:, None]]
-        return ORIENTATION.to_values(values[self.orientations, :, :3], origin)
-
-
-def _stacked(rows: list[FloatArray]) -> FloatArray:
-    return np.concatenate([np.zeros(0), *rows])
+    def _splines_of_quaternions(self, segment: IntArray, u: FloatArray) -> FloatArray:
+        keys = self._table.quaternions[self._table.quaternion_row.take(segment)]
+        fraction = u[:, None]
+        q = keys[:, 0] + (keys[:, 2] - keys[:, 0]) * blend_weight(fraction)
+        q += keys[:, 1] * leaving_weight(fraction) + keys[:, 3] * arriving_weight(fraction)
+        sign = np.where(q[:, 3] < 0.0, -1.0, 1.0)
+        return q * (sign / np.sqrt(np.einsum("ni,ni->n", q, q)))[:, None]
 
 
-def _padded(blocks: list[FloatArray]) -> FloatArray:
-    """Blocks ``(n, w)`` one below the other, as wide as the widest, 0 where they are narrower."""
-    width = max((block.shape[1] for block in blocks), default=0)
-    padded = np.zeros((sum(block.shape[0] for block in blocks), width))
-    row = 0
-    for block in blocks:
-        padded[row : row + block.shape[0], : block.shape[1]] = block
-        row += block.shape[0]
-    return padded
+def _jumps_with_laps(channel: Channel, jumps: IntArray, laps: IntArray, ways: IntArray) -> IntArray:
+    """Jumps gone by ``(Q,)``, those of whole laps included."""
+    loops = np.where(laps > 0, channel.after == "loop", channel.before == "loop")
+    whole = int(channel.jumps[-1])
+    there_and_back = laps * whole + np.where(ways > 0, jumps, whole - jumps)
+    return np.where(loops, laps * channel.jumps_a_lap + jumps, there_and_back)

@@ -13,7 +13,7 @@ from reina.keyframes.easings import DIRECTION_CODES, EASE_IN, EaseIn
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.outside import Outside
 from reina.keyframes.spaces import OrientationSpace, Space
-from reina.keyframes.spline_keyframe import SplineKeyframe, spline_pace
+from reina.keyframes.spline_keyframe import SplineKeyframe, quaternion_pace, spline_pace
 from reina.keyframes.tangents import key_slopes, rotation_vector_rates
 
 _SAME = 1e-9
@@ -66,6 +66,7 @@ class ChannelBuilder:
         self.directions = np.zeros(self.count + 1)
         self.rows: dict[int, FloatArray] = {}
         self.stretches: dict[int, Stretch] = {}
+        self.quaternion_splines: dict[int, FloatArray] = {}
         self.limits = values[1:].copy()
         self.moving = np.ones(self.count + 1, dtype=np.bool_)
         for segment, keyframe in enumerate(keyframes[1:], start=1):
@@ -97,6 +98,7 @@ class ChannelBuilder:
             directions=self.directions,
             options=options,
             stretches=self.stretches,
+            quaternion_splines=self.quaternion_splines,
             jumps=jumps,
             jumps_a_lap=int(jumps[-2]) + int(wraps) if self.count > 1 else 0,
         )
@@ -109,7 +111,8 @@ class ChannelBuilder:
             self.rows[segment] = keyframe.option_row()
         elif isinstance(keyframe, SplineKeyframe) and formula is _formula(SplineKeyframe):
             if keyframe.tangents == "given" and isinstance(self.space, OrientationSpace):
-                self.stretches[segment] = self._quaternion_spline(segment)
+                self.pace[segment] = self._pace_index(quaternion_pace)
+                self.quaternion_splines[segment] = self._quaternion_spline(segment)
             else:
                 self.pace[segment] = self._pace_index(spline_pace)
         elif formula is _formula(Keyframe):
@@ -143,22 +146,20 @@ class ChannelBuilder:
         end = stretch(np.array([[keyframe.time]]))
         self.limits[segment - 1] = self.space.to_values(end, self.origins[segment : segment + 1])[0]
 
-    def _quaternion_spline(self, segment: int) -> Stretch:
-        """GlTF's cubic spline of a rotation: of the quaternion's components, scaled to unit length."""
-        first = segment - 1
-        start = Keyframe(self.times[first], self.values[first], out_tangent=self.out_tangents[first])
-        nearer = 1.0 if np.dot(self.values[first], self.values[segment]) >= 0.0 else -1.0
-        end = SplineKeyframe(
-            self.times[segment], nearer * self.values[segment], in_tangent=nearer * self.in_tangents[segment]
+    def _quaternion_spline(self, segment: int) -> FloatArray:
+        """GlTF's cubic spline of a rotation: of the quaternion's components, to be scaled to unit length."""
+        before = segment - 1
+        duration = self.durations[segment]
+        # Of the two quaternions of the same end the nearer one, with its slope: the short way round.
+        nearer = 1.0 if np.dot(self.values[before], self.values[segment]) >= 0.0 else -1.0
+        return np.stack(
+            [
+                self.values[before],
+                self.out_tangents[before] * duration,
+                nearer * self.values[segment],
+                nearer * self.in_tangents[segment] * duration,
+            ]
         )
-        origin = self.values[first : first + 1]
-
-        def stretch(t: FloatArray) -> FloatArray:
-            quaternions = end.eval(start, t)
-            unit = quaternions / np.sqrt(np.sum(quaternions * quaternions, axis=1, keepdims=True))
-            return self.space.to_points(unit, np.broadcast_to(origin, unit.shape))
-
-        return stretch
 
     def _find_slopes(self) -> None:
         inner = slice(1, self.count)
@@ -171,7 +172,7 @@ class ChannelBuilder:
                     if isinstance(keyframe, SplineKeyframe)
                     and keyframe.tangents == tangents
                     and segment > 0
-                    and segment not in self.stretches
+                    and segment not in self.quaternion_splines
                 ],
                 dtype=np.int64,
             )

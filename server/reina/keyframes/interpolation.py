@@ -76,17 +76,12 @@ def interpolation_name(keyframe: Keyframe[Any]) -> str:
     Raises:
         InterpolationError: Its class is not among `interpolations`.
     """
-    name = _names().get(type(keyframe))
-    if name is None:
-        raise InterpolationError(
-            f"{type(keyframe).__name__} has no name; declare it in the entry point group {ENTRY_POINT_GROUP}"
-        )
-    return name
-
-
-@cache
-def _names() -> Mapping[type[Keyframe[Any]], str]:
-    return {interpolation: name for name, interpolation in interpolations().items()}
+    for name, interpolation in interpolations().items():
+        if interpolation is type(keyframe):
+            return name
+    raise InterpolationError(
+        f"{type(keyframe).__name__} has no name; declare it in the entry point group {ENTRY_POINT_GROUP}"
+    )
 
 
 def interpolations_for(*, interpolates: bool) -> tuple[str, ...]:

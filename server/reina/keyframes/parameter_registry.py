@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from reina.keyframes.arrays import FloatArray
-from reina.keyframes.interpolations import describe_interpolations, interpolations_for
+from reina.keyframes.interpolation import describe_interpolations, interpolations_for
 from reina.keyframes.parameter import Parameter
 
 

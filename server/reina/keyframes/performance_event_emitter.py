@@ -95,7 +95,7 @@ class PerformanceEventEmitter(Generic[T]):
         if self._bank is None:
             return self._objects_at(asked)
         found, quaternions = self._bank.evaluate(self._bank.locate(asked[None, :]))
-        rows = quaternions[0] if self._bank.channels[0].space is ORIENTATION else found[0]
+        rows = quaternions[0] if self._bank.channels[0].space is ORIENTATION else found[:, 0].T
         return rows.reshape(asked.size, *self._shape)
 
     def _objects_at(self, times: FloatArray) -> NDArray[Any]:

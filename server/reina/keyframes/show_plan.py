@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes.arrays import BoolArray, FloatArray
+from reina.keyframes.arrays import BoolArray, FloatArray, IntArray
 from reina.keyframes.channel import Channel
 from reina.keyframes.channel_bank import ChannelBank
 from reina.keyframes.channel_builder import ChannelBuilder
@@ -91,29 +91,27 @@ class ShowPlan:
         self.tracks = {plan.track.parameter: plan for plan in tracks}
         self._defaults = registry.defaults()
         self._low, self._high = registry.bounds()
-        channels: list[Channel] = []
-        units: list[int] = []
-        blends: list[bool] = []
-        plain: list[tuple[int, int, int]] = []  # column of the values, channel, component
-        turned: list[int] = []  # first columns of the orientations
         layout = registry.layout()
+        lines: list[tuple[int, Channel, Track, Parameter]] = []  # a channel's first column in the values
         for plan in tracks:
             column = layout[plan.parameter.path][0]
             for channel in plan.channels:
-                if channel.space is ORIENTATION:
-                    turned.append(column)
-                else:
-                    plain += [(column + i, len(channels), i) for i in range(channel.space.length)]
+                lines.append((column, channel, plan.track, plan.parameter))
                 column += channel.space.length
-                channels.append(channel)
-                units.append(TIME_UNITS.index(plan.track.time))
-                blends.append(plan.parameter.blend)
-        self._bank = ChannelBank(channels)
-        self._units = np.array(units, dtype=np.int64)
-        self._used_units = sorted(set(units))
-        self._blending = np.array(blends, dtype=np.bool_)
-        self._columns, self._channels, self._components = np.array(plain, dtype=np.int64).reshape(-1, 3).T
-        self._turned = np.array(turned, dtype=np.int64)[:, None] + np.arange(4)
+        lines.sort(key=lambda line: ChannelBank.rank(line[1]))
+        self._bank = ChannelBank([channel for _, channel, _, _ in lines])
+        self._units = np.array([TIME_UNITS.index(track.time) for _, _, track, _ in lines], dtype=np.int64)
+        self._used_units = sorted({TIME_UNITS.index(track.time) for _, _, track, _ in lines})
+        self._blending = np.array([parameter.blend for _, _, _, parameter in lines], dtype=np.bool_)
+        turned = [column for column, channel, _, _ in lines if channel.space is ORIENTATION]
+        self._turned: IntArray = (np.array(turned, dtype=np.int64)[:, None] + np.arange(4)).reshape(-1)
+        plain = [
+            (column + i, i * len(lines) + row)
+            for row, (column, channel, _, _) in enumerate(lines)
+            if channel.space is not ORIENTATION
+            for i in range(channel.space.length)
+        ]
+        self._columns, self._sources = np.array(plain, dtype=np.int64).reshape(-1, 2).T
 
     @classmethod
     def make(
@@ -148,9 +146,9 @@ class ShowPlan:
             the frame of the grid before each time (a grid of `fps` frames a second) and that time.
         """
         times = np.asarray(times_s, dtype=np.float64)
-        values = np.repeat(self._defaults[None, :], times.size, axis=0)
+        values = np.repeat(self._defaults[:, None], times.size, axis=1)
         if not self._bank.channels or times.size == 0:
-            return values, np.zeros(times.shape, dtype=np.bool_)
+            return values.T, np.zeros(times.shape, dtype=np.bool_)
         earlier = self._frame_before(times)
         in_a_row = bool(np.array_equal(earlier[1:], times[:-1]))
         asked = np.concatenate([earlier[:1] if in_a_row else earlier, times])
@@ -159,11 +157,11 @@ class ShowPlan:
         before = samples.columns(slice(0, times.size))
         cuts = np.any((now.jumps != before.jumps) & self._blending[:, None], axis=0)
         found, quaternions = self._bank.evaluate(now)
-        values[:, self._columns] = found[self._channels, :, self._components].T
-        for columns, row in zip(self._turned, quaternions, strict=True):
-            values[:, columns] = row
-        np.clip(values, self._low, self._high, out=values)
-        return values, cuts
+        values[self._columns] = found.reshape(-1, times.size).take(self._sources, axis=0)
+        values[self._turned] = quaternions.transpose(0, 2, 1).reshape(-1, times.size)
+        np.maximum(values, self._low[:, None], out=values)
+        np.minimum(values, self._high[:, None], out=values)
+        return values.T, cuts
 
     def _own_times(self, times_s: FloatArray) -> FloatArray:
         """Seconds ``(Q,)`` in each channel's unit, ``(C, Q)``."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 from reina.keyframes.errors import ShowError
-from reina.keyframes.interpolations import interpolations, interpolations_for
+from reina.keyframes.interpolation import interpolations, interpolations_for
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import options_of
 from reina.keyframes.outside import OUTSIDE

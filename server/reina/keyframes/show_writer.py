@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, cast
 
-from reina.keyframes.interpolations import interpolation_name
+from reina.keyframes.interpolation import interpolation_name
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import options_of
 from reina.keyframes.time_map import TimeUnit

@@ -62,6 +62,11 @@ def arriving_weight(u: NDArray[np.float64]) -> NDArray[np.float64]:
     return u * u * (u - 1.0)
 
 
+def quaternion_pace(u: NDArray[np.float64], _: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Marks splines of quaternions, which have no pace along a straight line."""
+    return u
+
+
 def spline_pace(u: NDArray[np.float64], _: NDArray[np.float64]) -> NDArray[np.float64]:
     """`blend_weight` as an ease-in without options."""
     return blend_weight(u)
