@@ -1,7 +1,7 @@
 """The golden message: three frames, written field by field with `struct`, apart from the code that it tests.
 
-`python -m tests.contract.golden` writes tests/golden/frame_v1.bin and frame_v1.json anew; a difference to what
-is committed means that every page and every other reader has to change, that is, another protocol version.
+`python -m tests.contract.golden` writes tests/golden/frame_v1.bin and frame_v1.json anew; a difference to
+what is committed means that every page and every other reader has to change: another protocol version.
 """
 
 from __future__ import annotations

@@ -88,7 +88,7 @@ def test_music_lasts_as_long_as_the_longer_of_score_and_song(client: httpx.Clien
     longer = upload(client, scale(2), song=("s.wav", song(30.0, rate=1000)))
     assert longer.body["duration_s"] == pytest.approx(30.0)
     shorter = upload(client, scale(2), song=("s.wav", song(0.1)))
-    assert 0.5 <= shorter.body["duration_s"] <= 3.0
+    assert 0.5 <= shorter.body["duration_s"] <= 5.0
     for session in (longer, shorter):
         session.change("DELETE").raise_for_status()
 

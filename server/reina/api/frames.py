@@ -72,5 +72,6 @@ async def _frames(production: Production, first: int, end: int, fps: int) -> Asy
     while first < end:
         # Up to the end of an aligned block at a time; a thread, since a viewer's frames come first.
         last = min(end, (first // FRAMES_PER_BLOCK + 1) * FRAMES_PER_BLOCK) - 1
-        yield await asyncio.to_thread(lambda span: frames.span(*span).tobytes(), (first, last))
+        span = await asyncio.to_thread(frames.span, first, last)
+        yield span.tobytes()
         first = last + 1

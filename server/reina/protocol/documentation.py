@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from reina.protocol import messages, notes, transport
-from reina.protocol.frame import ALIGNMENT, HEADER, FrameFlag
+from reina.protocol.frame import ALIGNMENT, HEADER, FrameFlag, fields_of
 from reina.protocol.manifest import (
     PROTOCOL_VERSION,
     SUBPROTOCOL,
@@ -100,9 +100,9 @@ frames["rotations"]                    # (F, J, 4)
 def documentation() -> str:
     """The whole document."""
     lines = [_INTRODUCTION.rstrip("\n")]
-    for name in HEADER.names or ():
-        dtype, offset = HEADER.fields[name][:2] if HEADER.fields else (HEADER, 0)
-        lines.append(f"| {offset} | {_TYPES[dtype.str]} | `{name}` |")
+    lines.extend(
+        f"| {offset} | {_TYPES[dtype.str]} | `{name}` |" for name, dtype, offset in fields_of(HEADER)
+    )
     lines.append(_SECTIONS.rstrip("\n"))
     lines.append("")
     lines.extend(f"- bit {flag.value.bit_length() - 1}: {str(flag.name).lower()}" for flag in FrameFlag)
@@ -117,11 +117,8 @@ def documentation() -> str:
 
 def _model(model: type[BaseModel]) -> str:
     kind = model.model_fields.get("type")
-    title = (
-        f"`{kind.annotation.__args__[0]}`"
-        if kind and hasattr(kind.annotation, "__args__")
-        else model.__name__
-    )
+    values = get_args(kind.annotation) if kind else ()
+    title = f"`{values[0]}`" if values else model.__name__
     rows = [
         f"### {title}",
         "",

@@ -62,9 +62,7 @@ def _aligned(offset: int) -> int:
 
 def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
     """The layout of a frame with so many joints (of all skeletons), skeletons and parameter floats."""
-    fields: list[tuple[str, Any, int]] = [
-        (name, HEADER[name], _offset(HEADER, name)) for name in HEADER.names or ()
-    ]
+    fields: list[tuple[str, Any, int]] = [*fields_of(HEADER)]
     end = HEADER.itemsize
     for name, shape in (
         ("rotations", (joints, 4)),
@@ -83,10 +81,15 @@ def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
     )
 
 
+def fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, np.dtype[Any], int]]:
+    """Name, type and offset in bytes of each field, in their order."""
+    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
+    return [(name, field[0], field[1]) for name, field in fields.items()]
+
+
 def _offset(dtype: np.dtype[np.void], field: str) -> int:
     """Bytes from the frame's start to a field."""
-    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
-    return fields[field][1]
+    return next(offset for name, _, offset in fields_of(dtype) if name == field)
 
 
 def build_manifest(layout: FrameLayout) -> Manifest:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.protocol.frame import HEADER, FrameFlag
+from reina.protocol.frame import HEADER, FrameFlag, fields_of
 from reina.protocol.manifest import PROTOCOL_VERSION, SUBPROTOCOL
 
 if TYPE_CHECKING:
@@ -45,9 +45,7 @@ def _getter(name: str, dtype: DTypeLike, offset: int) -> str:
 def frame_reader() -> str:
     """The constants and the classes `Frame` and `FrameReader`, as TypeScript."""
     flags = "\n".join(f"export const FLAG_{flag.name} = {flag.value}" for flag in FrameFlag)
-    getters = "\n\n".join(
-        _getter(name, dtype, offset) for name, (dtype, offset, *_) in (HEADER.fields or {}).items()
-    )
+    getters = "\n\n".join(_getter(name, dtype, offset) for name, dtype, offset in fields_of(HEADER))
     predicates = "\n\n".join(
         f"  get {str(flag.name).lower()}(): boolean {{\n"
         f"    return (this.flags & FLAG_{flag.name}) !== 0\n  }}"

@@ -71,7 +71,7 @@ class Broadcast:
             self._schedules[size] = schedule
             return self._messages(schedule, size, state.server_time_s + LEAD_S)
         before = following.next.due_time_s if following.next else math.inf
-        due = []
+        due: list[DueFrame] = []
         while schedule.next and schedule.next.due_time_s < before - 0.5 / self._fps:
             due.extend(schedule.take(1))
         return [self._message(due[i : i + size]) for i in range(0, len(due), size)]
