@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.kinematics import FingerChains
-from reina.rotations import conjugate, rotate
+from reina.rotations import conjugate, rotate, to_matrix
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class PressingFingers:
         self._base: FloatArray = rotate(to_hand, position - hand_position)
         self._travel: FloatArray = rotate(to_hand, travel)
         self._lift: FloatArray = rotate(to_hand, up * FINGER_LIFT_M)
-        self._to_hand = to_hand
+        self._shift_to_hand: FloatArray = to_matrix(to_hand).T
 
     def solve(
         self, valves: FloatArray, lifts: FloatArray, shifts: FloatArray
@@ -69,4 +69,4 @@ class PressingFingers:
             shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
         """
         targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
-        return self.chains.solve(targets - rotate(self._to_hand, shifts)[:, None])
+        return self.chains.solve(targets - (shifts @ self._shift_to_hand)[:, None])

@@ -118,7 +118,14 @@ class Performance:
         if block < 0:
             raise ValueError(f"blocks are counted from 0, not {block}")
         first = block * BLOCK_FRAMES
-        song_time_s = np.arange(first, first + BLOCK_FRAMES) / self.layout.fps
+        return self.sample(np.arange(first, first + BLOCK_FRAMES) / self.layout.fps, first)
+
+    def sample(self, song_time_s: FloatArray, first_frame: int = 0) -> FrameBlock:
+        """The same function at any song times ``(F,)``, for exports and measurements.
+
+        Floating point differs in its last bit between a block and a row, so what is streamed comes from
+        `evaluate`.
+        """
         shown, cuts = self._show_plan.evaluate(song_time_s)
         times = np.minimum(song_time_s, self._end_s)
         amounts = self._amounts.read(shown)
@@ -129,16 +136,16 @@ class Performance:
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
         pose = self._body.solve(self._body_signals(times, gestures, amounts), lowered, valves, lifts)
 
-        rotations = np.empty((BLOCK_FRAMES, *self._still.shape), dtype=np.float32)
+        rotations = np.empty((len(times), *self._still.shape), dtype=np.float32)
         rotations[:] = self._still
         rotations[:, self._body.moving] = pose.moving
         rotations[:, -1] = pose.instrument_rotations
-        roots = np.empty((BLOCK_FRAMES, 2, 3), dtype=np.float32)
+        roots = np.empty((len(times), 2, 3), dtype=np.float32)
         roots[:, 0] = pose.root_positions
         roots[:, 1] = pose.instrument_positions
         weights = self._face.evaluate(self._face_signals(times, gestures, amounts, lowered))
         parameters = np.concatenate([shown, curves[self._streamed_rows].T, weights], axis=1, dtype=np.float32)
-        return FrameBlock(first, self.layout.fps, song_time_s, rotations, roots, parameters, cuts)
+        return FrameBlock(first_frame, self.layout.fps, song_time_s, rotations, roots, parameters, cuts)
 
     def _body_signals(
         self, times: FloatArray, gestures: dict[str, FloatArray], amounts: dict[str, FloatArray]

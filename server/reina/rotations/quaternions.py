@@ -71,11 +71,12 @@ def normalize(q: ArrayLike) -> FloatArray:
 
 
 def rotate(q: ArrayLike, vectors: ArrayLike) -> FloatArray:
-    """``vectors`` ``(..., 3)`` turned by ``q`` ``(..., 4)``: v + 2 w (u x v) + 2 u x (u x v)."""
+    """``vectors`` ``(..., 3)`` turned by ``q`` ``(..., 4)``: the vector part of q v q⁻¹."""
     quaternions = as_quaternions(q)
     v = np.asarray(vectors, dtype=np.float64)
-    twice = 2.0 * cross(quaternions[..., :3], v)
-    return v + quaternions[..., 3:] * twice + cross(quaternions[..., :3], twice)
+    pure = np.zeros((*v.shape[:-1], 4))
+    pure[..., :3] = v
+    return multiply(multiply(quaternions, pure), quaternions * _CONJUGATE)[..., :3]
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:

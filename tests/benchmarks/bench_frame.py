@@ -1,0 +1,133 @@
+"""Microseconds a frame to evaluate and to encode one player, by block length.
+
+Run as ``python tests/benchmarks/bench_frame.py``. A 3,000-note part with every gesture on and a show with a
+dozen tracks. What counts is the block of 60, which is what the server evaluates; the best of many
+repetitions is the machine's, the median is what it gives beside its other work.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import platform
+import time
+from pathlib import Path
+from statistics import median
+from typing import TYPE_CHECKING
+
+import mido
+import numpy as np
+
+from reina.instruments import INSTRUMENTS
+from reina.keyframes import Show, TimeMap, stage_registry
+from reina.music import read_score
+from reina.performance import PLAYER_PARAMETERS, Performance
+from reina.protocol import build_manifest, encode_block
+from reina.skeleton import load_hold, load_rig
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+RIGS = Path(__file__).parents[2] / "rigs"
+BLOCK_LENGTHS = (1, 6, 30, 60, 600)
+
+
+def part(notes: int) -> bytes:
+    """A MIDI file of a trumpet part with fast and slow notes, repeats and rests."""
+    rng = np.random.default_rng(1)
+    track = mido.MidiTrack([mido.Message("program_change", program=56)])
+    pitch, rest = 67, 480
+    for _ in range(notes):
+        pitch = int(np.clip(pitch + rng.integers(-7, 8), 54, 86))
+        length = int(rng.choice([60, 120, 120, 240, 240, 480]))
+        track.append(mido.Message("note_on", note=pitch, velocity=int(rng.integers(40, 120)), time=rest))
+        track.append(mido.Message("note_off", note=pitch, time=length))
+        rest = int(rng.choice([0, 0, 0, 0, 0, 0, 240, 960]))
+    data = io.BytesIO()
+    mido.MidiFile(ticks_per_beat=480, tracks=[track]).save(file=data)
+    return data.getvalue()
+
+
+def performance(notes: int) -> Performance:
+    """A performance of such a part."""
+    registry = stage_registry()
+    registry = registry.extended([p for p in PLAYER_PARAMETERS if p.path not in registry])
+    numbers = [p for p in registry if p.type == "number"][:12]
+    tracks = [
+        {
+            "parameter": parameter.path,
+            "keyframes": [
+                {"time": float(second), "value": parameter.default, "interpolation": "linear"}
+                for second in range(0, 600, 2)
+            ],
+        }
+        for parameter in numbers
+    ]
+    score = read_score(part(notes))
+    instrument = INSTRUMENTS["trumpet"]
+    show = Show.from_document({"version": 1, "tracks": tracks}, registry)
+    return Performance(
+        score=score,
+        played=instrument.play(score, 0),
+        instrument=instrument,
+        player_rig=load_rig(RIGS / "trumpeter"),
+        instrument_rig=load_rig(RIGS / "trumpet"),
+        hold=load_hold(RIGS / "trumpeter", "trumpet"),
+        show_plan=show.plan(registry, TimeMap.steady()),
+        registry=registry,
+    )
+
+
+def microseconds(run: Callable[[int], object], frames: int, repetitions: int) -> tuple[float, float]:
+    """Best and median time a frame of ``run``, which is given a counter, microseconds."""
+    run(0)
+    times: list[float] = []
+    for repetition in range(repetitions):
+        start = time.perf_counter()
+        run(repetition)
+        times.append((time.perf_counter() - start) / frames * 1e6)
+    return min(times), median(times)
+
+
+def machine() -> str:
+    """The processor, its cores and the versions that count."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.exists() else []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    processor = names[0] if names else platform.processor() or platform.machine()
+    return f"{os.cpu_count()} cores {processor}, Python {platform.python_version()}, NumPy {np.__version__}"
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--notes", type=int, default=3000)
+    parser.add_argument("--repetitions", type=int, default=200)
+    options = parser.parse_args()
+    start = time.perf_counter()
+    subject = performance(options.notes)
+    ready_s = time.perf_counter() - start
+    manifest = build_manifest(subject.layout)
+    joints = sum(len(skeleton.joints) for skeleton in subject.layout.skeletons)
+    print(
+        f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, NumPy {np.__version__}"
+    )
+    print(f"{options.notes} notes read, fingered and planned in {ready_s * 1e3:.0f} ms")
+    print(
+        f"{joints} joints, {len(subject.layout.parameters)} parameters, {manifest.frame_size} bytes a frame"
+    )
+    print("frames    best  median   (evaluate and encode, µs a frame)")
+    for length in BLOCK_LENGTHS:
+        repetitions = max(10, min(options.repetitions, 12_000 // length))
+
+        def run(repetition: int, length: int = length) -> object:
+            first = 60 * (repetition % 400)
+            return encode_block(manifest, subject.sample(np.arange(first, first + length) / 60.0, first))
+
+        best, middle = microseconds(run, length, repetitions)
+        print(f"{length:6d} {best:7.1f} {middle:7.1f}")
+
+
+if __name__ == "__main__":
+    main()
