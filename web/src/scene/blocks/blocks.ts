@@ -27,8 +27,8 @@ import { STAFF_LINES } from "./staff";
 /** Longer than any piece, seconds: the staff has no end. */
 const FOREVER = 1e6;
 
-/** Order of drawing, above the room's: staff, blocks, light. */
-const ORDER = { lines: 1, blocks: 2, halos: 3 } as const;
+/** Order of drawing, after the room: staff, light, and the blocks over their own light. */
+const ORDER = { lines: 1, halos: 2, blocks: 3 } as const;
 
 interface DrawnChunk {
   readonly chunk: Chunk;

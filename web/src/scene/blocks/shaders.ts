@@ -116,7 +116,8 @@ void main() {
   // Lit from within: brightest in the core, and still bright at the rim.
   float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
   float warmth = glow / (1.0 + 0.35 * glow);
-  vec3 lit = soundingColor * (0.16 + warmth * (0.14 + 0.42 * core)) + 0.3 * shaded;
+  // The colour is deeper toward the edge, as in a lantern.
+  vec3 lit = soundingColor * mix(soundingColor, vec3(1.0), 0.6 * core) * (0.2 + warmth * (0.3 + 0.85 * core)) + 0.3 * shaded;
   vec3 surface = mix(shaded, lit, vSounding);
 
   float pixel = max(fwidth(vInside.y), 1e-5);
