@@ -33,7 +33,7 @@ def pack(raw: Path, rigs: Path) -> dict[str, dict[str, int]]:
     """
     if not (HERE / "node_modules").exists():
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=HERE, check=True)
-    results = {}
+    results: dict[str, dict[str, int]] = {}
     for rig, tiers in TRIANGLES.items():
         for tier, triangles in tiers.items():
             target = rigs / rig / f"{tier}.glb"

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,9 @@ from hold.report import report
 from hold.rig import Pose, Rig, turn
 from hold.right_hand import RightHand
 from hold.stance import Stance, stand
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 Array = NDArray[np.float64]
 
@@ -41,7 +45,7 @@ def place_trumpet(player: Rig, trumpet: Rig, stance: Stance) -> tuple[Array, Arr
     return rotation, place + head @ offset - rotation @ trumpet.contact("mouthpiece")[1]
 
 
-def search(residuals: object, start: Array, label: str) -> Array:
+def search(residuals: Callable[[Array], Array], start: Array, label: str) -> Array:
     """The best of several least-squares searches from scattered starts; the same every run."""
     rng = np.random.default_rng(3)
     best = None
@@ -127,7 +131,7 @@ def main() -> None:
 
 def whole_pose(player: Rig, pose: Pose) -> dict[str, list[float]]:
     """Every joint's whole local quaternion, nearest to its rest's sign, twist helpers included."""
-    result = {}
+    result: dict[str, list[float]] = {}
     for name, rest in player.rests.items():
         quaternion = Rotation.from_matrix(pose.get(name, rest)).as_quat()
         rest_quaternion = np.array(next(j["rotation"] for j in player.content["joints"] if j["name"] == name))

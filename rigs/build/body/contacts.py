@@ -34,7 +34,7 @@ def lips_contact(figure: Figure, lip_centre: Array) -> Array:
     forward = np.array([0.0, -np.sin(PITCH_DOWN_RAD), np.cos(PITCH_DOWN_RAD)])
     up = np.cross(forward, [1.0, 0.0, 0.0])
     start = lip_centre + 0.05 * forward
-    depths = []
+    depths: list[float] = []
     for angle in np.linspace(0, 2 * np.pi, 24, endpoint=False):
         point = start + RIM_RADIUS_M * (np.cos(angle) * np.array([1.0, 0, 0]) + np.sin(angle) * up)
         depths.append(0.05 - ray_distances(point, -forward, figure.vertices, faces)[0])
@@ -71,7 +71,7 @@ def contacts(figure: Figure, skeleton: Skeleton, lip_centre: Array) -> list[dict
 
 def capsules(figure: Figure, skeleton: Skeleton, weights: Array) -> list[dict[str, Any]]:
     """Fingers and thumbs from the mesh's own thickness; palms, arms, head and torso by measure."""
-    result = []
+    result: list[dict[str, Any]] = []
     body = weights[: len(figure.body)]
 
     def add(joint: str, start: Array, end: Array, radius: float) -> None:

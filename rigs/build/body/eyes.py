@@ -22,7 +22,8 @@ Array = NDArray[np.float64]
 
 def eyes(figure: Figure, skeleton: Skeleton, rings: int, sectors: int) -> Part:
     """Both eyes as one part; each is weighted wholly to its joint."""
-    meshes, all_normals = [], []
+    meshes: list[Mesh] = []
+    all_normals: list[Array] = []
     for side, letter in SIDES:
         group = figure.vertices[figure.mesh.vertex_set(f"helper-{letter}-eye")]
         radius = float(np.linalg.norm(group - group.mean(axis=0), axis=1).mean()) * 0.985

@@ -35,7 +35,7 @@ def lay_finger_weights(figure: Figure, skeleton: Skeleton, weights: Array, side:
     movable = weights[:, all_columns].sum(axis=1)
     rows = np.flatnonzero(movable > 1e-6)
     points = figure.vertices[rows]
-    owned = np.column_stack([weights[np.ix_(rows, columns[f])].sum(axis=1) for f in FINGERS])
+    owned = np.column_stack([weights[np.ix_(rows, np.array(columns[f]))].sum(axis=1) for f in FINGERS])
     in_palm = np.maximum(1 - owned.sum(axis=1) / movable[rows], 0)[:, None]
     distance = np.column_stack([_distance_to_finger(skeleton, side, f, points) for f in FINGERS])
     near = (distance / distance.min(axis=1, keepdims=True)) ** -NEARNESS_POWER
@@ -47,7 +47,7 @@ def lay_finger_weights(figure: Figure, skeleton: Skeleton, weights: Array, side:
         laid[:, hand] += membership[:, k] * (1 - steps[0])
         for p, column in enumerate(columns[finger]):
             laid[:, column] += membership[:, k] * steps[p] * (1 - steps[p + 1])
-    weights[np.ix_(rows, all_columns)] = laid[:, all_columns] * movable[rows, None]
+    weights[np.ix_(rows, np.array(all_columns))] = laid[:, all_columns] * movable[rows, None]
     _smooth_hand(figure, weights, rows)
 
 

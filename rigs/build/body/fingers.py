@@ -55,7 +55,7 @@ def knuckles(figure: Figure, letter: str, faces: Indices) -> dict[str, Array]:
     web = {f: figure.bone_heads[f"{SOURCE_FINGERS[f]}_01_{letter}"] for f in FINGERS}
     next_joint = {f: figure.bone_heads[f"{SOURCE_FINGERS[f]}_02_{letter}"] for f in FINGERS}
     across = _unit(web["Index"] - web["Little"])
-    places = {}
+    places: dict[str, Array] = {}
     for finger in FINGERS:
         metacarpal = _unit(_unit(web[finger] - wrist) + _unit(next_joint[finger] - web[finger]))
         place = web[finger] - KNUCKLE_BACK_M[finger] * metacarpal
@@ -91,7 +91,7 @@ def finger_joints(figure: Figure, letter: str, finger: str, mcp: Array, hand: Ar
     dorsal = np.cross(z, _unit(end - dip))
     pad = first_hit(dip + PAD_ALONG * (end - dip), -dorsal, figure.vertices, faces)
     points = [mcp, pip, dip, pad]
-    axes = []
+    axes: list[Array] = []
     for a, b in itertools.pairwise(points):
         x = _unit(b - a)
         axes.append(np.column_stack([x, np.cross(z, x), z]))
@@ -102,7 +102,7 @@ def thumb_joints(figure: Figure, letter: str, little_knuckle: Array, faces: Indi
     """The thumb: X along each bone, negative Z flexes toward the little finger's knuckle."""
     places = [figure.bone_heads[f"thumb_0{k}_{letter}"] for k in (1, 2, 3)]
     end = figure.bone_tails[f"thumb_03_{letter}"]
-    axes = []
+    axes: list[Array] = []
     for a, b in zip(places, [*places[1:], end], strict=True):
         x = _unit(b - a)
         palmar = little_knuckle - a

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import io
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageFilter
 
-Picture = NDArray[np.float32]
+Picture = NDArray[np.floating[Any]]
 
 
-def jpeg(picture: NDArray[np.floating], quality: int) -> tuple[bytes, str]:
+def jpeg(picture: Picture, quality: int) -> tuple[bytes, str]:
     """RGB 0…1 (H, W, 3) as JPEG bytes and their MIME type."""
     file = io.BytesIO()
     Image.fromarray((picture.clip(0, 1) * 255).astype(np.uint8)).save(file, "JPEG", quality=quality)
     return file.getvalue(), "image/jpeg"
 
 
-def blurred(grey: NDArray[np.floating], radius_px: float) -> Picture:
+def blurred(grey: Picture, radius_px: float) -> Picture:
     """A grey picture 0…1 (H, W), blurred."""
     image = Image.fromarray((grey * 255).clip(0, 255).astype(np.uint8)).filter(
         ImageFilter.GaussianBlur(radius_px)
@@ -26,7 +27,7 @@ def blurred(grey: NDArray[np.floating], radius_px: float) -> Picture:
     return np.asarray(image, np.float32) / 255
 
 
-def mixed(picture: Picture, colour: tuple[float, float, float], amount: NDArray[np.floating]) -> Picture:
+def mixed(picture: Picture, colour: tuple[float, float, float], amount: Picture) -> Picture:
     """The picture (H, W, 3) with a colour laid over it by `amount` (H, W)."""
     over = amount[..., None].astype(np.float32)
     result: Picture = picture * (1 - over) + np.array(colour, np.float32) * over
@@ -50,23 +51,27 @@ def hair_picture(width: int = 256, height: int = 512) -> Picture:
 def eye_picture(size: int = 512) -> Picture:
     """An eye seen from the front: white, brown iris, pupil and two lights."""
     rng = np.random.default_rng(5)
-    y, x = np.mgrid[0:size, 0:size]
+    steps = np.arange(size, dtype=np.float64)
+    x, y = np.meshgrid(steps, steps)
     half = size / 2
     r = np.hypot(x - half + 0.5, y - half + 0.5) / half
     angle = np.arctan2(y - half, x - half)
     iris, pupil = 0.46, 0.19
-    spokes = np.interp(
+    spokes: Picture = np.interp(
         angle, np.linspace(-np.pi, np.pi, 181), np.convolve(rng.random(181), np.ones(3) / 3, "same")
     )
-    picture = np.ones((size, size, 3)) * [0.96, 0.955, 0.95]
+    picture: Picture = np.ones((size, size, 3)) * [0.96, 0.955, 0.95]
     picture *= 1 - 0.18 * np.clip(r - 0.55, 0, 1)[..., None] * np.array([0.6, 1, 1])
     t = np.clip((r - pupil) / (iris - pupil), 0, 1)
-    brown = np.array([0.216, 0.12, 0.06]) * (1 - t)[..., None] + np.array([0.50, 0.30, 0.14]) * t[..., None]
+    brown: Picture = (
+        np.array([0.216, 0.12, 0.06]) * (1 - t)[..., None] + np.array([0.50, 0.30, 0.14]) * t[..., None]
+    )
     brown *= (0.75 + 0.5 * spokes[..., None]) * (1.15 - 0.55 * np.clip((half - y) / (size * 0.23), -1, 1))[
         ..., None
     ]
     brown *= (1 - 0.75 * np.clip((t - 0.80) / 0.2, 0, 1))[..., None]
-    for edge, colour, soft in ((iris, brown, 1.5), (pupil, np.full(3, 0.02), 2.0)):
+    black: Picture = np.full(3, 0.02)
+    for edge, colour, soft in ((iris, brown, 1.5), (pupil, black, 2.0)):
         inside = np.clip((edge - r) * half / soft, 0, 1)[..., None]
         picture = picture * (1 - inside) + colour * inside
     for cx, cy, radius, amount in ((-0.15, -0.17, 0.085, 1.0), (0.14, 0.15, 0.04, 0.7)):

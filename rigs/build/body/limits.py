@@ -107,7 +107,7 @@ def chains() -> list[dict[str, Any]]:
 
 def twists() -> list[dict[str, Any]]:
     """A helper turns about its X by `fraction` of the twist that rest⁻¹·q of its source has about X."""
-    result = []
+    result: list[dict[str, Any]] = []
     for side, _ in SIDES:
         result.append({"joint": f"{side}LowerArmTwist1", "source": f"{side}Hand", "fraction": 0.5})
         result.append({"joint": f"{side}UpperArmTwist1", "source": f"{side}UpperArm", "fraction": -0.5})

@@ -66,7 +66,7 @@ class BaseMesh:
 
     def triangles(self, groups: Iterable[str]) -> Indices:
         """The groups' polygons as triangles (F, 3), each quad split along its first diagonal."""
-        rows = []
+        rows: list[list[int]] = []
         for group in groups:
             for corners, _ in self.groups[group]:
                 rows.extend([corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1))

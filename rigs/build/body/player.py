@@ -89,7 +89,7 @@ def build_player(data: Path, raw: Path, rig_folder: Path) -> None:
 def rig_content(figure: Figure, skeleton: Skeleton, weights: Array, mouth: Array) -> dict[str, Any]:
     """What rig.json says of the player."""
     limits = joint_limits(skeleton)
-    joints = []
+    joints: list[dict[str, Any]] = []
     for name, parent in skeleton.parents.items():
         translation, rotation = skeleton.local(name)
         joint = {

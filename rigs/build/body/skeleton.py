@@ -22,10 +22,12 @@ Array = NDArray[np.float64]
 class Skeleton:
     """Joints in order, parents first: world positions (3,) in m and world axes (3, 3), columns X Y Z."""
 
-    parents: dict[str, str | None] = field(default_factory=dict)
-    positions: dict[str, Array] = field(default_factory=dict)
-    axes: dict[str, Array] = field(default_factory=dict)
-    effectors: dict[str, tuple[str, Array]] = field(default_factory=dict)  # name: (joint, world position)
+    parents: dict[str, str | None] = field(default_factory=dict[str, "str | None"])
+    positions: dict[str, Array] = field(default_factory=dict[str, Array])
+    axes: dict[str, Array] = field(default_factory=dict[str, Array])
+    effectors: dict[str, tuple[str, Array]] = field(
+        default_factory=dict[str, "tuple[str, Array]"]
+    )  # name: (joint, world position)
 
     @property
     def names(self) -> list[str]:
@@ -89,17 +91,14 @@ def build_skeleton(figure: Figure) -> Skeleton:
 
 
 def _arm_axes(side: str, places: dict[str, Array]) -> dict[str, Array]:
-    """Upper and lower arm: X along the bone.
-
-    Y the elbow's hinge (up), shared, so that the elbow is a pure Y turn.
-    """
+    """Upper and lower arm: X along the bone, Y (up) the elbow's hinge, shared: the elbow is a pure Y turn."""
     shoulder, elbow, wrist = (places[f"{side}{part}"] for part in ("UpperArm", "LowerArm", "Hand"))
     hinge = np.cross(wrist - elbow, elbow - shoulder)
-    hinge *= np.sign(hinge[1]) / np.linalg.norm(hinge)
-    result = {}
+    hinge = hinge * (np.sign(hinge[1]) / float(np.linalg.norm(hinge)))
+    result: dict[str, Array] = {}
     for name, bone in ((f"{side}UpperArm", elbow - shoulder), (f"{side}LowerArm", wrist - elbow)):
-        x = bone / np.linalg.norm(bone)
-        result[name] = np.column_stack([x, hinge, np.cross(x, hinge)])
+        x: Array = bone / float(np.linalg.norm(bone))
+        result[name] = np.column_stack([x, hinge, np.cross(x, hinge)]).astype(np.float64)
     return result
 
 

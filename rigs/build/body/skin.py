@@ -43,7 +43,9 @@ def texel_positions(figure: Figure) -> tuple[Array, NDArray[np.bool_]]:
 def _fill(positions: Array, covered: NDArray[np.bool_], uv: Array, corners: Array) -> None:
     low = np.floor(uv.min(axis=0) - 1).astype(int).clip(0, SIZE - 1)
     high = np.ceil(uv.max(axis=0) + 1).astype(int).clip(0, SIZE - 1)
-    x, y = np.meshgrid(np.arange(low[0], high[0] + 1) + 0.5, np.arange(low[1], high[1] + 1) + 0.5)
+    across: Array = np.arange(low[0], high[0] + 1, dtype=np.float64) + 0.5
+    down: Array = np.arange(low[1], high[1] + 1, dtype=np.float64) + 0.5
+    x, y = np.meshgrid(across, down)
     a, b = uv[1] - uv[0], uv[2] - uv[0]
     area = a[0] * b[1] - a[1] * b[0]
     if abs(area) < 1e-9:
@@ -151,7 +153,7 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
 def _split_at_seams(faces: list[Face]) -> tuple[list[int], list[int], NDArray[np.int64]]:
     """One output vertex for each pair of vertex and texture coordinate; polygons become triangles."""
     pairs: dict[tuple[int, int], int] = {}
-    triangles = []
+    triangles: list[list[int]] = []
     for corners, uv_corners in faces:
         ring = [pairs.setdefault(pair, len(pairs)) for pair in zip(corners, uv_corners, strict=True)]
         triangles.extend([ring[0], ring[k], ring[k + 1]] for k in range(1, len(ring) - 1))

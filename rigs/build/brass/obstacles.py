@@ -30,7 +30,9 @@ def trumpet_capsules() -> list[dict[str, Any]]:
     for z in m.VALVE_Z:
         add([0, m.CASING_BOTTOM, z], [0, m.CASING_TOP, z], m.CASING)
     path = bell_path()
-    lengths = np.linspace(0, arc_length(path)[-1], BELL_PIECES * 2 + 1)
+    lengths: np.ndarray[Any, np.dtype[np.float64]] = np.linspace(
+        0, float(arc_length(path)[-1]), BELL_PIECES * 2 + 1
+    )
     points = at_lengths(path, lengths)
     for k in range(len(points) - 1):
         add(points[k], points[k + 1], m.bell_radius(lengths[-1] - (lengths[k] + lengths[k + 1]) / 2))

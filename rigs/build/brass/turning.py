@@ -41,7 +41,7 @@ class Workpiece:
 
     def primitives(self, writer: GlbWriter) -> list[dict[str, object]]:
         """The piece as glTF primitives, one a material."""
-        result = []
+        result: list[dict[str, object]] = []
         for material, pieces in self._pieces.items():
             starts = np.cumsum([0] + [len(v) for v, _, _ in pieces[:-1]])
             faces = np.vstack([f + start for (_, _, f), start in zip(pieces, starts, strict=True)])

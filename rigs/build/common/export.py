@@ -39,7 +39,7 @@ def write_skinned(path: Path, name: str, skeleton: Skeleton, parts: list[Part]) 
     Each part a skinned mesh at the scene's root.
     """
     writer = GlbWriter()
-    nodes = {}
+    nodes: dict[str, int] = {}
     for joint in skeleton.names:
         translation, rotation = skeleton.local(joint)
         place = {"translation": [float(x) for x in translation], "rotation": [float(x) for x in rotation]}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 import scipy.sparse as sparse
@@ -109,14 +110,14 @@ def normals(vertices: Array, faces: Indices) -> Array:
     return unit
 
 
-def neighbour_mean(count: int, faces: Indices) -> sparse.csr_matrix:
+def neighbour_mean(count: int, faces: Indices) -> Any:
     """The matrix (V, V) that takes each vertex to the mean of its neighbours."""
     edges = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     edges = np.vstack([edges, edges[:, ::-1]])
-    matrix = sparse.coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), (count, count)).tocsr()
+    matrix: Any = sparse.coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), (count, count)).tocsr()
     matrix.data[:] = 1
     degree = np.maximum(np.asarray(matrix.sum(axis=1)).ravel(), 1)
-    return sparse.csr_matrix(sparse.diags(1 / degree) @ matrix)
+    return sparse.csr_matrix(cast("Any", sparse).diags(1 / degree) @ matrix)
 
 
 def on_border(count: int, faces: Indices) -> Flags:
@@ -135,7 +136,7 @@ def smoothed(
     mean = neighbour_mean(len(values), faces)
     values = values.copy()
     for _ in range(rounds):
-        change = mean @ values - values
+        change: Array = mean @ values - values
         if fixed is not None:
             change[fixed] = 0
         values += step * change

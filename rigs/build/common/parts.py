@@ -24,7 +24,7 @@ class Surface:
     colour: tuple[float, float, float] | None = None
     image: tuple[bytes, str] | None = None
     both_sides: bool = False
-    extensions: dict[str, Any] = field(default_factory=dict, hash=False)
+    extensions: dict[str, Any] = field(default_factory=dict[str, Any], hash=False)
 
 
 @dataclass

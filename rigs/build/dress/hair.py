@@ -97,7 +97,7 @@ class Lock:
 
 
 def _side_and_back_locks(rng: np.random.Generator, share: float) -> list[Lock]:
-    locks = []
+    locks: list[Lock] = []
     for lift, count, length in ((0.010, 30, 1.0), (0.016, 26, 0.95), (0.021, 20, 0.86)):
         number = max(8, round(count * share))
         for i in range(number):
@@ -118,7 +118,7 @@ def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
 
     Swept apart at a parting, longer at the temples.
     """
-    locks = []
+    locks: list[Lock] = []
     parting = 0.22
     for lift, count, extra in ((0.0125, 30, 0.03), (0.0155, 26, 0.0), (0.0180, 20, -0.04)):
         number = max(9, round(count * share))
@@ -137,7 +137,7 @@ def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
 
 
 def _temple_locks() -> list[Lock]:
-    locks = []
+    locks: list[Lock] = []
     for sign in (1, -1):
         locks.append(Lock(sign * 1.02, 0.3, 1.50, 0.014, 0.0125, 0.10, 0.004, -sign * 0.06))
         locks.append(Lock(sign * 1.18, 0.3, 1.55, 0.017, 0.0125, 0.105, 0.012, -sign * 0.05))

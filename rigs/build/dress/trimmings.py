@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any, cast
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
+from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from common.meshes import Mesh, joined
@@ -18,6 +20,12 @@ Array = NDArray[np.float64]
 LAPEL = Surface("lapel", 0.75, colour=(0.13, 0.155, 0.27), both_sides=True)
 BRASS = Surface("button", 0.3, 1.0, colour=(0.85, 0.68, 0.32))
 RIBBON = Surface("ribbon", 0.6, colour=(0.62, 0.10, 0.14), both_sides=True)
+
+
+def _eased(values: Array, width: float) -> Array:
+    """A row of values (N,), smoothed by a bell of this many steps."""
+    eased: Array = cast("Any", ndimage).gaussian_filter1d(values, width)
+    return eased
 
 
 def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
@@ -40,12 +48,12 @@ def lapels(tailor: Tailor, outer: Mesh, steps: int = 28) -> Mesh:
     edge = opening(tailor, y)
     notch = np.where(t < 0.80, 1, 1 - (t - 0.80) * 2.2)
     width = 0.006 + 0.040 * np.sin(np.minimum(1, t * 1.25) * np.pi / 2) * notch
-    strips = []
+    strips: list[Mesh] = []
     for sign in (1, -1):
-        rows = []
+        rows: list[Array] = []
         for share, lift in ((-0.06, 0.0005), (0.08, 0.0062), (0.5, 0.0072), (0.92, 0.0066), (1.0, 0.0040)):
             x, yy = edge + 0.001 + width * share, y + width * 0.15 * max(share, 0)
-            z = gaussian_filter1d(_front_z(tailor, outer, sign * np.maximum(x, edge + 0.008), yy), 3.5) + lift
+            z = _eased(_front_z(tailor, outer, sign * np.maximum(x, edge + 0.008), yy), 3.5) + lift
             rows.append(np.c_[sign * x, yy, z])
         points = np.stack(rows, axis=1).reshape(-1, 3)
         strips.append(Mesh(points, borrowed_weights(points, outer), grid_faces(steps, 5, flip=sign < 0)))
@@ -54,7 +62,7 @@ def lapels(tailor: Tailor, outer: Mesh, steps: int = 28) -> Mesh:
 
 def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
     """Two brass buttons below the opening."""
-    discs = []
+    discs: list[Mesh] = []
     for k in range(2):
         y = top_button_y(tailor) - 0.025 - 0.075 * k
         depth = float(_front_z(tailor, outer, np.array([0.004]), np.array([y]))[0])
@@ -64,7 +72,7 @@ def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
             for r, z in ((0.0078, 0.0), (0.0070, 0.0030))
         ]
         points = np.vstack([*rings, [[0.004, y, depth + 0.0038]]])
-        faces = []
+        faces: list[list[int]] = []
         for i in range(sides):
             j = (i + 1) % sides
             faces += [[i, j, sides + i], [j, sides + j, sides + i], [sides + i, sides + j, 2 * sides]]
@@ -78,8 +86,8 @@ def collar(tailor: Tailor, steps: int = 64) -> Mesh:
     angle = np.linspace(0.16, 2 * np.pi - 0.16, steps + 1)
     front = (1 + np.cos(angle)) / 2
     base = tailor.neck_y + 0.012 - 0.030 * front
-    inner = gaussian_filter1d(_neck_radius(tailor, centre_z, angle, base + 0.010), 5) + 0.010
-    upper = gaussian_filter1d(_neck_radius(tailor, centre_z, angle, base + 0.034), 5) + 0.007
+    inner = _eased(_neck_radius(tailor, centre_z, angle, base + 0.010), 5) + 0.010
+    upper = _eased(_neck_radius(tailor, centre_z, angle, base + 0.034), 5) + 0.007
     top = base + 0.034
     profile = (
         (inner, base),
@@ -101,12 +109,11 @@ def blazer_collar(tailor: Tailor, outer: Mesh, steps: int = 48) -> Mesh:
     angle = np.linspace(1.30, 2 * np.pi - 1.30, steps + 1)
     back = (1 - np.cos(angle)) / 2
     stand = (
-        gaussian_filter1d(_neck_radius(tailor, centre_z, angle, np.full(steps + 1, tailor.neck_y + 0.012)), 6)
-        + 0.0285
+        _eased(_neck_radius(tailor, centre_z, angle, np.full(steps + 1, tailor.neck_y + 0.012)), 6) + 0.0285
     )
     top = tailor.neck_y + 0.002 + 0.016 * back
     shoulder = _outer_height(tailor, outer, centre_z, angle, stand + 0.026)
-    fall = np.maximum(gaussian_filter1d(shoulder, 3) + 0.0035, top - 0.040)
+    fall = np.maximum(_eased(shoulder, 3) + 0.0035, top - 0.040)
     profile = (
         (stand - 0.001, top - 0.016),
         (stand, top),
@@ -140,7 +147,7 @@ def bow(tailor: Tailor) -> Mesh:
     radius = float(_neck_radius(tailor, centre_z, np.zeros(1), np.array([tailor.neck_y]))[0])
     knot = np.array([0.0, tailor.neck_y - 0.026, centre_z + radius + 0.034])
     t = np.linspace(0, 1, 9)
-    pieces = []
+    pieces: list[Mesh] = []
     for sign in (1, -1):
         swell = np.sin(t * np.pi)
         loop = np.c_[sign * 0.048 * t, 0.004 * swell, 0.006 * swell - 0.012 * t * t]
@@ -173,12 +180,12 @@ def _neck_radius(tailor: Tailor, centre_z: float, angles: Array, heights: Array)
     """The neck's radius (N,) about its axis toward each angle (0 is the front) at each height."""
     body = tailor.figure.body
     near_axis = np.hypot(body[:, 0], body[:, 2] - centre_z)
-    radii = []
+    radii: list[float] = []
     for angle, y in zip(angles, heights, strict=True):
         rows = np.flatnonzero((np.abs(body[:, 1] - y) < 0.012) & (near_axis < 0.09))
         turn = np.arctan2(body[rows, 0], body[rows, 2] - centre_z) - angle
         nearest = np.argsort(np.abs((turn + np.pi) % (2 * np.pi) - np.pi), kind="stable")[:8]
-        radii.append(near_axis[rows[nearest]].mean())
+        radii.append(float(near_axis[rows[nearest]].mean()))
     return np.array(radii)
 
 

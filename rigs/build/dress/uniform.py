@@ -83,7 +83,7 @@ def _waisted(tailor: Tailor, mesh: Mesh) -> Mesh:
     """Take the cloth in a little at the waist."""
     v = mesh.vertices
     waist = float(tailor.at("chest")[1]) + 0.02
-    arms = sum(tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES).astype(bool)
+    arms = np.any([tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES], axis=0)
     amount = 0.045 * np.exp(-(((v[:, 1] - waist) / 0.07) ** 2)) * ~arms * (np.abs(v[:, 0]) < 0.2)
     centre = np.array([0.0, 0.0, tailor.at("chest")[2]])
     mesh.vertices = v - (v - centre) * amount[:, None] * [1.0, 0.0, 0.25]

@@ -46,7 +46,7 @@ class Finger:
         turns = [np.arctan2(rig.rests[j][1, 0], rig.rests[j][0, 0]) for j in joints[1:]]
         radii = [next(c["radius"] for c in rig.content["capsules"] if c["joint"] == j) for j in joints]
         first = float(np.arcsin(rest[1, 0]))
-        lengths = np.array([np.linalg.norm(b) for b in bones])
+        lengths = np.array([float(np.linalg.norm(b)) for b in bones])
         return cls(
             name, rig.translations[joints[0]], rest, lengths, np.array([first, *turns]), np.array(radii)
         )

@@ -39,7 +39,8 @@ class RightHand:
 
         One for the little finger) and lacking reach (N,).
         """
-        angles, lacking = [], []
+        angles: list[Array] = []
+        lacking: list[Array] = []
         for k, finger in enumerate(self.grip.fingers):
             targets = self.buttons[k] + self.heights if k < 3 else self.hook[None]
             a, gap = finger.solve((targets - position) @ rotation)

@@ -54,7 +54,8 @@ class Thumb:
 
         3), and the pad's outward direction (3,), in the hand's frame, for angles (5,).
         """
-        places, frame, place = [], np.eye(3), np.zeros(3)
+        places: list[Array] = []
+        frame, place = np.eye(3), np.zeros(3)
         for offset, local in zip(self.offsets, self._turns(angles), strict=True):
             place = place + frame @ offset
             frame = frame @ local

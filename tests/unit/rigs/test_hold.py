@@ -1,4 +1,4 @@
-"""The committed hold: lips at the rim, pads on their buttons over the whole stroke, both hands at the metal."""
+"""The committed hold: lips at the rim, pads on buttons over the whole stroke, both hands at the metal."""
 
 from __future__ import annotations
 
@@ -207,10 +207,10 @@ def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring() -> None
     tip = item(h.player["effectors"], "leftRingTip")
     chain = [h.in_trumpet(f"leftRing{part}", np.zeros(3)) for part in ("Intermediate", "Distal")]
     chain.append(h.in_trumpet(tip["joint"], tip["offset"]))
-    gaps = []
+    gaps: list[float] = []
     for a, b in itertools.pairwise(chain):
         t = np.clip((ring - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
-        gaps.append(np.linalg.norm(a + t * (b - a) - ring))
+        gaps.append(float(np.linalg.norm(a + t * (b - a) - ring)))
     assert min(gaps) < 0.004
 
 
