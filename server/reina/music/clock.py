@@ -109,8 +109,8 @@ class ClockState:
         if loop is None:
             last = min(last, self.duration_s)
             return (Span(start_s, first, last, last >= self.duration_s),) if last > first else ()
-        # As if song time ran on: turn n of the loop is [begin + n length, end + n length), and what comes before
-        # the loop belongs to turn 0.
+        # As if song time ran on: turn n of the loop is [begin + n length, end + n length), and what comes
+        # before the loop belongs to turn 0.
         begin, end = loop
         length = end - begin
         turn = max(0, math.floor((first - begin) / length))

@@ -82,8 +82,7 @@ def assemble(
         part = played[int(path[note])]
         place = f"{part.path}/notes/{note - first[path[note]]}"
         log.add("zero_length_note", place, f"has no duration; it sounds for {TAP_S * 1000:.0f} ms")
-    duration_s = float(np.max(end_s))
-    limits.check("duration_s", duration_s, what="length in seconds")
+    limits.check("duration_s", float(np.max(end_s)), what="length in seconds")
     limits.check("beats", float(np.max(end_beats)), what="length in beats")
     limits.check("bars", metre_map.bar_count(float(np.max(end_beats))), what="number of bars")
     programs = [
@@ -92,24 +91,25 @@ def assemble(
         if part.program is not None
     ]
     controls = [*programs, *(control for part in played for control in part.controls)]
+    notes = Notes.from_columns(
+        part=path,
+        channel=np.array([part.channel for part in played])[path],
+        onset_s=onset_s,
+        duration_s=end_s - onset_s,
+        onset_beats=onset_beats,
+        duration_beats=end_beats - onset_beats,
+        sounding_pitch=np.concatenate([part.pitch for part in played]),
+        velocity=np.concatenate([part.velocity for part in played]),
+    )
     return Score(
         title=title,
         parts=tuple(_part(index, part) for index, part in enumerate(played)),
-        notes=Notes.from_columns(
-            part=path,
-            channel=np.array([part.channel for part in played])[path],
-            onset_s=onset_s,
-            duration_s=end_s - onset_s,
-            onset_beats=onset_beats,
-            duration_beats=end_beats - onset_beats,
-            sounding_pitch=np.concatenate([part.pitch for part in played]),
-            velocity=np.concatenate([part.velocity for part in played]),
-        ),
+        notes=notes,
         tempo_map=tempo_map,
         metre_map=metre_map,
         controls=tuple(sorted(controls, key=lambda control: control.onset_s)),
         warnings=log.warnings(),
-        duration_s=duration_s,
+        duration_s=float(np.max(notes.end_s)),
     )
 
 

@@ -3,7 +3,7 @@
 import re
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "##": 2, "x": 2, "b": -1, "♭": -1, "bb": -2}
@@ -28,8 +28,16 @@ def pitch_number(value: object) -> object:
 Beat = Annotated[float, Field(ge=0, le=1e7, allow_inf_nan=False)]
 Pitch = Annotated[
     int,
-    BeforeValidator(pitch_number, json_schema_input_type=int | str),
+    BeforeValidator(pitch_number),
     Field(ge=0, le=127),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "integer", "minimum": 0, "maximum": 127},
+                {"type": "string", "pattern": f"^{_NAME.pattern}$"},
+            ]
+        }
+    ),
 ]
 
 

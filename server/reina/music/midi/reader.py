@@ -124,24 +124,25 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     limits.check("beats", end_beats, what="length in beats")
     metre_map = _metre_map(tracks, division, log)
     limits.check("bars", metre_map.bar_count(end_beats), what="number of bars")
+    table = Notes.from_columns(
+        part=part,
+        channel=notes.channel,
+        onset_s=notes.onset_s,
+        duration_s=notes.end_s - notes.onset_s,
+        onset_beats=notes.onset_beats,
+        duration_beats=notes.end_beats - notes.onset_beats,
+        sounding_pitch=notes.pitch,
+        velocity=notes.velocity,
+    )
     return Score(
         title=_title(tracks, header.format) or title,
         parts=parts,
-        notes=Notes.from_columns(
-            part=part,
-            channel=notes.channel,
-            onset_s=notes.onset_s,
-            duration_s=notes.end_s - notes.onset_s,
-            onset_beats=notes.onset_beats,
-            duration_beats=notes.end_beats - notes.onset_beats,
-            sounding_pitch=notes.pitch,
-            velocity=notes.velocity,
-        ),
+        notes=table,
         tempo_map=tempo_map,
         metre_map=metre_map,
         controls=_controls(messages.take(np.flatnonzero(~sounding)), division, tempo_map),
         warnings=log.warnings(),
-        duration_s=end_s,
+        duration_s=float(np.max(table.end_s)),
         sequence=sequence or 0,
         sequences=sequences,
     )

@@ -1,0 +1,126 @@
+"""Score files made worse at random: what the fuzz tests and the longer fuzz of the benchmarks read."""
+
+import io
+import json
+import random
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import mido
+from tests.unit.music.midi_bytes import END, chunk, events, header, metre, midi, name, off, on, program, tempo
+
+EXAMPLES = Path(__file__).parents[3] / "examples" / "scores"
+
+INTERESTING = (0x00, 0x01, 0x7F, 0x80, 0xFF, 0x2F, 0x51, 0x58, 0x90, 0xF0, 0xF7, 0xC0, 0xE0)
+"""Bytes that mean something to a MIDI reader."""
+
+TOKENS = (
+    b"MTrk",
+    b"MThd",
+    b"\xff\x2f\x00",
+    b"\xff\xff\xff\xff",
+    b"\x00\x00\x00\x00",
+    b"\xff\x51\x03\x00\x00\x00",
+)
+
+
+def seeds() -> list[bytes]:
+    """Small files of every kind to begin from."""
+    melody = [event for pitch in (60, 64, 67, 72) for event in (on(10, pitch), off(110, pitch))]
+    written = mido.MidiFile(type=1, ticks_per_beat=96)
+    track = written.add_track("Trumpet")
+    track.append(mido.Message("sysex", data=[1, 2, 3]))
+    track.append(mido.Message("pitchwheel", pitch=100))
+    track.append(mido.Message("note_on", note=70, time=5))
+    track.append(mido.Message("note_off", note=70, time=50))
+    stream = io.BytesIO()
+    written.save(file=stream)
+    plain = midi([name("Song"), tempo(0, 400_000), metre(0, 3, 2)], [name("Tpt"), program(0, 56), *melody])
+    return [
+        plain,
+        midi([tempo(0, 300_000), *melody], form=0),
+        midi(melody, melody, form=2),
+        midi(melody, division=(256 - 25) << 8 | 40),
+        b"RIFF"
+        + (len(plain) + 12).to_bytes(4, "little")
+        + b"RMIDdata"
+        + len(plain).to_bytes(4, "little")
+        + plain,
+        header()
+        + chunk(
+            b"MTrk", events(on(0, 60), (20, b"\x3c\x00"), (0, b"\xf0\x02\x01\xf7"), (5, b"\x40\x50"), END)
+        ),
+        stream.getvalue(),
+        (EXAMPLES / "taps.mid").read_bytes(),
+        json.dumps(
+            {
+                "format": "reina-score",
+                "tempos": [{"beat": 0, "bpm": 90}],
+                "pickup_beats": 1,
+                "parts": [{"name": "T", "program": 56, "notes": [{"beat": 0, "duration": 1, "pitch": "C4"}]}],
+            }
+        ).encode(),
+        json.dumps(
+            {
+                "header": {"ppq": 480, "tempos": [{"bpm": 90, "ticks": 0}]},
+                "tracks": [
+                    {"notes": [{"midi": 60, "time": 0.5, "duration": 1, "ticks": 360, "velocity": 0.5}]}
+                ],
+            }
+        ).encode(),
+    ]
+
+
+def _flip(data: bytearray, rng: random.Random) -> None:
+    data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
+
+
+def _set(data: bytearray, rng: random.Random) -> None:
+    data[rng.randrange(len(data))] = rng.choice(INTERESTING)
+
+
+def _insert(data: bytearray, rng: random.Random) -> None:
+    at = rng.randrange(len(data) + 1)
+    data[at:at] = rng.choice(TOKENS) if rng.random() < 0.3 else rng.randbytes(rng.randint(1, 6))
+
+
+def _remove(data: bytearray, rng: random.Random) -> None:
+    at = rng.randrange(len(data))
+    del data[at : at + rng.randint(1, 12)]
+
+
+def _repeat(data: bytearray, rng: random.Random) -> None:
+    at = rng.randrange(len(data))
+    piece = data[at : at + rng.randint(1, 40)]
+    data[at:at] = piece * rng.randint(1, 4)
+
+
+def _truncate(data: bytearray, rng: random.Random) -> None:
+    del data[rng.randrange(len(data)) :]
+
+
+def _digit(data: bytearray, rng: random.Random) -> None:
+    """Make a number of a JSON text another one."""
+    digits = [index for index, byte in enumerate(data) if 0x30 <= byte <= 0x39]
+    if digits:
+        at = rng.choice(digits)
+        data[at : at + 1] = rng.choice(
+            [b"-1", b"1e308", b"0", b"1e-320", b"null", b"9999999999", b'"C9"', b"[]", b"{}"]
+        )
+
+
+MUTATIONS: tuple[Callable[[bytearray, random.Random], None], ...] = (
+    _flip, _flip, _set, _set, _insert, _remove, _repeat, _truncate, _digit,
+)  # fmt: skip
+
+
+def mutated(count: int, seed: int) -> Iterator[bytes]:
+    """Yield `count` files, each a seed with one mutation or more."""
+    rng = random.Random(seed)
+    pool = seeds()
+    for _ in range(count):
+        data = bytearray(rng.choice(pool))
+        for _ in range(1 + int(rng.expovariate(0.5))):
+            if data:
+                rng.choice(MUTATIONS)(data, rng)
+        yield bytes(data)
