@@ -1,6 +1,6 @@
-"""Where the player touches things: lips and soles.
+"""Where the player touches things, and capsules that stand for the body.
 
-And capsules that stand for the body in collision tests.
+Contacts are lips, soles and palms; capsules serve collision tests.
 """
 
 from __future__ import annotations

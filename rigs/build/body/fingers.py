@@ -67,9 +67,9 @@ def knuckles(figure: Figure, letter: str, faces: Indices) -> dict[str, Array]:
 
 
 def hand_axes(wrist: Array, mcp: dict[str, Array], side: str) -> Array:
-    """X to the middle knuckle, Y out of the back of the hand, Z = X × Y (left.
+    """X to the middle knuckle, Y out of the back of the hand, Z = X × Y.
 
-    To the thumb, right: to the little finger).
+    On the left hand Z points to the thumb, on the right to the little finger.
     """
     x = _unit(mcp["Middle"] - wrist)
     across = mcp["Index"] - mcp["Little"]

@@ -67,9 +67,9 @@ def joint_limits(skeleton: Skeleton) -> dict[str, Limits]:
 
 
 def rest_angle_deg(skeleton: Skeleton, side: str, finger: str, phalanx: str) -> float:
-    """The planar angle at rest: of the proximal bone from the palm plane.
+    """A finger bone's planar angle at rest.
 
-    Of the others from the bone before.
+    Of the proximal bone from the palm plane, of the others from the bone before.
     """
     joint = f"{side}{finger}{phalanx}"
     if phalanx == "Proximal":

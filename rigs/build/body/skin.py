@@ -1,6 +1,6 @@
-"""The visible skin: its texture.
+"""The visible skin: its texture, and the faces that clothes leave bare.
 
-Painted by where each texel lies on the body, and the faces that clothes leave bare.
+The texture is painted by where each texel lies on the body.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Skin weights (V, J): the source's.
+"""Skin weights (V, J).
 
-Moved to the skeleton's joints, with twist helpers and re-laid fingers.
+The source's, moved to the skeleton's joints, with twist helpers and re-laid fingers.
 """
 
 from __future__ import annotations

@@ -46,9 +46,9 @@ def at_lengths(path: Array, lengths: Array) -> Array:
 def u_bend(
     x_top: float, x_bottom: float, y_top: float, y_bottom: float, z: float, depth: float, points: int
 ) -> Array:
-    """A half-round bow in the YZ plane from (x_top.
+    """A half-round bow in the YZ plane.
 
-    Y_top) to (x_bottom, y_bottom) at z, reaching `depth` beyond.
+    From (x_top, y_top) to (x_bottom, y_bottom) at z, reaching `depth` beyond.
     """
     a = np.linspace(0, np.pi, points)
     middle, half = (y_top + y_bottom) / 2, (y_top - y_bottom) / 2

@@ -29,10 +29,7 @@ def _eased(values: Array, width: float) -> Array:
 
 
 def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
-    """Depth (N,) of the chest's front at (x.
-
-    Y), from the uncut cloth so that it also holds inside the opening.
-    """
+    """Depth (N,) of the chest's front at (x, y), carried on into the opening by the nearest cloth."""
     cloth = outer.vertices[outer.vertices[:, 2] > tailor.at("upperChest")[2] - 0.02]
     distance, index = cKDTree(cloth[:, :2]).query(np.c_[x, y], k=8)
     near = 1 / (distance + 0.004)

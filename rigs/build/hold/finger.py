@@ -1,4 +1,4 @@
-"""A finger as a planar arm of three bones with coupled outer joints, θ3 = κ θ2, solved in closed form.
+"""A finger as a planar arm of three bones with coupled outer joints, θ3 = κ θ2, the pad alone given.
 
 With κ = 1/3 and u = cos(θ2/3) the squared distance from knuckle to pad is a quartic in u that has one root in
 [√½, 1] for every target within reach.

@@ -52,7 +52,7 @@ class Grip:
     def reach(self, x: Array) -> tuple[Array, Array, ArmPose]:
         """Hand rotation and position in the instrument's frame, and the arm.
 
-        X is position m, rotation vector, swivel, shoulder (2).
+        `x` is position m, rotation vector, swivel, shoulder (2).
         """
         turn, place = self.instrument
         rotation = Rotation.from_rotvec(x[3:6]).as_matrix()
@@ -60,10 +60,7 @@ class Grip:
         return rotation, x[:3], arm
 
     def arm_cost(self, arm: ArmPose, x: Array) -> list[Array]:
-        """Residuals of posture: relaxed shoulder.
-
-        Elbow out and down, straight wrist, nothing out of reach.
-        """
+        """Residuals of posture: shoulder relaxed, elbow out and down, wrist straight, nothing out of reach."""
         twist, flexion, deviation = arm.wrist * DEG
         return [
             np.array([arm.lacking * MM]),
@@ -83,10 +80,7 @@ class Grip:
     def depth(
         self, rotation: Array, position: Array, centres: Array, radii: Array, allowed_m: float = 0.0005
     ) -> Array:
-        """How deep (P,) in mm spheres of the hand's frame lie inside the instrument.
-
-        Beyond what flesh gives.
-        """
+        """How deep (P,) in mm spheres of the hand's frame lie inside the instrument, less what flesh gives."""
         inside = radii - allowed_m - self.obstacles.clearance(position + centres @ rotation.T)
         deep: Array = np.maximum(inside, 0) * MM
         return deep
