@@ -60,7 +60,7 @@ class Grip:
         return rotation, x[:3], arm
 
     def arm_cost(self, arm: ArmPose, x: Array) -> list[Array]:
-        """Residuals of posture: shoulder relaxed, elbow out and down, wrist straight, nothing out of reach."""
+        """Residuals of posture: shoulder relaxed, elbow out and down, wrist straight, all in reach."""
         twist, flexion, deviation = arm.wrist * DEG
         return [
             np.array([arm.lacking * MM]),
@@ -80,7 +80,7 @@ class Grip:
     def depth(
         self, rotation: Array, position: Array, centres: Array, radii: Array, allowed_m: float = 0.0005
     ) -> Array:
-        """How deep (P,) in mm spheres of the hand's frame lie inside the instrument, less what flesh gives."""
+        """How deep (P,), mm, spheres of the hand lie inside the instrument, less what flesh gives."""
         inside = radii - allowed_m - self.obstacles.clearance(position + centres @ rotation.T)
         deep: Array = np.maximum(inside, 0) * MM
         return deep
