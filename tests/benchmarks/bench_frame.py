@@ -110,9 +110,7 @@ def main() -> None:
     ready_s = time.perf_counter() - start
     manifest = build_manifest(subject.layout)
     joints = sum(len(skeleton.joints) for skeleton in subject.layout.skeletons)
-    print(
-        f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, NumPy {np.__version__}"
-    )
+    print(machine())
     print(f"{options.notes} notes read, fingered and planned in {ready_s * 1e3:.0f} ms")
     print(
         f"{joints} joints, {len(subject.layout.parameters)} parameters, {manifest.frame_size} bytes a frame"

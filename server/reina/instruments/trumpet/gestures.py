@@ -32,6 +32,9 @@ RAISE_S = 1.1
 RAISED_BEFORE_S = 0.8
 """The trumpet is back at the lips this long before the next note."""
 
+LEANING_PHRASE_S = 1.0
+"""Nobody leans into less."""
+
 SHORTEST_PHRASE_S = 2.0
 """No breath is taken before a phrase has lasted this long, unless the rest is long."""
 
@@ -235,12 +238,13 @@ def _lean(phrases: Phrases, jitter: FloatArray) -> FloatArray:
     length = phrases.end_s - phrases.start_s
     reach = (0.35 + 0.65 * phrases.loudness) * (1.0 + 0.3 * jitter) * np.minimum(length / 2.5, 1.0)
     climax = phrases.start_s + 0.6 * length
-    after = np.minimum(0.2 * phrases.rest_after_s, 1.5)
+    settled = phrases.end_s + np.minimum(0.2 * phrases.rest_after_s, 1.5)
+    leans = length >= LEANING_PHRASE_S
     return _in_order(
         [
-            _movements(begin, duration, -0.45 * np.minimum(duration / 0.5, 1.0)),
-            np.column_stack([phrases.start_s, climax, reach]),
-            np.column_stack([climax, phrases.end_s + after, np.zeros(len(climax))]),
+            _movements(begin, duration, -0.45 * np.minimum(duration / 0.5, 1.0))[leans],
+            np.column_stack([phrases.start_s, climax, reach])[leans],
+            np.column_stack([climax, settled, np.zeros(len(climax))])[leans],
         ]
     )
 
@@ -248,9 +252,8 @@ def _lean(phrases: Phrases, jitter: FloatArray) -> FloatArray:
 def _turn(phrases: Phrases, jitter: FloatArray) -> FloatArray:
     """A phrase is played a little to one side, slowly taken."""
     length = phrases.end_s - phrases.start_s
-    return np.column_stack(
-        [phrases.start_s, phrases.start_s + np.maximum(length, 0.2), jitter * np.minimum(length / 4, 1)]
-    )
+    side = jitter * np.minimum(length / 4.0, 1.0)
+    return np.column_stack([phrases.start_s, phrases.end_s, side])[length >= LEANING_PHRASE_S]
 
 
 def _vibrato(played: PlayedPart) -> FloatArray:
