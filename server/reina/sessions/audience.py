@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 from typing import TYPE_CHECKING
 
+from reina.protocol.messages import StreamError
 from reina.sessions.broadcast import Broadcast
 from reina.sessions.description import transport_message
+from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -19,9 +22,10 @@ if TYPE_CHECKING:
     from reina.sessions.note_messages import NoteMessages
     from reina.sessions.viewer import Viewer
 
-TICK_S = 1 / 60
-LATEST_S = 0.25
-"""A turn that is later than this is not made up for."""
+LAST_FRAME_S = 1 / 60
+"""How often it is looked whether the music has ended, once its last frame is sent."""
+
+_log = logging.getLogger(__name__)
 
 
 class Audience:
@@ -29,7 +33,7 @@ class Audience:
 
     One ticker serves all of them: what is due is evaluated and encoded once, then posted to each viewer's
     outbox. `tick` does one turn and takes the time from outside; `_run` is the loop around it, which waits
-    for absolute deadlines so that no turn's delay adds up.
+    for the times of the schedule so that no turn's delay adds up.
 
     Args:
         frames: The session's encoded frames.
@@ -79,18 +83,21 @@ class Audience:
         self._woken.set()
         if self._ticking is None:
             self._ticking = asyncio.create_task(self._run())
+            self._ticking.add_done_callback(self._stopped)
 
     def leave(self, viewer: Viewer) -> None:
         """Let a viewer go; the last one stops the ticker."""
         self._viewers.discard(viewer)
-        if not self._viewers and self._ticking:
-            self._ticking.cancel()
-            self._ticking = None
+        if not self._viewers:
+            self._frames.forget()
+            if self._ticking:
+                self._ticking.cancel()
+                self._ticking = None
 
     def dismiss(self) -> None:
         """Close everybody: the session is no more."""
         for viewer in self._viewers:
-            viewer.end()
+            viewer.end(GOING_AWAY, "the session has ended")
 
     def announce(self, message: BaseModel) -> None:
         """Post a control message to everybody."""
@@ -144,19 +151,27 @@ class Audience:
             for viewer in self._viewers:
                 viewer.post_text(text)
 
+    def _stopped(self, ticking: asyncio.Task[None]) -> None:
+        """A ticker that fails leaves nobody in front of a picture that stands still without a word."""
+        if ticking.cancelled():
+            return
+        _log.error("the ticker of a session failed", exc_info=ticking.exception())
+        self._ticking = None
+        self.announce(StreamError(title="The stream has failed", detail="the server has noted why"))
+        for viewer in self._viewers:
+            viewer.end(INTERNAL_ERROR, "the stream has failed")
+
     async def _run(self) -> None:
-        deadline = self._now()
         while True:
             self._woken.clear()
             if not self.tick(self._now()):
                 await self._woken.wait()
-                deadline = self._now()
                 continue
             await asyncio.sleep(0)  # the viewers' outboxes first
             self._broadcast.prepare()
-            if self._now() >= deadline:
-                # After a long stall count on from now instead of hurrying through what was missed.
-                deadline = max(deadline + TICK_S, self._now() - LATEST_S)
+            # The schedule's own times are the deadlines: a turn that was late delays none after it.
+            next_time = self._broadcast.next_time()
+            now = self._now()
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(max(0.0, deadline - self._now())):
+                async with asyncio.timeout(max(0.0, next_time - now) if next_time else LAST_FRAME_S):
                     await self._woken.wait()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import secrets
 import shutil
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 RECORD = "session.json"
 SCORE = "score"
 SHOW = "show.json"
+_log = logging.getLogger(__name__)
 
 
 class SessionFolders:
@@ -70,9 +72,13 @@ class SessionFolders:
 
     def records(self) -> list[SessionRecord]:
         """The records of all sessions, newest first."""
-        records = [
-            self.record(folder.name) for folder in self._sessions.iterdir() if (folder / RECORD).exists()
-        ]
+        records: list[SessionRecord] = []
+        for folder in self._sessions.iterdir():
+            try:
+                records.append(self.record(folder.name))
+            except (OSError, ValueError) as error:
+                # One that was just ended, or was damaged from outside; the others are still to be listed.
+                _log.warning("session %s cannot be read: %s", folder.name, error)
         return sorted(records, key=lambda record: record.created_at, reverse=True)
 
     def delete(self, session_id: str) -> None:

@@ -144,36 +144,26 @@ class SessionStore:
         Raises:
             InputError: There is no such part.
         """
-        record = session.record
-        changes: dict[str, object] = {
-            "title": title,
-            "public": public,
-            "part": part,
-            "transposition": transposition,
-        }
-        changed = record.model_copy(
-            update={key: value for key, value in changes.items() if value is not None}
-        )
-        if changed == record:
-            return
-        production = session.production
-        plays_other = (changed.part, changed.transposition) != (record.part, record.transposition)
-        if plays_other:
-            production = await asyncio.to_thread(
-                Production.plan,
-                self.stage,
-                production.score,
-                production.show,
-                part=changed.part,
-                transposition=changed.transposition,
-            )
-        await asyncio.to_thread(self._folders.write_record, changed)
-        if plays_other:
-            session.change_part(changed, production)
-            session.song.close()
-            session.song = self._song(session)
-        else:
-            session.record = changed
+        asked = {"title": title, "public": public, "part": part, "transposition": transposition}
+        changes = {field: value for field, value in asked.items() if value is not None}
+        async with session.editing:
+            record = session.record.model_copy(update=changes)
+            production = session.production
+            plays_other = (record.part, record.transposition) != (production.part, production.transposition)
+            if plays_other:
+                production = await asyncio.to_thread(
+                    Production.plan,
+                    self.stage,
+                    production.score,
+                    production.show,
+                    part=record.part,
+                    transposition=record.transposition,
+                )
+                session.change_part(record, production)
+                session.song.close()
+                session.song = self._song(session)
+            session.record = record
+            await asyncio.to_thread(self._folders.write_record, record)
 
     async def set_show(self, session: Session, edit: Callable[[Show], Show], *, path: str | None) -> Show:
         """Change a session's show and keep it.
@@ -186,9 +176,10 @@ class SessionStore:
         async with session.editing:
             show = edit(session.production.show)
             production = await asyncio.to_thread(session.production.with_show, show)
+            # Seen first, then kept: the answer waits for both.
+            session.change_show(production, path=path)
             folder = self._folders.folder(session.id)
             await asyncio.to_thread(_write_show, folder, show)
-            session.change_show(production, path=path)
         return show
 
     async def delete(self, session: Session) -> None:

@@ -8,6 +8,7 @@ from collections import deque
 from typing import Protocol
 
 GOING_AWAY = 1001
+INTERNAL_ERROR = 1011
 TRY_AGAIN_LATER = 1013
 FRAMES_WAITING = 12
 """Most frames that wait for a viewer; when more come, the oldest are dropped."""
@@ -57,7 +58,7 @@ class Viewer:
     def post_text(self, text: str) -> None:
         """Queue a control message; it goes out before any frames that wait."""
         if len(self._texts) >= MESSAGES_WAITING:
-            self._end(TRY_AGAIN_LATER, "too many messages wait; connect again")
+            self.end(TRY_AGAIN_LATER, "too many messages wait; connect again")
             return
         self._texts.append(text)
         self._posted.set()
@@ -69,9 +70,10 @@ class Viewer:
         self._frames.append(message)
         self._posted.set()
 
-    def end(self) -> None:
-        """Have `run` close the connection: the session is no more."""
-        self._end(GOING_AWAY, "the session has ended")
+    def end(self, code: int, reason: str) -> None:
+        """Have `run` close the connection."""
+        self._ending = (code, reason)
+        self._ended.set()
 
     def drop_frames(self) -> None:
         """Forget the frames that wait: a new epoch has made them worthless."""
@@ -98,10 +100,6 @@ class Viewer:
         finally:
             sending.cancel()
             ended.cancel()
-
-    def _end(self, code: int, reason: str) -> None:
-        self._ending = (code, reason)
-        self._ended.set()
 
     async def _send(self) -> None:
         while True:

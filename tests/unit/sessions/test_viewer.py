@@ -115,7 +115,7 @@ def test_a_session_that_ends_says_so() -> None:
         viewer = Viewer(line)
         running = asyncio.create_task(viewer.run())
         await _settle()
-        viewer.end()
+        viewer.end(1001, "the session has ended")
         await asyncio.wait_for(running, 5)
         return line.closed
 

@@ -1,0 +1,152 @@
+"""Sessions in memory and on disk, with the real stage."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from tests.integration.scores import duet, scale, song
+from tests.unit.sessions.fakes import HandClock
+
+from reina.keyframes import Show
+from reina.protocol.transport import Pause, Play, Seek
+from reina.sessions.production import Stage
+from reina.sessions.sound import SongRenderer
+from reina.sessions.store import Draft, SessionStore
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+    from typing import Any
+
+    from reina.sessions.session import Session
+
+RIGS = Path(__file__).parents[3] / "rigs"
+
+
+@pytest.fixture(scope="module")
+def stage() -> Stage:
+    return Stage.load(RIGS)
+
+
+class Desk:
+    """A store, and drafts for it."""
+
+    def __init__(self, data_dir: Path, stage: Stage, loaded: int = 32) -> None:
+        self.now = HandClock()
+        self.data_dir = data_dir
+        self.store = SessionStore(data_dir, stage, SongRenderer(data_dir), now=self.now, loaded=loaded)
+
+    async def create(self, score: bytes, **options: Any) -> Session:
+        with self.store.staging() as folder:
+            (folder / "score").write_bytes(score)
+            (folder / "song").write_bytes(song(0.1))
+            draft = Draft(folder=folder, score="score", song="song", **options)
+            session, _ = await self.store.create(draft)
+        return session
+
+    async def get(self, session_id: str) -> Session:
+        session = await self.store.get(session_id)
+        assert session is not None
+        return session
+
+
+def run(scenario: Callable[[], Coroutine[Any, Any, None]]) -> None:
+    asyncio.run(scenario())
+
+
+def test_a_session_is_found_again_by_another_store(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        first = Desk(tmp_path, stage)
+        made = await first.create(duet(), part=0, transposition=-12, title="Mine", public=True)
+        made.control(Seek(action="seek", song_time_s=0.75))
+        await first.store.aclose()
+        found = await Desk(tmp_path, stage).get(made.id)
+        assert found is not made
+        assert found.record == made.record.model_copy(update={"song_time_s": 0.75})
+        assert found.transport().song_time_s == 0.75
+        assert found.production.performance.evaluate(0).rotations.tobytes() == (
+            made.production.performance.evaluate(0).rotations.tobytes()
+        )
+
+    run(scenario)
+
+
+def test_idle_sessions_beyond_the_bound_are_put_away_and_come_back(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, loaded=3)
+        made = [await desk.create(scale(4)) for _ in range(5)]
+        assert desk.store.loaded == 3
+        for session in made:
+            assert (await desk.get(session.id)).id == session.id
+        assert desk.store.loaded == 3
+
+    run(scenario)
+
+
+def test_a_session_that_plays_is_not_put_away(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, loaded=1)
+        playing = await desk.create(scale(4))
+        playing.control(Play(action="play"))
+        other = await desk.create(scale(4))
+        assert await desk.get(playing.id) is playing
+        playing.control(Pause(action="pause"))
+        await desk.get(other.id)
+        await desk.create(scale(4))
+        assert desk.store.loaded == 1
+        assert await desk.get(playing.id) is not playing
+
+    run(scenario)
+
+
+def test_those_who_ask_at_the_same_time_get_the_same_session(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        made = await Desk(tmp_path, stage).create(scale(4))
+        desk = Desk(tmp_path, stage)
+        found = await asyncio.gather(*(desk.get(made.id) for _ in range(8)))
+        assert len({id(session) for session in found}) == 1
+
+    run(scenario)
+
+
+def test_another_part_keeps_the_show_and_begins_an_epoch(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(duet())
+        show = Show(title="Kept")
+        await desk.store.set_show(session, lambda _: show, path=None)
+        epoch = session.transport().epoch
+        await desk.store.change(session, part=0)
+        assert session.transport().epoch == epoch + 1
+        assert session.production.show.title == "Kept"
+        assert session.production.part == session.record.part == 0
+        await desk.store.change(session, title="Renamed")
+        assert session.transport().epoch == epoch + 1, "a name is in no frame"
+        again = await Desk(tmp_path, stage).get(session.id)
+        assert (again.record.title, again.record.part, again.production.show.title) == ("Renamed", 0, "Kept")
+
+    run(scenario)
+
+
+def test_an_ended_session_is_gone_from_disk(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(scale(4))
+        await desk.store.delete(session)
+        assert await desk.store.get(session.id) is None
+
+    run(scenario)
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+
+
+def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        whole = await desk.create(scale(4), public=True)
+        damaged = await desk.create(scale(4), public=True)
+        (tmp_path / "sessions" / damaged.id / "session.json").write_text("{")
+        assert {record.id for record in await desk.store.public()} == {whole.id}
+
+    run(scenario)
