@@ -1,7 +1,9 @@
 """Parameters over time: keyframes, interpolations, tracks, shows. Knows neither music nor skeletons."""
 
 from reina.keyframes.eased_keyframe import CubicBezierKeyframe, EasedKeyframe
+from reina.keyframes.edits import ShowHistory, with_edits
 from reina.keyframes.errors import KeyNotFoundError, ShowError
+from reina.keyframes.event_response import EventResponse, NoteFilter
 from reina.keyframes.interpolation import InterpolationError, interpolations
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import option
@@ -17,6 +19,7 @@ from reina.keyframes.spline_keyframe import AutomaticKeyframe, ClampedKeyframe, 
 from reina.keyframes.stage_parameters import STAGE_PARAMETERS, stage_registry
 from reina.keyframes.time_map import TimeMap, TimeUnit
 from reina.keyframes.track import Track, UnknownTrack
+from reina.keyframes.triggers import Triggers
 
 __all__ = [
     "OKLAB",
@@ -26,25 +29,30 @@ __all__ = [
     "ClampedKeyframe",
     "CubicBezierKeyframe",
     "EasedKeyframe",
+    "EventResponse",
     "InterpolationError",
     "KeyNotFoundError",
     "Keyframe",
     "Marker",
+    "NoteFilter",
     "Outside",
     "Parameter",
     "ParameterRegistry",
     "PerformanceEventEmitter",
     "Show",
     "ShowError",
+    "ShowHistory",
     "ShowPlan",
     "SplineKeyframe",
     "TimeMap",
     "TimeUnit",
     "Track",
+    "Triggers",
     "UnknownTrack",
     "interpolations",
     "keyframe_document",
     "option",
     "stage_registry",
     "track_document",
+    "with_edits",
 ]

@@ -8,11 +8,13 @@ from reina.keyframes.errors import KeyNotFoundError, ShowError
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.parameter import Parameter
 from reina.keyframes.parameter_registry import ParameterRegistry
+from reina.keyframes.place import Json, Place
 from reina.keyframes.show_plan import ShowPlan
-from reina.keyframes.show_reader import Json, Place, read_keyframe, read_track
+from reina.keyframes.show_reader import KEYFRAME_FIELDS, read_keyframe, read_track
 from reina.keyframes.show_writer import json_value, keyframe_document, track_document
 from reina.keyframes.time_map import TIME_UNITS, TimeMap, TimeUnit
 from reina.keyframes.track import Track, UnknownTrack
+from reina.keyframes.triggers import Triggers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -143,6 +145,7 @@ class Show:
         registry: ParameterRegistry,
         time_map: TimeMap | None = None,
         *,
+        triggers: Triggers | None = None,
         fps: float = 60.0,
         earlier: ShowPlan | None = None,
     ) -> ShowPlan:
@@ -151,10 +154,13 @@ class Show:
         Args:
             registry: The parameters, in the order of the values.
             time_map: How the music's time runs; 120 beats a minute in 4/4 where it is not given.
+            triggers: What happens in the music, for tracks that answer it; those of `earlier` where it is
+                not given.
             fps: The grid on which `ShowPlan.evaluate` looks for cuts.
             earlier: A plan of an earlier state of this show: tracks that both share are taken from it.
         """
-        return ShowPlan.make(self, registry, time_map or TimeMap.steady(), fps=fps, earlier=earlier)
+        time_map = time_map or TimeMap.steady()
+        return ShowPlan.make(self, registry, time_map, triggers=triggers, fps=fps, earlier=earlier)
 
     def with_keyframe(self, path: str, keyframe: Keyframe[Any], *, time: TimeUnit | None = None) -> "Show":
         """The show with a keyframe more, or with another in the place of the one with its key.
@@ -176,13 +182,13 @@ class Show:
         return self.with_track(Track(path, (named,), time=time or self.time))
 
     def without_keyframe(self, path: str, key: str) -> "Show":
-        """The show with a keyframe less; a track that loses its last goes with it.
+        """The show with a keyframe less; a track that loses its last and answers no events goes with it.
 
         Raises:
             KeyNotFoundError: There is no such track or keyframe.
         """
         track = self.track(path)
-        if track.keyframe(key) and len(track.keyframes) == 1:
+        if track.keyframe(key) and len(track.keyframes) == 1 and track.events is None:
             return self.without_track(path)
         return self.with_track(track.without_keyframe(key))
 
@@ -196,12 +202,8 @@ class Show:
             ShowError: A field is not as it should be.
         """
         track = self.track(parameter.path)
-        document = keyframe_document(track.keyframe(key))
-        if changes.get("interpolation", document["interpolation"]) != document["interpolation"]:
-            kept = ("key", "time", "value", "in_tangent", "out_tangent")
-            document = {name: value for name, value in document.items() if name in kept}
-        document |= changes
-        keyframe = read_keyframe({n: v for n, v in document.items() if v is not None}, parameter, ())
+        document = changed_keyframe_document(keyframe_document(track.keyframe(key)), changes)
+        keyframe = read_keyframe(document, parameter, ())
         return self.with_track(track.without_keyframe(key).with_keyframe(keyframe))
 
     def new_keyframe(self, parameter: Parameter, document: object) -> Keyframe[Any]:
@@ -234,6 +236,13 @@ class Show:
         if all(track.parameter != path for track in self.tracks):
             raise KeyNotFoundError("the show has no such track", track=path)
         return replace(self, tracks=tuple(track for track in self.tracks if track.parameter != path))
+
+
+def changed_keyframe_document(document: Json, changes: Json) -> dict[str, Any]:
+    """A keyframe as JSON with some fields changed; see `Show.with_changed`."""
+    if changes.get("interpolation", document["interpolation"]) != document["interpolation"]:
+        document = {name: value for name, value in document.items() if name in KEYFRAME_FIELDS}
+    return {name: value for name, value in {**document, **changes}.items() if value is not None}
 
 
 def _read_markers(document: Json, place: Place) -> list[Marker]:

@@ -1,93 +1,25 @@
 """Reads tracks and keyframes from JSON, and says exactly what is wrong with them."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeVar, cast
+from collections.abc import Iterable, Mapping
+from typing import Any, cast
 
-from reina.keyframes.errors import ShowError
+from reina.keyframes.event_reader import read_events
 from reina.keyframes.interpolation import interpolations, interpolations_for
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import options_of
 from reina.keyframes.outside import OUTSIDE
 from reina.keyframes.parameter import Parameter
+from reina.keyframes.place import Json, Place
 from reina.keyframes.spaces import COLOR_SPACES
 from reina.keyframes.time_map import TIME_UNITS, TimeUnit
 from reina.keyframes.track import Track
 from reina.keyframes.value_types import parse_number, parse_numbers
 
-TRACK_FIELDS = ("parameter", "time", "before", "after", "color_space", "muted", "keyframes")
+TRACK_FIELDS = ("parameter", "time", "before", "after", "color_space", "muted", "events", "keyframes")
 KEYFRAME_FIELDS = ("key", "time", "value", "interpolation", "in_tangent", "out_tangent")
 LONGEST_TRACK = 100_000
 _KEY = re.compile(r"[A-Za-z0-9_-]{1,64}")
-
-Json = Mapping[str, Any]
-Choice = TypeVar("Choice", bound=str)
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where in a show something is read; makes the errors.
-
-    Attributes:
-        track: Path of the track's parameter, or None.
-        key: Key of the keyframe, or None.
-    """
-
-    track: str | None = None
-    key: str | None = None
-
-    def error(self, detail: str, field: str | None = None) -> ShowError:
-        """An error at this place."""
-        return ShowError(detail, track=self.track, key=self.key, field=field)
-
-    def fields(self, value: object, known: Iterable[str], *, what: str) -> Json:
-        """A JSON object that has only known fields."""
-        if not isinstance(value, Mapping):
-            raise self.error(f"{what} is a JSON object, not {type(value).__name__}")
-        document = cast("Json", value)
-        names = tuple(known)
-        for name in document:
-            if name not in names:
-                raise self.error(f"{what} has no such field; its fields are {', '.join(names)}", str(name))
-        return document
-
-    def items(self, value: object, field: str) -> Sequence[object]:
-        """A JSON list."""
-        if isinstance(value, str | bytes) or not isinstance(value, Sequence):
-            raise self.error("a list is needed here", field)
-        return cast("Sequence[object]", value)
-
-    def choice(self, document: Json, field: str, choices: Sequence[Choice], default: object = None) -> Choice:
-        """One of several words."""
-        value: object = document.get(field, default)
-        for known in choices:
-            if value == known:
-                return known
-        raise self.error(f"{value!r} is none of {', '.join(choices)}", field)
-
-    def text(self, document: Json, field: str, default: str = "") -> str:
-        """A string."""
-        value: object = document.get(field, default)
-        if not isinstance(value, str):
-            raise self.error("a text in quotes is needed here", field)
-        return value
-
-    def flag(self, document: Json, field: str) -> bool:
-        """True or false; false where it is not given."""
-        value: object = document.get(field, False)
-        if not isinstance(value, bool):
-            raise self.error(f"{value!r} is neither true nor false", field)
-        return value
-
-    def number(self, document: Json, field: str) -> float:
-        """A finite number that must be given."""
-        if field not in document:
-            raise self.error("it is missing; a finite number is needed", field)
-        try:
-            return parse_number(document[field])
-        except ValueError as error:
-            raise self.error(str(error), field) from None
 
 
 def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> Track:
@@ -98,9 +30,10 @@ def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> 
     """
     place = Place(parameter.path)
     place.fields(document, TRACK_FIELDS, what="a track")
-    entries = place.items(document.get("keyframes"), "keyframes")
-    if not entries:
-        raise place.error("a track has one keyframe at least; leave out a track that has none", "keyframes")
+    events = read_events(document["events"], parameter) if "events" in document else None
+    entries = place.items(document.get("keyframes", None if events is None else ()), "keyframes")
+    if not entries and events is None:
+        raise place.error("a track has one keyframe at least, or answers events", "keyframes")
     if len(entries) > LONGEST_TRACK:
         raise place.error(
             f"{len(entries)} keyframes are more than a track may have, {LONGEST_TRACK}", "keyframes"
@@ -119,6 +52,7 @@ def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> 
         after=place.choice(document, "after", OUTSIDE, "hold"),
         color_space=place.choice(document, "color_space", COLOR_SPACES, "oklab"),
         muted=place.flag(document, "muted"),
+        events=events,
     )
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, cast
 
+from reina.keyframes.event_reader import events_document
 from reina.keyframes.interpolation import interpolation_name
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import options_of
@@ -40,6 +41,8 @@ def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:
         document["color_space"] = track.color_space
     if track.muted:
         document["muted"] = True
+    if track.events is not None:
+        document["events"] = json_value(events_document(track.events))
     document["keyframes"] = [keyframe_document(keyframe) for keyframe in track.keyframes]
     return document
 

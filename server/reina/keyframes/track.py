@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from reina.keyframes.errors import KeyNotFoundError, ShowError
+from reina.keyframes.event_response import EventResponse
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.outside import Outside
 from reina.keyframes.spaces import ColorSpace
@@ -25,6 +26,8 @@ class Track:
         after: What happens after the last.
         color_space: What colours are mixed in.
         muted: Whether the show leaves the track out.
+        events: What it does at notes, beats or bars on top of its keyframes; a track that has this needs no
+            keyframes.
     """
 
     parameter: str
@@ -34,6 +37,7 @@ class Track:
     after: Outside = "hold"
     color_space: ColorSpace = "oklab"
     muted: bool = False
+    events: EventResponse | None = None
 
     def __post_init__(self) -> None:
         ordered = tuple(sorted(self.keyframes, key=lambda keyframe: keyframe.time))
