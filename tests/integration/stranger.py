@@ -1,4 +1,4 @@
-"""Frames as a stranger reads them: from the manifest and the rigs' JSON alone, with forward kinematics of its own.
+"""Frames as a stranger reads them: the manifest, the rigs' JSON, and forward kinematics of its own.
 
 Nothing here imports reina, so that a mistake in the server's own kinematics cannot hide in the test's.
 """

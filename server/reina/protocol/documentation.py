@@ -88,9 +88,9 @@ _EXAMPLE = """
 ```python
 from reina.protocol import Manifest, decode
 
-frames = decode(manifest, message)     # manifest: the fields of `hello` that Manifest names
-frames["song_time_s"]                  # (F,)
-frames["rotations"]                    # (F, J, 4)
+frames = decode(manifest, message)  # manifest: the fields of `hello` that Manifest names
+frames["song_time_s"]  # (F,)
+frames["rotations"]  # (F, J, 4)
 ```
 
 ## Messages from the server
