@@ -19,3 +19,5 @@ class SolveStatus(IntEnum):
     """No pose within the limits brings the end so far or so near."""
     AT_LIMIT = 2
     """The distance could be met but a joint stopped at its limit, so the end is beside the target."""
+    NOT_CONVERGED = 3
+    """An iterative solver met its bound of iterations while the end was still beside the target."""
