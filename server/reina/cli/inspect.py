@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from reina.errors import InputError
-from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
+from reina.instruments import BRASS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
 from reina.music import Score, read_score
 
 DOWN, UP = "●", "○"
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a MIDI file or a JSON score")
     parser.add_argument("--json", action="store_true", help="print JSON and not tables")
-    parser.add_argument("--instrument", choices=sorted(INSTRUMENTS), default="trumpet", help="what plays it")
+    parser.add_argument("--instrument", choices=sorted(BRASS), default="trumpet", help="what plays it")
     parser.add_argument("--part", type=int, help="the part to be played; the best one by default")
     parser.add_argument("--transposition", type=int, default=0, metavar="SEMITONES", help="move the part")
     parser.add_argument("--written", action="store_true", help="its pitches are written, not sounding ones")
@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     file: Path = arguments.file
     try:
         score = read_score(file.read_bytes(), filename=file.name, sequence=arguments.sequence)
-        instrument = INSTRUMENTS[arguments.instrument]
+        instrument = BRASS[arguments.instrument]
         rankings = instrument.rank_parts(score)
         part = rankings[0].part if arguments.part is None else arguments.part
         played = instrument.play(

@@ -6,6 +6,7 @@ Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from reina.instruments.brass.family import FAMILY
 from reina.instruments.describe import describe_notes, describe_score
 from reina.instruments.instrument import Instrument
 from reina.instruments.pitch_names import pitch_name
@@ -14,9 +15,13 @@ from reina.instruments.ranking import PartRanking
 from reina.instruments.trumpet import TRUMPET
 
 INSTRUMENTS: Mapping[str, Instrument] = MappingProxyType({"trumpet": TRUMPET})
-"""What a player can hold, by name."""
+"""What a player can hold, by name: instruments with a rig."""
+
+BRASS: Mapping[str, Instrument] = MappingProxyType({**INSTRUMENTS, **FAMILY})
+"""All valved brass that has a fingering, with a rig or without, by name."""
 
 __all__ = [
+    "BRASS",
     "INSTRUMENTS",
     "Fingering",
     "Instrument",

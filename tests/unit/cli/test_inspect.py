@@ -1,0 +1,135 @@
+"""`reina inspect`."""
+
+import json
+from pathlib import Path
+
+import pytest
+from tests.unit.music.midi_bytes import midi, name, off, on
+
+from reina.cli import main
+
+SCORES = Path(__file__).parents[3] / "examples" / "scores"
+MARCH = SCORES / "prince-of-denmarks-march.mid"
+
+
+def output(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert main(["inspect", *arguments]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    return printed.out
+
+
+def test_tables(capsys: pytest.CaptureFixture[str]):
+    text = output(capsys, str(MARCH))
+    lines = text.splitlines()
+    assert lines[0] == "Prince of Denmark's March  1:09.31  503 notes"
+    assert "Tempo" in lines
+    assert "  0      0.000   112.00" in lines
+    assert "  0     4/4" in lines
+    assert any(
+        line.startswith("  ▶  0     Trumpet  56") and "named “Trumpet” (+6.0)" in line for line in lines
+    )
+    assert "Warnings: none" in lines
+    first = lines.index("Fingerings of part 0, transposed by 0") + 2
+    assert lines[first].split() == [
+        "1",
+        "0",
+        "0.000",
+        "0.985",
+        "E5",
+        "D5",
+        "○",
+        "○",
+        "○",
+        "open:",
+        "usual",
+        "for",
+        "written",
+        "E5",
+    ]
+    assert "2-3: usual for written A♭5" in lines[first + 1]
+    assert "○ ● ●" in lines[first + 1]
+
+
+def test_json(capsys: pytest.CaptureFixture[str]):
+    described = json.loads(output(capsys, str(MARCH), "--json"))
+    assert described["title"] == "Prince of Denmark's March"
+    assert len(described["notes"]) == 503
+    assert described["notes"][0].keys() >= {
+        "part",
+        "onset_s",
+        "onset_beats",
+        "written_pitch",
+        "valves",
+        "reason",
+    }
+    assert [part["index"] for part in described["parts"]] == [0, 1, 2, 3]
+
+
+def test_another_part_and_transposition(capsys: pytest.CaptureFixture[str]):
+    described = json.loads(
+        output(capsys, str(MARCH), "--json", "--part", "2", "--transposition", "12", "--octave-fit")
+    )
+    assert (described["part"], described["transposition"]) == (2, 24)
+    assert "octave_fit" in {warning["kind"] for warning in described["warnings"]}
+    written = json.loads(output(capsys, str(MARCH), "--json", "--written"))
+    assert written["transposition"] == -2
+
+
+def test_another_instrument(capsys: pytest.CaptureFixture[str]):
+    described = json.loads(output(capsys, str(MARCH), "--json", "--instrument", "tuba"))
+    assert described["instrument"] == "tuba"
+    assert described["part"] == 2
+
+
+def test_warnings_and_sequences(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    path = tmp_path / "two.mid"
+    path.write_bytes(midi((name("A"), on(0, 60), off(480, 60)), (name("B"), on(0, 30), on(480, 30)), form=2))
+    text = output(capsys, str(path), "--sequence", "1")
+    assert "sequence 1 of 2" in text
+    assert "unreleased_note" in text
+    assert "F♯1 lies below the lowest note" in text
+    assert " –  " in text
+
+
+def test_a_score_of_many_bars(capsys: pytest.CaptureFixture[str]):
+    text = output(capsys, str(SCORES / "taps.mid"))
+    assert "  0    0     0.000" in text
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (None, "No such file"),
+        (b"", "empty"),
+        (b"nonsense", "no MIDI file"),
+        (b'{"parts": []}', "format: field required"),
+    ],
+)
+def test_what_cannot_be_read(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, content: bytes | None, why: str
+):
+    path = tmp_path / "score.mid"
+    if content is not None:
+        path.write_bytes(content)
+    assert main(["inspect", str(path)]) == 1
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith(f"reina inspect: {path}: ")
+    assert why in printed.err
+    assert len(printed.err.splitlines()) == 1
+
+
+def test_a_part_that_is_not_there(capsys: pytest.CaptureFixture[str]):
+    assert main(["inspect", str(MARCH), "--part", "9"]) == 1
+    assert "there is no part 9; there are 0 to 3" in capsys.readouterr().err
+
+
+def test_commands_are_listed(capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit) as ended:
+        main(["--help"])
+    assert ended.value.code == 0
+    assert {"serve", "inspect"} <= set(capsys.readouterr().out.split())
+    with pytest.raises(SystemExit) as ended:
+        main([])
+    assert ended.value.code == 2
