@@ -102,8 +102,8 @@ def projection() -> None:
     positions, world = forward_kinematics(PLAYER.skeleton, HOLD.rotations(PLAYER), HOLD.hips_position)
     hand = PLAYER.skeleton.index("rightHand")
     fingers = FingerChains(PLAYER, FINGERS)
-    print("
-finger on its valve, whole stroke    own plane, mm   the paper's planes, mm   φ = -115° reaches")
+    print()
+    print("finger on its valve, whole stroke    own plane, mm   the paper's planes, mm   φ = -115° reaches")
     for index, button in enumerate(TRUMPET.buttons):
         place = button.position + np.linspace(0, 1, 50)[:, None] * button.travel
         target = HOLD.instrument_position + rotate(HOLD.instrument_rotation, place)

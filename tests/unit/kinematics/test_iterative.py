@@ -102,7 +102,7 @@ def test_angles_and_rotations_are_two_ways_to_say_a_pose() -> None:
 
 
 def test_limits_beyond_a_right_angle_are_read_rightly() -> None:
-    """A finger bends by 113° about its order's middle axis: the other set of angles would break all limits."""
+    """A finger bends by 113° about its middle axis: its other set of angles would break limits."""
     limits = Limits("yzx", (0.0, 0.0, -1.98), (0.0, 0.0, 0.38))
     bent = r.about_axis(2, np.array([-1.97, -1.6, -0.5, 0.3]))
     np.testing.assert_allclose(
