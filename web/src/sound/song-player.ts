@@ -109,13 +109,21 @@ export class SongPlayer {
     return voice === null || this.#context.state !== "running" ? null : voice.path.positionAt(this.#heard());
   }
 
+  /** How far what is heard now is ahead of the song time that should be, seconds; null when nothing is. */
+  soundAhead(): number | null {
+    const voice = this.#voice;
+    if (voice === null || this.#context.state !== "running") return null;
+    return voice.path.errorAt(this.#heard(), this.#time.songTimeAt(this.#time.pageNow()));
+  }
+
   /** Measure, and correct when the sound is not where it should be. */
   check(): void {
     const voice = this.#voice;
-    if (voice === null || this.#context.state !== "running") return;
+    if (voice === null) return;
     const pageTime = this.#time.pageNow();
     if (pageTime < this.#checkFrom) return;
-    const error = voice.path.errorAt(this.#heard(), this.#time.songTimeAt(pageTime));
+    const error = this.soundAhead();
+    if (error === null) return;
     const correction = this.#drift.read(error, voice.rate);
     if (correction.kind === "restart") this.#restart();
     else if (correction.kind === "burst") {

@@ -25,6 +25,8 @@ export class Deck {
   showOpen = $state(remembered().showOpen);
   helpOpen = $state(false);
   cameraTaken = $state(false);
+  /** The window has room for one panel at a time. */
+  narrow = $state(false);
   /** Filled by the components that can do these things. */
   readonly hands: Partial<DeckHands> = {};
   #loopStart: number | null = null;
@@ -83,11 +85,13 @@ export class Deck {
   }
 
   togglePiece(open = !this.pieceOpen): void {
+    if (open && this.narrow) this.toggleShow(false);
     this.pieceOpen = open;
     remember({ pieceOpen: open });
   }
 
   toggleShow(open = !this.showOpen): void {
+    if (open && this.narrow) this.togglePiece(false);
     this.showOpen = open;
     remember({ showOpen: open });
   }

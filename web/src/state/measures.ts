@@ -13,7 +13,9 @@ export interface PageMeasures {
   /** A picture of the open session has been drawn. */
   readonly drawn: boolean;
   readonly session: string | null;
+  /** Index and epoch (modulo 256) of the frame that was drawn last; a blend counts as the earlier of its two. */
   readonly drawnIndex: number;
+  readonly drawnEpoch: number;
   readonly songTime: number;
   readonly epoch: number;
   readonly playing: boolean;
@@ -23,6 +25,8 @@ export interface PageMeasures {
   readonly clockRoundTrip: number;
   /** Picture less sound, seconds: how many readings, their mean, and what 95 % of them stay within. */
   readonly sync: { readonly readings: number; readonly mean: number; readonly p95: number };
+  /** Seconds by which what is heard is ahead of the server's song time; null while nothing is. */
+  readonly soundAhead: number | null;
   /** Local joint rotations as three.js has them, x y z w. */
   boneQuaternions(): Record<string, [number, number, number, number]>;
 }
@@ -45,6 +49,9 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     get drawnIndex() {
       return stage.drawnIndex;
     },
+    get drawnEpoch() {
+      return view()?.drawn?.epoch ?? -1;
+    },
     get songTime() {
       return view()?.songTime ?? 0;
     },
@@ -66,6 +73,9 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     get sync() {
       const sync = view()?.sync;
       return { readings: sync?.count ?? 0, mean: sync?.mean ?? 0, p95: sync?.within(0.95) ?? 0 };
+    },
+    get soundAhead() {
+      return view()?.soundAhead ?? null;
     },
     boneQuaternions: () => stage.boneQuaternions(),
   };

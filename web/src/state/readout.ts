@@ -8,13 +8,6 @@ export function clockTime(seconds: number, tenths = false): string {
   return `${minutes}:${shown}`;
 }
 
-const NAMES = ["C", "C♯", "D", "E♭", "E", "F", "F♯", "G", "A♭", "A", "B♭", "B"];
-
-/** A pitch's name with its octave, middle C (MIDI 60) being C4: `B♭4`. */
-export function pitchName(pitch: number): string {
-  return `${NAMES[((pitch % 12) + 12) % 12] ?? ""}${Math.floor(pitch / 12) - 1}`;
-}
-
 /** Valves as a player says them: `open`, `1`, `1 and 3`; `not playable` for null. */
 export function valveNames(valves: readonly number[] | null): string {
   if (valves === null) return "not playable";

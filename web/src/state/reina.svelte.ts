@@ -201,7 +201,7 @@ export class Reina {
   async #openHome(): Promise<void> {
     const { home } = remembered();
     if (home !== null && (await this.open(home))) {
-      history.replaceState(null, "", `/s/${encodeURIComponent(home)}`);
+      history.replaceState(null, "", addressOf(home));
       return;
     }
     this.phase = "opening";
@@ -228,9 +228,8 @@ export class Reina {
       const made = await this.api.createSession(given);
       rememberToken(made.id, made.control_token);
       this.#scores[made.id] = given.score;
-      const address = `/s/${encodeURIComponent(made.id)}`;
-      if (wasHome) history.replaceState(null, "", address);
-      else history.pushState(null, "", address);
+      if (wasHome) history.replaceState(null, "", addressOf(made.id));
+      else history.pushState(null, "", addressOf(made.id));
       await this.open(made.id);
     });
     if (this.view === null && this.phase === "opening") this.phase = "failed";
@@ -254,6 +253,11 @@ export class Reina {
     this.phase = phase;
     document.title = "Reina";
   }
+}
+
+/** A session's address in the browser; what the address asks for beside it (`?tier=`) stays. */
+function addressOf(id: string): string {
+  return `/s/${encodeURIComponent(id)}${location.search}`;
 }
 
 function withoutNull(score: File, { song, show }: SortedFiles): SessionFiles {

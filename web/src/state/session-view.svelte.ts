@@ -114,9 +114,14 @@ export class SessionView {
     return frame;
   }
 
-  /** The floats of the picture that was drawn last; null before the first. Read, never kept. */
-  get floats(): Float32Array | null {
-    return this.#queue?.drawn?.floats ?? null;
+  /** How far the sound is ahead of the server's song time, seconds; null while none is heard. */
+  get soundAhead(): number | null {
+    return this.#player.soundAhead();
+  }
+
+  /** The picture that was drawn last; null before the first. Read, never kept. */
+  get drawn(): Readonly<QueuedFrame> | null {
+    return this.#queue?.drawn ?? null;
   }
 
   /** Seconds from the page's clock to the server's, and the round trip that this rests on. */

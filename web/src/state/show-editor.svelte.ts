@@ -60,11 +60,11 @@ export class ShowEditor {
   async addHere(path: string): Promise<void> {
     const parameter = this.parameter(path);
     const { hello } = this.#view;
-    const floats = this.#view.floats;
-    if (parameter === null || hello === null || floats === null) return;
+    const floats = this.#view.drawn?.floats ?? null;
+    if (parameter === null) return;
     this.chosen = path;
     const track = this.tracks.find((each) => each.parameter === path) ?? null;
-    const value = valueOnScreen(hello, floats, parameter);
+    const value = hello === null || floats === null ? parameter.default : valueOnScreen(hello, floats, parameter);
     const at = this.#view.songTime;
     const there = track?.keyframes.find((each) => Math.abs(this.songTimeOf(track, each) - at) < SAME_PLACE_S);
     if (there !== undefined) return this.change(path, there.key, { value });

@@ -1,0 +1,88 @@
+"""A real server and a real browser for the page's tests."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import httpx
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+from tests.e2e.opened import Opened
+from tests.integration.server import Running, serve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+FIND_BROWSER = Path(__file__).with_name("find_browser.py")
+SOFTWARE_GL = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+SMALL = (760, 430)
+"""Width and height of the window: software GL draws a picture of this size in about a tenth of a second."""
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    """A server on a free port, with a data directory of its own."""
+    with serve(tmp_path_factory.mktemp("page")) as running:
+        yield running
+
+
+@pytest.fixture(scope="session")
+def client(server: Running) -> Iterator[httpx.Client]:
+    """A client of that server."""
+    with httpx.Client(base_url=server.address, timeout=30.0) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """A Chromium that draws in software."""
+    found = subprocess.run([sys.executable, str(FIND_BROWSER)], capture_output=True, text=True, check=True)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=found.stdout.strip(), args=list(SOFTWARE_GL), timeout=60_000
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
+    """Opens pages of the server, each in a browser profile of its own unless `beside` another.
+
+    Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
+    `refusals`.
+    """
+    opened: list[Opened] = []
+
+    def open_page(
+        path: str = "/",
+        *,
+        size: tuple[int, int] = SMALL,
+        beside: Opened | None = None,
+        refusals: tuple[str, ...] = (),
+    ) -> Opened:
+        if beside is None:
+            context = browser.new_context(viewport={"width": size[0], "height": size[1]})
+        else:
+            context = beside.page.context
+        one = Opened(context.new_page(), server.address, refusals)
+        opened.append(one)
+        one.go(path)
+        return one
+
+    yield open_page
+    for one in opened:
+        one.page.context.close()
+    assert [error for one in opened for error in one.errors] == []

@@ -1,0 +1,68 @@
+"""A page that is open in the browser, and what it says of itself (`window.reina`)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
+
+if TYPE_CHECKING:
+    from playwright.sync_api import ConsoleMessage, Page
+
+PATIENCE_S = 60.0
+"""Software GL on a busy machine draws a few pictures a second."""
+
+
+class Opened:
+    """One open page."""
+
+    def __init__(self, page: Page, address: str, refusals: tuple[str, ...] = ()) -> None:
+        self.page = page
+        self.errors: list[str] = []
+        self._refusals = refusals
+        self._address = address
+        page.set_default_timeout(PATIENCE_S * 1000)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", self._hear)
+
+    def _hear(self, message: ConsoleMessage) -> None:
+        expected = any(part in message.text for part in self._refusals)
+        if message.type == "error" and not expected:
+            self.errors.append(message.text)
+
+    def go(self, path: str) -> None:
+        """Load an address of the server, drawn with the least effort."""
+        self.page.goto(f"{self._address}{path}?tier=low")
+
+    def until_at_rest(self, index: int, epoch: int) -> None:
+        """Wait until the frame of a paused clock's epoch is drawn, unblended."""
+        self.until(
+            "([index, epoch]) => window.reina.drawnIndex === index && window.reina.drawnEpoch === epoch",
+            [index, epoch % 256],
+        )
+
+    @property
+    def session(self) -> str:
+        """Id of the session in the address."""
+        return urlsplit(self.page.url).path.removeprefix("/s/")
+
+    def until(self, expression: str, argument: Any = None) -> None:
+        """Wait for a JavaScript expression of the page to be true."""
+        self.page.wait_for_function(expression, arg=argument, timeout=PATIENCE_S * 1000, polling=50)
+
+    def until_drawn(self) -> None:
+        """Wait for the page's own sign that it has drawn a picture of its session."""
+        self.until("window.reina?.drawn === true")
+
+    def measure(self, name: str) -> Any:
+        """A figure of `window.reina`."""
+        return self.page.evaluate("(name) => window.reina[name]", name)
+
+    def bone_quaternions(self) -> dict[str, list[float]]:
+        """Local joint rotations as three.js has them, x y z w."""
+        return self.page.evaluate("window.reina.boneQuaternions()")
+
+    def choose_files(self, *files: tuple[str, str, bytes]) -> None:
+        """Give files to the page's file input: name, media type, content."""
+        self.page.set_input_files(
+            "#files", [{"name": name, "mimeType": media, "buffer": data} for name, media, data in files]
+        )

@@ -1,0 +1,208 @@
+"""The page in a real Chromium, against a real server."""
+
+from __future__ import annotations
+
+import io
+import statistics
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from PIL import Image
+from tests.integration.scores import scale, song
+
+from reina.protocol import Manifest, decode
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import httpx
+    from numpy.typing import NDArray
+    from tests.e2e.opened import Opened
+
+    Visit = Callable[..., Opened]
+
+pytestmark = pytest.mark.browser
+
+FPS = 60
+MIDI = ("scale.mid", "audio/midi", scale(32))
+WAV = ("scale.wav", "audio/wav", song())
+
+
+def open_scale(visit: Visit) -> Opened:
+    """A page with a session of its own: a scale and its recording, uploaded through the file input."""
+    opened = visit()
+    opened.until_drawn()
+    first = opened.session
+    opened.choose_files(MIDI, WAV)
+    opened.until(
+        "(first) => window.reina?.session && window.reina.session !== first && window.reina.drawn", first
+    )
+    return opened
+
+
+def streamed_rotations(client: httpx.Client, session: str, index: int) -> dict[str, NDArray[np.float32]]:
+    """Joint rotations of one frame, by joint name, as the server gives them over HTTP."""
+    path = f"/api/v1/sessions/{session}"
+    hello = client.get(f"{path}/manifest").json()
+    manifest = Manifest.model_validate({name: hello[name] for name in Manifest.model_fields})
+    span = {"start_s": index / FPS, "end_s": (index + 0.5) / FPS, "fps": FPS}
+    frames = decode(manifest, client.get(f"{path}/frames", params=span).content)
+    (frame,) = frames[frames["index"] == index]
+    names = [name for skeleton in manifest.skeletons for name in skeleton.joints]
+    return dict(zip(names, frame["rotations"], strict=True))
+
+
+def sampled(opened: Opened, name: str, count: int = 9) -> list[float | None]:
+    """A figure of `window.reina`, read some times in a row."""
+    values: list[float | None] = []
+    for _ in range(count):
+        values.append(opened.measure(name))
+        opened.page.wait_for_timeout(30)
+    return values
+
+
+def picture(opened: Opened) -> NDArray[np.int16]:
+    """The page's pixels, (height, width, 3)."""
+    image = Image.open(io.BytesIO(opened.page.screenshot(timeout=60_000))).convert("RGB")
+    return np.asarray(image).astype(np.int16)
+
+
+def test_first_visit_opens_the_bundled_piece_and_comes_back_to_it(visit: Visit) -> None:
+    opened = visit()
+    opened.until_drawn()
+    session = opened.session
+    assert len(session) >= 22, "the session has an address of its own"
+    assert opened.page.get_by_role("button", name="Drop your MIDI").is_visible()
+    assert opened.page.get_by_role("region", name="Transport").is_visible()
+    opened.go("/")
+    opened.until_drawn()
+    assert opened.session == session
+
+
+def test_an_uploaded_score_plays_with_its_song_and_the_streamed_bones(
+    visit: Visit, client: httpx.Client
+) -> None:
+    opened = open_scale(visit)
+    page = opened.page
+    page.keyboard.press("Space")
+    opened.until("window.reina.playing && window.reina.sound === 'ready' && window.reina.sync.readings > 5")
+    opened.until("window.reina.songTime > 1.5")
+    heard = [ahead for ahead in sampled(opened, "soundAhead") if ahead is not None]
+    assert heard, "the song is heard"
+    assert abs(statistics.median(heard)) < 0.06, f"the sound is ahead by {heard} s"
+    page.keyboard.press("Space")
+    opened.until("!window.reina.playing")
+    paused = client.get(f"/api/v1/sessions/{opened.session}/transport").json()
+    index = int(paused["song_time_s"] * FPS + 1e-6)
+    opened.until_at_rest(index, paused["epoch"])
+    drawn = opened.bone_quaternions()
+    streamed = streamed_rotations(client, opened.session, index)
+    assert set(drawn) == set(streamed)
+    for name, rotation in streamed.items():
+        np.testing.assert_allclose(drawn[name], rotation, atol=1e-6, err_msg=name)
+    turned = [name for name, rotation in streamed.items() if abs(rotation[3]) < 0.999]
+    assert len(turned) > 10, "the player stands in a pose, not at rest"
+
+
+def test_a_seek_in_one_tab_moves_the_other(visit: Visit, client: httpx.Client) -> None:
+    first = open_scale(visit)
+    second = visit(f"/s/{first.session}", beside=first)
+    second.until_drawn()
+    second.page.keyboard.press("Shift+ArrowRight")
+    opened = (first, second)
+    for one in opened:
+        one.until("window.reina.drawnIndex > 0 && !window.reina.playing")
+    state = client.get(f"/api/v1/sessions/{first.session}/transport").json()
+    index = int(state["song_time_s"] * FPS + 1e-6)
+    assert index == 2 * FPS, "the second bar of the scale"
+    for one in opened:
+        one.until_at_rest(index, state["epoch"])
+    assert first.bone_quaternions() == second.bone_quaternions()
+
+
+def test_without_the_token_one_watches(visit: Visit) -> None:
+    owner = open_scale(visit)
+    watcher = visit(f"/s/{owner.session}")
+    watcher.until_drawn()
+    assert watcher.page.get_by_text("Watching", exact=True).is_visible()
+    assert watcher.page.get_by_role("button", name="Play", exact=True).first.is_disabled()
+    owner.page.keyboard.press("End")
+    watcher.until("window.reina.songTime > 7")
+
+
+def test_a_keyframe_set_in_the_page_reaches_the_show(visit: Visit, client: httpx.Client) -> None:
+    opened = open_scale(visit)
+    opened.page.keyboard.press("s")
+    opened.page.get_by_label("Add a track").select_option("stage/exposure")
+    opened.page.get_by_label("Value", exact=True).wait_for()
+    opened.page.get_by_label("Value", exact=True).fill("0.25")
+    opened.page.get_by_label("Value", exact=True).press("Enter")
+    opened.page.get_by_role("button", name="Remove the keyframe").wait_for()
+    path = f"/api/v1/sessions/{opened.session}/show/tracks/stage/exposure/keyframes"
+
+    def values() -> list[float]:
+        return [keyframe["value"] for keyframe in client.get(path).json()["keyframes"]]
+
+    for _ in range(100):
+        if values() == [0.25]:
+            break
+        opened.page.wait_for_timeout(50)
+    assert values() == [0.25]
+
+
+def test_the_picture_shows_a_player_with_brass_in_her_hands(visit: Visit) -> None:
+    opened = visit()
+    opened.until_drawn()
+    opened.page.wait_for_timeout(1000)
+    opened.page.add_style_tag(content=".chrome { display: none }")
+    whole = picture(opened)
+    assert whole.std() > 30, "the picture is not blank"
+    height, width = whole.shape[:2]
+    middle = whole[height // 6 : -height // 6, width // 4 : -width // 4]
+    red, green, blue = np.moveaxis(middle, 2, 0)
+    lit_metal = (red > 130) & (red - green > 20) & (green - blue > 45)
+    dark_blue_cloth = (blue - red > 4) & (blue < 110)
+    for what, pixels in (("brass", lit_metal), ("uniform", dark_blue_cloth)):
+        assert 0.004 < pixels.mean() < 0.5, f"{pixels.mean():.4f} of the picture's middle is {what}"
+
+
+@pytest.mark.parametrize("size", [(390, 844), (1440, 900)], ids=["phone", "wide"])
+def test_nothing_overflows_the_window(visit: Visit, size: tuple[int, int]) -> None:
+    opened = visit(size=size)
+    opened.until("window.reina?.session")
+    page = opened.page
+    for key in ("p", "s", "?"):
+        page.keyboard.press(key)
+        page.wait_for_timeout(100)
+        assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
+        outside = page.evaluate(
+            """() => [...document.querySelectorAll(".pane, .pane button, .pane select, .pane h2")]
+              .filter((element) => {
+                const box = element.getBoundingClientRect();
+                return box.width > 0 && (box.left < 0 || box.right > innerWidth + 0.5);
+              })
+              .map((element) => element.outerHTML.slice(0, 120))"""
+        )
+        assert outside == []
+
+
+def test_what_cannot_be_read_is_said_and_nothing_is_lost(visit: Visit) -> None:
+    opened = visit(refusals=("400", "415", "422"))
+    opened.until_drawn()
+    session = opened.session
+    opened.choose_files(("broken.mid", "audio/midi", b"this is no MIDI file"))
+    alert = opened.page.get_by_role("alert")
+    alert.wait_for()
+    assert "MIDI" in alert.inner_text()
+    assert opened.session == session
+    assert opened.measure("session") == session
+
+
+def test_an_unknown_session_says_what_to_do(visit: Visit) -> None:
+    opened = visit("/s/no-such-session-0000000", refusals=("404",))
+    opened.page.get_by_role("heading", name="This session is not here").wait_for()
+    assert opened.page.get_by_role("link", name="Open Reina's piece").is_visible()
+    opened.page.get_by_role("link", name="Open Reina's piece").click()
+    opened.until_drawn()
+    assert opened.session != ""
