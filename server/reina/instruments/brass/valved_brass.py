@@ -156,13 +156,14 @@ class ValvedBrass:
             ]
             primaries = [of_note[0] for of_note in choices]
             written = [self.written_pitch(pitch) for pitch in pitches[span]]
+            onsets = onset_s[span]
             for index, choice in enumerate(taken):
                 note = begin + index
                 valves[note, [valve - 1 for valve in choice.valves]] = True
                 primary[note] = choice.rank == 0
                 cents[note] = choice.cents
                 slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
-                reasons[note] = why(index, taken, primaries, written, onset_s[span])
+                reasons[note] = why(index, taken, primaries, written, onsets)
             begin = end
         return Fingering(
             valves=read_only(valves),
