@@ -103,7 +103,7 @@ def projection() -> None:
     hand = PLAYER.skeleton.index("rightHand")
     fingers = FingerChains(PLAYER, FINGERS)
     print()
-    print("finger on its valve, whole stroke    own plane, mm   the paper's planes, mm   φ = -115° reaches")
+    print("on its valve, whole stroke    own plane, mm   the paper's planes, mm   φ = -115° reaches")
     for index, button in enumerate(TRUMPET.buttons):
         place = button.position + np.linspace(0, 1, 50)[:, None] * button.travel
         target = HOLD.instrument_position + rotate(HOLD.instrument_rotation, place)
