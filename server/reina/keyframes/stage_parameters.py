@@ -6,16 +6,19 @@ hand is at -X. A light's intensity is its irradiance at the player where π brin
 it to 1 before exposure.
 """
 
+from reina.keyframes.light_parameters import LIGHT_PARAMETERS
 from reina.keyframes.parameter import Parameter
 from reina.keyframes.parameter_registry import ParameterRegistry
 
 ARRANGEMENTS = ("toward_bell", "lane_below")
+STYLES = ("physical", "toon")
+FINISHES = ("lacquer", "silver")
 
 STAGE_PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
         "camera/position",
         "vector",
-        (-1.62, 1.52, 2.4),
+        (-1.62, 1.56, 2.4),
         unit="m",
         minimum=-50.0,
         maximum=50.0,
@@ -24,7 +27,7 @@ STAGE_PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
         "camera/target",
         "vector",
-        (0.06, 1.24, 0.28),
+        (0.06, 1.29, 0.28),
         unit="m",
         minimum=-50.0,
         maximum=50.0,
@@ -49,71 +52,24 @@ STAGE_PARAMETERS: tuple[Parameter, ...] = (
         documentation="Turn about the line of sight; positive tips the picture's top to the left.",
     ),
     Parameter(
-        "lights/key/intensity",
+        "camera/focus_distance",
         "number",
-        3.2,
-        minimum=0.0,
-        maximum=20.0,
-        documentation="Strength of the sun from the window side, which draws the shadows.",
-    ),
-    Parameter(
-        "lights/key/color", "color", "#FFD3A1", documentation="Colour of the sun; at rest about 4,300 K."
-    ),
-    Parameter(
-        "lights/key/position",
-        "vector",
-        (-3.2, 2.7, 1.6),
+        0.0,
         unit="m",
-        minimum=-50.0,
-        maximum=50.0,
-        documentation="Where the sun comes from; it shines on the player.",
-    ),
-    Parameter(
-        "lights/fill/intensity",
-        "number",
-        0.55,
         minimum=0.0,
-        maximum=20.0,
-        documentation="Strength of the room's cool light on the side away from the window.",
+        maximum=100.0,
+        documentation="How far from the camera it is sharp; 0 is at the camera's target.",
     ),
-    Parameter("lights/fill/color", "color", "#9FB6DC", documentation="Colour of the room's light."),
     Parameter(
-        "lights/rim/intensity",
+        "camera/aperture",
         "number",
-        2.2,
-        minimum=0.0,
-        maximum=20.0,
-        documentation="Strength of the light from behind that draws hair, shoulder and bell.",
-    ),
-    Parameter("lights/rim/color", "color", "#FFE6C4", documentation="Colour of the light from behind."),
-    Parameter(
-        "lights/rim/position",
-        "vector",
-        (1.6, 2.6, -2.2),
+        0.0,
         unit="m",
-        minimum=-50.0,
-        maximum=50.0,
-        documentation="Where the light from behind stands.",
-    ),
-    Parameter(
-        "lights/ambient/intensity",
-        "number",
-        0.15,
         minimum=0.0,
-        maximum=20.0,
-        documentation="Strength of the light that comes from everywhere.",
+        maximum=0.2,
+        documentation="Width of the lens's opening: 0 has all in focus, 0.025 is a 50 mm lens at f/2.",
     ),
-    Parameter(
-        "lights/ambient/color", "color", "#C9B9A6", documentation="Colour of the light from everywhere."
-    ),
-    Parameter(
-        "lights/environment/intensity",
-        "number",
-        0.7,
-        minimum=0.0,
-        maximum=10.0,
-        documentation="Strength of the room that metal reflects: bright window, dark floor, warm wall.",
-    ),
+    *LIGHT_PARAMETERS,
     Parameter(
         "stage/exposure",
         "number",
@@ -121,6 +77,22 @@ STAGE_PARAMETERS: tuple[Parameter, ...] = (
         minimum=0.0,
         maximum=10.0,
         documentation="Brightness of the whole picture, before tone mapping.",
+    ),
+    Parameter(
+        "stage/bloom/strength",
+        "number",
+        0.35,
+        minimum=0.0,
+        maximum=4.0,
+        documentation="How much of what is brightest spills over its edges.",
+    ),
+    Parameter(
+        "stage/bloom/threshold",
+        "number",
+        1.0,
+        minimum=0.0,
+        maximum=10.0,
+        documentation="From which brightness on light spills over; 1 is a white surface in full light.",
     ),
     Parameter("stage/background", "color", "#1B1714", documentation="Colour of the air behind everything."),
     Parameter("stage/floor_color", "color", "#3A2A1E", documentation="Colour of the floor."),
@@ -132,6 +104,22 @@ STAGE_PARAMETERS: tuple[Parameter, ...] = (
         minimum=0.0,
         maximum=1.0,
         documentation="How fast the background's colour swallows what is far away.",
+    ),
+    Parameter(
+        "look/style",
+        "choice",
+        "physical",
+        choices=STYLES,
+        blend=False,
+        documentation="How the player is drawn: as light falls on cloth and metal, or in flat tones.",
+    ),
+    Parameter(
+        "trumpet/finish",
+        "choice",
+        "lacquer",
+        choices=FINISHES,
+        blend=False,
+        documentation="What the instrument's brass is finished with.",
     ),
     Parameter(
         "blocks/visible",
