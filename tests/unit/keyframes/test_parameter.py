@@ -8,6 +8,7 @@ from reina.keyframes import STAGE_PARAMETERS, Parameter, ParameterRegistry, stag
 from reina.keyframes.color import hex_from_linear, linear_from_hex, linear_from_srgb, srgb_from_linear
 from reina.keyframes.value_types import TypeName
 
+SPOT = ("intensity", "color", "position", "target", "angle", "softness")
 SHOW_PATHS = {
     *("camera/position", "camera/target", "camera/fov", "camera/roll"),
     *("lights/key/intensity", "lights/key/color", "lights/key/position"),
@@ -17,6 +18,17 @@ SHOW_PATHS = {
     *("stage/exposure", "stage/background", "stage/floor_color", "stage/fog/density"),
     *("blocks/visible", "blocks/color", "blocks/sounding_color", "blocks/opacity", "blocks/glow"),
     *("blocks/speed", "blocks/arrangement"),
+    *(f"lights/spots/{spot}/{what}" for spot in (1, 2, 3) for what in SPOT),
+    "lights/key/softness",
+    "lights/back_wash/intensity",
+    "lights/back_wash/color",
+    "lights/haze",
+    "camera/focus_distance",
+    "camera/aperture",
+    "stage/bloom/strength",
+    "stage/bloom/threshold",
+    "look/style",
+    "trumpet/finish",
 }
 
 
