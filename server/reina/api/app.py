@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
@@ -46,6 +47,7 @@ def create_app(settings: Settings | None = None, *, now: Callable[[], float] = t
         stage = Stage.load(chosen.rigs_dir, chosen.examples_dir / DEFAULT_SHOW)
         store = SessionStore(chosen.data_dir, stage, renderer, now=now)
         app.state.store = store
+        app.state.computing = asyncio.Semaphore(1)
         yield
         await store.aclose()
 

@@ -5,7 +5,7 @@ import math
 from collections.abc import AsyncIterator
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import APIRouter, Query, Request
 from fastapi.responses import StreamingResponse
 
 from reina.api.access import Watched
@@ -37,6 +37,7 @@ async def get_manifest(session: Watched, fps: FramesPerSecond = 60) -> Hello:
     },
 )
 async def get_frames(
+    request: Request,
     session: Watched,
     start_s: Annotated[float, Query(ge=0, description="Song time of the first frame.")] = 0.0,
     end_s: Annotated[
@@ -57,7 +58,7 @@ async def get_frames(
     first, end = (math.ceil(time_s * fps - GRID_TOLERANCE) for time_s in (start_s, end_s))
     production = session.production
     return StreamingResponse(
-        _frames(production, first, end, fps),
+        _frames(production, first, end, fps, request.app.state.computing),
         media_type="application/octet-stream",
         headers={
             "Content-Length": str((end - first) * production.manifest.frame_size),
@@ -66,12 +67,16 @@ async def get_frames(
     )
 
 
-async def _frames(production: Production, first: int, end: int, fps: int) -> AsyncIterator[bytes]:
+async def _frames(
+    production: Production, first: int, end: int, fps: int, computing: asyncio.Semaphore
+) -> AsyncIterator[bytes]:
     production = await asyncio.to_thread(production.at_rate, fps)
     frames = EncodedFrames(production.performance, production.manifest, kept=1)
     while first < end:
         # Up to the end of an aligned block at a time; a thread, since a viewer's frames come first.
         last = min(end, (first // FRAMES_PER_BLOCK + 1) * FRAMES_PER_BLOCK) - 1
-        span = await asyncio.to_thread(frames.span, first, last)
+        # Whoever computes, one block at a time: a hundred exports slow one another and nobody else.
+        async with computing:
+            span = await asyncio.to_thread(frames.span, first, last)
         yield span.tobytes()
         first = last + 1

@@ -9,6 +9,9 @@ from reina.protocol.messages import SongState
 
 router = APIRouter(tags=["song"])
 
+# What was uploaded as sound is never to be taken for a page.
+HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
+
 
 @router.get(
     "/sessions/{session_id}/song",
@@ -28,4 +31,4 @@ async def get_song(session: Watched) -> Response:
         return JSONResponse(
             state.model_dump(), 202, headers={"Retry-After": "1", "Cache-Control": "no-store"}
         )
-    return FileResponse(song.path, media_type=song.media_type, headers={"Cache-Control": "no-cache"})
+    return FileResponse(song.path, media_type=song.media_type, headers=HEADERS)

@@ -62,6 +62,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Serve until SIGINT or SIGTERM; returns the exit status."""
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
+    # A viewer that goes in the middle of some frames is no news.
+    logging.getLogger("asyncio").setLevel(logging.ERROR)
     settings = Settings()
     if arguments.data_dir is not None:
         settings = replace(settings, data_dir=arguments.data_dir)

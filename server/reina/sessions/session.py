@@ -54,14 +54,11 @@ class Session:
         """Counts the edits of the show."""
         self.editing = asyncio.Lock()
         """Held while an edit is planned, so that edits do not overtake one another."""
-        self._now = now
         self.clock = MusicClock(now, self._duration_s())
         if 0 < record.song_time_s < self.clock.duration_s:
             self.clock.seek(record.song_time_s)
         frames = EncodedFrames(production.performance, production.manifest)
         self.audience = Audience(frames, self.clock, _note_messages(production), now=now)
-        self.used_at = now()
-        """Server time of the last request."""
         self.song = song(self)
 
     @property
@@ -137,7 +134,6 @@ class Session:
 
     def leave(self, viewer: Viewer) -> None:
         """Let somebody go."""
-        self.used_at = self._now()
         self.audience.leave(viewer)
 
     # What changes it

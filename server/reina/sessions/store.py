@@ -122,7 +122,6 @@ class SessionStore:
                 loading.add_done_callback(lambda _: self._loading.pop(session_id, None))
             session = await asyncio.shield(loading)
         self._sessions.move_to_end(session_id)
-        session.used_at = self._now()
         return session
 
     async def public(self) -> list[SessionRecord]:

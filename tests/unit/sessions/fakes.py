@@ -62,8 +62,11 @@ class NumberedPerformance:
     layout: Layout = field(default_factory=Layout)
     cuts: frozenset[int] = frozenset()
     evaluated: list[int] = field(default_factory=list[int])
+    broken: bool = False
 
     def evaluate(self, block: int) -> Block:
+        if self.broken:
+            raise RuntimeError("this performance is broken")
         self.evaluated.append(block)
         index = 60 * block + np.arange(60)
         joints = sum(len(skeleton.joints) for skeleton in self.layout.skeletons)

@@ -17,6 +17,8 @@ from reina.sessions.viewer import Viewer
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import pytest
+
     from reina.protocol import Frames
 
 FRAME = 1 / 60
@@ -45,6 +47,10 @@ class Inbox(Viewer):
         super().__init__(_Nowhere(), frames_per_message=frames_per_message)
         self.texts: list[dict[str, Any]] = []
         self.messages: list[bytes] = []
+        self.ended: tuple[int, str] | None = None
+
+    def end(self, code: int, reason: str) -> None:
+        self.ended = (code, reason)
 
     def post_text(self, text: str) -> None:
         self.texts.append(json.loads(text))
@@ -72,7 +78,8 @@ class Hall:
     def __init__(self) -> None:
         self.now = HandClock()
         self.clock = MusicClock(self.now, 3.0)
-        self.frames = encoded()
+        self.performance = NumberedPerformance()
+        self.frames = encoded(self.performance)
         onsets = np.arange(3.0)
         notes = NoteMessages(onsets, onsets + 0.5, np.array([60, 61, 62]), note)
         self.audience = Audience(self.frames, self.clock, notes, now=self.now)
@@ -230,3 +237,25 @@ def test_the_ticker_runs_only_while_somebody_watches() -> None:
         assert len(asyncio.all_tasks()) == before
 
     asyncio.run(scenario())
+
+
+def test_a_ticker_that_fails_lets_everybody_go(caplog: pytest.LogCaptureFixture) -> None:
+    async def scenario() -> tuple[int, str] | None:
+        hall = Hall()
+        inbox = hall.join()
+        hall.clock.play()
+        hall.audience.restart()
+        await asyncio.sleep(0)
+        hall.frames.forget()
+        hall.clock.seek(2.0)
+        hall.performance.broken = True
+        # The ticker itself comes upon it, some turns later.
+        hall.now.time_s += 0.5
+        for _ in range(100):
+            await asyncio.sleep(0.001)
+            if inbox.ended:
+                break
+        return inbox.ended
+
+    assert asyncio.run(scenario()) == (1011, "the stream has failed")
+    assert "ticker of a session failed" in caplog.text
