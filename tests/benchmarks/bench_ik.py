@@ -111,7 +111,7 @@ def projection() -> None:
         single = FingerChains(PLAYER, [FINGERS[index]])
         solved, _ = single.solve(in_hand[:, None])
         own = np.linalg.norm(single.tips(solved)[:, 0] - in_hand, axis=-1).max()
-        # As the paper has it: abduction and planar target from the hand's planes (here the finger's rest axes).
+        # As the paper has it: abduction and planar target from the hand's planes (here at the finger's rest).
         rest = PLAYER.skeleton.rest_rotations[fingers.joints[index, 0]]
         origin = PLAYER.skeleton.rest_translations[fingers.joints[index, 0]]
         point = rotate(conjugate(rest), in_hand - origin)

@@ -1,11 +1,15 @@
-"""Joints and their rest pose, forward kinematics, rigs and holds."""
+"""Joints and their rest pose, forward kinematics, rigs and holds, motion clips."""
 
 from reina.skeleton.errors import BvhError, RigError
 from reina.skeleton.forward_kinematics import forward_kinematics
 from reina.skeleton.hold import Hold, load_hold, read_hold
 from reina.skeleton.load_rig import load_rig, read_rig
+from reina.skeleton.motion_clip import MotionClip
+from reina.skeleton.read_bvh import read_bvh
+from reina.skeleton.retarget import blended, clip_of_motion, humanoid_name, looped, retarget
 from reina.skeleton.rig import SOLVERS, Button, Capsule, Chain, Limits, Morph, MovingPart, Point, Rig, Twist
 from reina.skeleton.skeleton import Skeleton
+from reina.skeleton.write_bvh import write_bvh
 
 __all__ = [
     "SOLVERS",
@@ -16,15 +20,23 @@ __all__ = [
     "Hold",
     "Limits",
     "Morph",
+    "MotionClip",
     "MovingPart",
     "Point",
     "Rig",
     "RigError",
     "Skeleton",
     "Twist",
+    "blended",
+    "clip_of_motion",
     "forward_kinematics",
+    "humanoid_name",
     "load_hold",
     "load_rig",
+    "looped",
+    "read_bvh",
     "read_hold",
     "read_rig",
+    "retarget",
+    "write_bvh",
 ]
