@@ -1,11 +1,13 @@
 """Parameters over time: keyframes, interpolations, tracks, shows. Knows neither music nor skeletons."""
 
+from reina.keyframes.default_show import write_default_show
 from reina.keyframes.eased_keyframe import CubicBezierKeyframe, EasedKeyframe
 from reina.keyframes.edits import ShowHistory, with_edits
 from reina.keyframes.errors import KeyNotFoundError, ShowError
 from reina.keyframes.event_response import EventResponse, NoteFilter
 from reina.keyframes.interpolation import InterpolationError, interpolations
 from reina.keyframes.keyframe import Keyframe
+from reina.keyframes.music_form import MusicForm
 from reina.keyframes.options import option
 from reina.keyframes.outside import Outside
 from reina.keyframes.parameter import Parameter
@@ -34,6 +36,7 @@ __all__ = [
     "KeyNotFoundError",
     "Keyframe",
     "Marker",
+    "MusicForm",
     "NoteFilter",
     "Outside",
     "Parameter",
@@ -55,4 +58,5 @@ __all__ = [
     "stage_registry",
     "track_document",
     "with_edits",
+    "write_default_show",
 ]

@@ -32,8 +32,8 @@ SHOW_PATHS = {
 }
 
 
-def test_the_stage_s_parameters_are_all_declared() -> None:
-    assert {parameter.path for parameter in STAGE_PARAMETERS} == SHOW_PATHS
+def test_what_every_show_moves_is_declared() -> None:
+    assert {parameter.path for parameter in STAGE_PARAMETERS} >= SHOW_PATHS
 
 
 @pytest.mark.parametrize("parameter", STAGE_PARAMETERS, ids=lambda parameter: parameter.path)
@@ -64,7 +64,7 @@ def test_layout_and_defaults_go_together() -> None:
 
 def test_the_description_is_json_and_complete() -> None:
     described = json.loads(json.dumps(stage_registry().describe(), allow_nan=False))
-    assert {entry["path"] for entry in described["parameters"]} == SHOW_PATHS
+    assert [entry["path"] for entry in described["parameters"]] == [p.path for p in STAGE_PARAMETERS]
     arrangement = next(e for e in described["parameters"] if e["path"] == "blocks/arrangement")
     assert arrangement["choices"] == ["toward_bell", "lane_below"]
     assert arrangement["interpolations"] == ["step"]
