@@ -181,6 +181,6 @@ def looped(rotations: ArrayLike, blend_frames: int) -> FloatArray:
 
 
 def blended(first: ArrayLike, second: ArrayLike, weight: ArrayLike) -> FloatArray:
-    """Two motions ``(F, J, 4)`` blended joint by joint; weight ``(F,)`` or a number, 0 the first, 1 the other."""
+    """Two motions ``(F, J, 4)`` blended joint by joint; weight ``(F,)`` or a number, 0 first, 1 second."""
     share = np.asarray(weight, dtype=np.float64)
     return slerp(first, second, share[..., None] if share.ndim else share)

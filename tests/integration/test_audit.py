@@ -1,0 +1,183 @@
+"""Extreme scores audited from their frames alone: touch, timing, limits, speed, feet, the same bytes."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING, Any
+
+import mido
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from tests.integration.scores import song
+from tests.integration.stranger import button, take
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import httpx
+    from numpy.typing import NDArray
+    from tests.integration.stranger import Pose, Take
+
+Notes = list[tuple[float, float, int]]
+"""Onset and duration in beats at 120 to the minute, sounding pitch."""
+
+HOUR_BEATS = 7200.0
+
+SCORES: dict[str, Notes] = {
+    "fast trill": [(2 + i * 0.08, 0.08, 64 + 2 * (i % 2)) for i in range(200)],
+    "faster than strokes": [(2 + i * 0.05, 0.05, 52 + i % 38) for i in range(240)],
+    "two-octave leaps": [(1 + i * 0.5, 0.5, 58 + 24 * (i % 2)) for i in range(40)],
+    "repeated notes": [(i * 0.125, 0.06, 61) for i in range(160)],
+    "whole range, out of it too": [(i * 0.5, 0.5, 48 + i) for i in range(46)],
+    "staccato with breaths": [(i * 1.0, 0.2, 60 + i % 7) for i in range(24)],
+    "a long note and a rest": [(0.0, 8.0, 70), (24.0, 4.0, 75), (44.0, 0.5, 60)],
+    "an hour of rest": [(1.0, 1.0, 60), (HOUR_BEATS, 2.0, 70)],
+}
+
+PAD_M = 0.0005
+LIFTED_M = 0.008
+MOUTH_M = 0.001
+FEET_M = 0.001
+LONGEST_STROKE_S = 0.040
+LARGEST_SHARE = 0.4
+GREATEST_SPEED = 25.0
+ROUNDING_RAD = 3e-5
+"""What float32 quaternions leave of an angle."""
+
+
+def midi(notes: Notes) -> bytes:
+    track = mido.MidiTrack([mido.Message("program_change", program=56)])
+    events = [(round(on * 480), 1, pitch) for on, _, pitch in notes]
+    events += [(round((on + length) * 480), 0, pitch) for on, length, pitch in notes]
+    last = 0
+    for tick, kind, pitch in sorted(events):
+        track.append(
+            mido.Message("note_on" if kind else "note_off", note=pitch, velocity=100 * kind, time=tick - last)
+        )
+        last = tick
+    data = io.BytesIO()
+    mido.MidiFile(ticks_per_beat=480, tracks=[track]).save(file=data)
+    return data.getvalue()
+
+
+class Played:
+    """A score in a session, and frames of it."""
+
+    def __init__(self, client: httpx.Client, session: str, spans: list[tuple[float, float]]) -> None:
+        self.client, self.session = client, session
+        self.takes = [take(client, session, start, end) for start, end in spans]
+        score: dict[str, Any] = client.get(f"/api/v1/sessions/{session}/score").raise_for_status().json()
+        self.notes = [note for note in score["notes"] if note["part"] == score["part"]]
+
+
+@pytest.fixture(scope="module", params=SCORES, ids=lambda name: name.replace(" ", "-"))
+def played(request: pytest.FixtureRequest, client: httpx.Client) -> Iterator[Played]:
+    """All frames of a score, or its beginning, middle and end."""
+    # With a song of their own, so that nothing is rendered meanwhile.
+    files = {"score": ("extreme.mid", midi(SCORES[request.param])), "song": ("song.wav", song())}
+    made = client.post("/api/v1/sessions", files=files).raise_for_status().json()
+    end = float(made["duration_s"]) + 2.0
+    spans = [(0.0, end)] if end < 120.0 else [(0.0, 12.0), (end / 2, end / 2 + 8.0), (end - 12.0, end)]
+    yield Played(client, made["id"], spans)
+    client.delete(
+        f"/api/v1/sessions/{made['id']}", headers={"Authorization": f"Bearer {made['control_token']}"}
+    ).raise_for_status()
+
+
+def valve(one: Take, number: int) -> NDArray[np.float64]:
+    return one.parameters[f"trumpet/valve/{number}"][:, 0]
+
+
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_pads_are_on_their_buttons_and_idle_fingers_near_them(played: Played, number: int) -> None:
+    for one in played.takes:
+        player, trumpet = one.skeleton("trumpeter"), one.skeleton("trumpet")
+        effector = next(entry["effector"] for entry in trumpet.rig["buttons"] if entry["valve"] == number)
+        apart = np.linalg.norm(player.named("effectors", effector) - button(trumpet, one, number), axis=1)
+        assert apart[valve(one, number) > 0.0].max(initial=0.0) <= PAD_M
+        assert apart.max() <= LIFTED_M
+
+
+def test_every_note_has_its_fingering_from_onset_to_end(played: Played) -> None:
+    right = wrong = 0
+    for one in played.takes:
+        found = np.stack([valve(one, number) for number in (1, 2, 3)], axis=1)
+        for index, note in enumerate(played.notes):
+            onset, end = note["onset_s"], note["onset_s"] + note["duration_s"]
+            if index + 1 < len(played.notes):
+                following = played.notes[index + 1]["onset_s"]
+                stroke = min(LONGEST_STROKE_S, LARGEST_SHARE * (following - onset))
+                end = min(end, following - stroke)
+            inside = (one.song_time_s >= onset) & (one.song_time_s < end - 1e-6)
+            wanted = np.array([number in (note["valves"] or []) for number in (1, 2, 3)], dtype=np.float64)
+            same = found[inside] == wanted
+            right += int(same.sum())
+            wrong += int((~same).sum())
+    assert right > 0
+    assert wrong == 0
+
+
+def test_the_mouth_is_on_the_mouthpiece_and_the_feet_do_not_slide(played: Played) -> None:
+    for one in played.takes:
+        player, trumpet = one.skeleton("trumpeter"), one.skeleton("trumpet")
+        lips, mouthpiece = player.named("contacts", "lips"), trumpet.named("contacts", "mouthpiece")
+        apart = np.linalg.norm(lips - mouthpiece, axis=1)
+        assert apart[one.sounding].max(initial=0.0) <= MOUTH_M
+        for sole in ("leftSole", "rightSole"):
+            place = player.named("contacts", sole)
+            assert np.abs(place - place[0]).max() <= FEET_M
+
+
+def excess(joint: dict[str, Any], turned: Rotation) -> float:
+    """By how much a joint is beyond its limits, radians; of two sets of angles the one that fits better."""
+    limits = joint["limits"]
+    order: str = limits["order"]
+    angles = (Rotation.from_quat(joint["rotation"]).inv() * turned).as_euler(order.upper())
+    other = np.stack([angles[:, 0] + np.pi, np.pi - angles[:, 1], angles[:, 2] + np.pi], axis=1)
+    low = np.array([limits[letter][0] for letter in order])
+    high = np.array([limits[letter][1] for letter in order])
+    first, second = (
+        np.maximum(np.maximum(low - one, one - high), 0.0).max(axis=1)
+        for one in (angles, (other + np.pi) % (2 * np.pi) - np.pi)
+    )
+    return float(np.minimum(first, second).max())
+
+
+def test_no_joint_is_beyond_its_limits(played: Played) -> None:
+    for one in played.takes:
+        joints = one.skeleton("trumpeter").rig["joints"]
+        local = one.local["player"]
+        for index, joint in enumerate(joints):
+            if "limits" in joint:
+                assert excess(joint, Rotation.from_quat(local[:, index])) <= ROUNDING_RAD, joint["name"]
+
+
+def test_nothing_jumps(played: Played) -> None:
+    for one in played.takes:
+        names = [joint["name"] for joint in one.skeleton("trumpeter").rig["joints"]]
+        pressing = np.array([name.startswith(("rightIndex", "rightMiddle", "rightRing")) for name in names])
+        quaternions = one.local["player"]
+        cosine = np.abs(np.sum(quaternions[1:] * quaternions[:-1], axis=-1)).clip(max=1.0)
+        speed = 2.0 * np.arccos(cosine) * 60.0
+        moving = np.any([np.diff(valve(one, number)) != 0.0 for number in (1, 2, 3)], axis=0)
+        assert speed[:, ~pressing].max() <= GREATEST_SPEED
+        assert speed[~moving].max(initial=0.0) <= GREATEST_SPEED
+        for pose in one.poses.values():
+            assert greatest_step(pose) * 60.0 <= 1.5
+
+
+def greatest_step(pose: Pose) -> float:
+    """The furthest that any joint goes from frame to frame, metres."""
+    return max(
+        float(np.linalg.norm(np.diff(place, axis=0), axis=1).max()) for place in pose.positions.values()
+    )
+
+
+def test_asking_for_a_part_gives_the_same_bytes(played: Played) -> None:
+    one = played.takes[-1]
+    first = len(one.song_time_s) // 3
+    start = float(one.song_time_s[first])
+    again = take(played.client, played.session, start, start + 1.0)
+    begin = int(np.flatnonzero(one.song_time_s == again.song_time_s[0])[0])
+    np.testing.assert_array_equal(again.raw[:, 24:], one.raw[begin : begin + len(again.raw), 24:])
