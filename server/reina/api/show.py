@@ -12,7 +12,7 @@ from reina.sessions.production import read_show
 
 router = APIRouter(tags=["show"])
 
-_KEYFRAME = {"time": 1.5, "value": 0.8, "interpolation": "ease_in_quad"}
+_KEYFRAME = {"time": 1.5, "value": 0.8, "interpolation": "quad_in"}
 Document = dict[str, Any]
 TrackPath = Annotated[
     str, Path(description="The parameter's path, slashes and all.", examples=["lights/key/intensity"])

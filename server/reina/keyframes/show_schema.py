@@ -1,5 +1,6 @@
 """The JSON Schema of shows, built from the same tables that read them."""
 
+import json
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -94,6 +95,11 @@ def show_schema(
             **{_definition(parameter): _track(parameter, interpolations) for parameter in known},
         },
     }
+
+
+def show_schema_text(parameters: Iterable[Parameter]) -> str:
+    """`show_schema` of the built-in interpolations as the text that is published."""
+    return json.dumps(show_schema(parameters), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _definition(parameter: Parameter) -> str:

@@ -2,8 +2,9 @@
 
     python -m reina.protocol.generate [--check]
 
-Writes the page's types and frame reader (web/src/generated/protocol.ts) and the description of the stream
-(docs/protocol.md). The description of the HTTP interface is `python -m reina.api.openapi`'s.
+Writes the page's types and frame reader (web/src/generated/protocol.ts), the description of the stream
+(docs/protocol.md) and the JSON Schema of shows (docs/show.schema.json). The description of the HTTP interface
+is `python -m reina.api.openapi`'s.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reina.keyframes import stage_registry
+from reina.keyframes.show_schema import show_schema_text
 from reina.protocol import resources, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.reader import frame_reader
@@ -105,6 +108,7 @@ def main() -> int:
     files = {
         ROOT / "web/src/generated/protocol.ts": typescript(),
         ROOT / "docs/protocol.md": documentation(),
+        ROOT / "docs/show.schema.json": show_schema_text(stage_registry()),
     }
     return write_or_check(files, check=arguments.check)
 
