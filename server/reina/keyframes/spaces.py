@@ -13,11 +13,10 @@ import numpy as np
 from reina.keyframes.arrays import FloatArray
 from reina.keyframes.color import linear_from_oklab, oklab_from_linear
 from reina.keyframes.parameter import Parameter
-from reina.rotations import conjugate, exp, log, multiply, same_hemisphere
+from reina.rotations import conjugate, exp, log, multiply
 
 ColorSpace = Literal["oklab", "linear"]
 COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
-IDENTITY: FloatArray = np.array([0.0, 0.0, 0.0, 1.0])
 
 
 class Space(Protocol):
@@ -81,7 +80,9 @@ class OrientationSpace:
 
     def to_values(self, points: FloatArray, origins: FloatArray) -> FloatArray:
         """Origin · exp(point), with w >= 0."""
-        return same_hemisphere(multiply(origins, exp(points)), IDENTITY)
+        turned = multiply(origins, exp(points))
+        turned *= np.where(turned[..., 3:] < 0.0, -1.0, 1.0)
+        return turned
 
 
 OKLAB = OklabSpace()
