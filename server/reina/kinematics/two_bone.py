@@ -113,9 +113,12 @@ class TwoBoneLimbs:
         half = 0.5 * angle[..., None]
         lower_local = np.cos(half) * self._rest + np.sin(half) * self._turned
         direction = offset / np.maximum(wanted, 1e-12)[..., None]
-        world = _frame(direction, np.asarray(hinge_directions, dtype=np.float64))
         length = np.sqrt(np.einsum("...i,...i->...", local_end, local_end))
-        local = _frame(local_end / length[..., None], self.hinge)
+        # Two frames of direction and hinge, in the world and in the upper bone, whose turn is between them.
+        ahead, hint = np.empty((2, *direction.shape)), np.empty((2, *direction.shape))
+        ahead[0], ahead[1] = direction, local_end / length[..., None]
+        hint[0], hint[1] = hinge_directions, self.hinge
+        world, local = _frame(ahead, hint)
         upper = from_matrix(np.einsum("...ai,...bi->...ab", world, local))
         ends = np.asarray(roots, dtype=np.float64) + direction * length[..., None]
         status = (np.abs(length - wanted) > 1e-9).astype(np.uint8) * np.uint8(SolveStatus.OUT_OF_REACH)

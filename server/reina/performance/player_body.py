@@ -89,12 +89,13 @@ class PlayerBody:
         I_world, X_world = hold.instrument_rotation, hold.instrument_position
         head = skeleton.index("head")
         self._instrument_in_head = multiply(conjugate(world[head]), I_world)
-        self._mouthpiece = instrument_rig.contact("mouthpiece").offset
+        mouthpiece = instrument_rig.contact("mouthpiece").offset
 
         # Hands keep their place in the instrument's frame, feet in the world.
         hands, feet = joints[:2, 2], joints[2:, 2]
         self._hand_rotations = multiply(conjugate(I_world), world[hands])
-        self._hand_positions = rotate(conjugate(I_world), positions[hands] - X_world)
+        hand_positions = rotate(conjugate(I_world), positions[hands] - X_world)
+        self._held_places = np.stack([mouthpiece, *hand_positions])
         self._feet_rotations, self._feet_positions = world[feet], positions[feet]
         self._limb_parents = [
             self._carrier(rig, int(skeleton.parents[upper])) for upper in joints[:, 0].tolist()
@@ -107,7 +108,7 @@ class PlayerBody:
 
         right = int(hands[1])
         self._fingers = PressingFingers(
-            rig, instrument_rig, right, self._hand_positions[1], self._hand_rotations[1]
+            rig, instrument_rig, right, hand_positions[1], self._hand_rotations[1]
         )
         self._twists = TwistHelpers(rig)
         self.held: FloatArray = same_hemisphere(rotations, skeleton.rest_rotations)
@@ -151,16 +152,20 @@ class PlayerBody:
         world, points = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
 
         instrument = multiply(multiply(world[:, self._head], self._instrument_in_head), turns[:, -1])
-        place = points[:, 4] - rotate(instrument, self._mouthpiece)
+        # In the instrument's frame: its mouthpiece, and the hands that hold it.
+        frames = len(hips)
+        held = np.empty((frames, 3, 3))
+        held[:] = self._held_places
+        held[:, 2] += shifts
+        held = rotate(instrument[:, None], held)
+        held[:, 0] = points[:, 4] - held[:, 0]
+        held[:, 1:] += held[:, :1]
         elbows = rotate(world[:, self._chest, None], self._elbows)
         if lowered.any():
-            instrument, place, elbows = _lower(lowered, points, instrument, place, elbows)
+            instrument, held, elbows = _lower(lowered, points, instrument, held, elbows)
 
-        frames = len(hips)
         targets = np.empty((frames, 4, 3))
-        targets[:, :2] = self._hand_positions
-        targets[:, 1] += shifts
-        targets[:, :2] = place[:, None] + rotate(instrument[:, None], targets[:, :2])
+        targets[:, :2] = held[:, 1:]
         targets[:, 2:] = self._feet_positions
         hinges = np.empty((frames, 4, 3))
         hinges[:, :2] = elbows
@@ -192,7 +197,7 @@ class PlayerBody:
             moving=same_hemisphere(moving, self._moving_rest),
             root_positions=hips,
             instrument_rotations=instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0),
-            instrument_positions=place,
+            instrument_positions=held[:, 0],
             reached=not (limbs.status.any() or status.any()),
         )
 
@@ -206,16 +211,16 @@ def _glance(turn: FloatArray) -> FloatArray:
 
 
 def _lower(
-    lowered: FloatArray, points: FloatArray, instrument: FloatArray, place: FloatArray, elbows: FloatArray
+    lowered: FloatArray, points: FloatArray, instrument: FloatArray, held: FloatArray, elbows: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Turn instrument and elbows down about the line of the shoulders: arms keep their shape and reach."""
+    """Turn instrument, hands and elbows down about the line of the shoulders: arms keep their shape."""
     left, right = points[:, 0], points[:, 1]
     axis = left - right
     axis = axis / np.sqrt(dot(axis, axis))[:, None]
     down = from_axis_angle(axis, LOWERED_RAD * lowered)
-    pivot = 0.5 * (left + right)
+    pivot = (0.5 * (left + right))[:, None]
     return (
         multiply(down, instrument),
-        pivot + rotate(down, place - pivot),
+        pivot + rotate(down[:, None], held - pivot),
         rotate(down[:, None], elbows),
     )

@@ -16,12 +16,14 @@ if TYPE_CHECKING:
 def exp(rotation_vectors: ArrayLike) -> FloatArray:
     """Quaternions ``(..., 4)`` of rotation vectors ``(..., 3)``, radians: Rodrigues' formula in half angles.
 
-    Exact to rounding for every length, zero included (sinc has no division by a small angle).
+    Exact to rounding for every length, zero included: sin h / h is 1 to the last bit long before h
+    underflows.
     """
     vectors = np.asarray(rotation_vectors, dtype=np.float64)
     half = 0.5 * np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
     q = np.empty((*vectors.shape[:-1], 4))
-    q[..., :3] = vectors * (0.5 * np.sinc(half / np.pi))[..., None]
+    divisor = np.maximum(half, 1e-150)
+    q[..., :3] = vectors * (0.5 * np.sin(divisor) / divisor)[..., None]
     q[..., 3] = np.cos(half)
     return q
 
