@@ -3,10 +3,11 @@
 import { PerspectiveCamera, Quaternion, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-import { fitFieldOfView } from "./framing";
+import { type CameraPreset, type CameraView, lookedAt } from "./camera_presets";
+import { fitFrame, type Insets, widen } from "./framing";
 
-/** How long the way back to the show's camera takes, milliseconds. */
-const RETURN_MS = 180;
+/** How long the way to another view takes, milliseconds. */
+const MOVE_MS = 180;
 const DEGREES = 180 / Math.PI;
 
 export interface ShowPose {
@@ -38,14 +39,18 @@ export class StageCamera {
   readonly show: ShowPose = { position: new Vector3(0, 1.3, 3), target: new Vector3(0, 1.2, 0), fov: 0.5, roll: 0 };
   readonly #options: StageCameraOptions;
   readonly #controls: OrbitControls<PerspectiveCamera>;
+  /** The view that a person asked for. */
+  readonly #held: ShowPose = { position: new Vector3(), target: new Vector3(), fov: 0.5, roll: 0 };
   readonly #goal = new PerspectiveCamera();
   readonly #fromPosition = new Vector3();
   readonly #fromRotation = new Quaternion();
   #fromFov = 0;
-  #returnedAt = Number.NEGATIVE_INFINITY;
+  #movedAt = Number.NEGATIVE_INFINITY;
   #taken = false;
-  #heldFov = 0;
-  #aspect = 1;
+  #width = 1;
+  #height = 1;
+  #insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
+  #widening = 1;
 
   constructor(element: HTMLElement, options: StageCameraOptions) {
     this.#options = options;
@@ -65,61 +70,118 @@ export class StageCamera {
     return this.#taken;
   }
 
-  /** On its way back to the show, so that pictures are due without frames. */
-  get returning(): boolean {
-    return !this.#taken && performance.now() - this.#returnedAt < RETURN_MS;
+  /** On its way to another view, so that pictures are due without frames. */
+  get moving(): boolean {
+    return performance.now() - this.#movedAt < MOVE_MS;
   }
 
-  resize(aspect: number): void {
-    this.#aspect = aspect;
-    this.camera.aspect = aspect;
-    this.camera.updateProjectionMatrix();
+  /** How far what is looked at lies from the camera, metres. */
+  get targetDistance(): number {
+    return this.camera.position.distanceTo(this.#taken ? this.#controls.target : this.show.target);
+  }
+
+  resize(width: number, height: number): void {
+    this.#width = Math.max(1, width);
+    this.#height = Math.max(1, height);
+    this.#frame();
+  }
+
+  setSafeArea(insets: Insets): void {
+    this.#insets = insets;
+    this.#frame();
+  }
+
+  #frame(): void {
+    const { camera } = this;
+    const { widening, shiftX, shiftY } = fitFrame(this.#width, this.#height, this.#insets);
+    this.#widening = widening;
+    camera.aspect = this.#width / this.#height;
+    if (shiftX === 0 && shiftY === 0) camera.clearViewOffset();
+    else camera.setViewOffset(this.#width, this.#height, -shiftX, -shiftY, this.#width, this.#height);
+    camera.updateProjectionMatrix();
   }
 
   /** Leave the camera where it is, to be orbited about what the show looks at. */
   take(): void {
+    this.#movedAt = Number.NEGATIVE_INFINITY;
     if (this.#taken) return;
-    this.#taken = true;
-    this.#returnedAt = Number.NEGATIVE_INFINITY;
-    this.#heldFov = this.show.fov;
+    this.#held.fov = this.show.fov;
     this.#controls.target.copy(this.show.target);
+    this.#setTaken(true);
     this.#controls.update();
-    this.#options.onTaken(true);
+  }
+
+  /** Take the camera to a view; from there it can be orbited. */
+  view({ position, target, fov }: CameraPreset): void {
+    this.#leave(this.#taken ? this.#held.fov : this.show.fov);
+    this.#held.position.fromArray(position);
+    this.#held.target.fromArray(target);
+    this.#held.fov = fov;
+    this.#controls.target.copy(this.#held.target);
+    this.#setTaken(true);
+    if (!this.moving) this.#arrive();
+    this.#options.onChange();
   }
 
   /** Go back to the show's camera. */
   giveBack(): void {
     if (!this.#taken) return;
-    this.#taken = false;
+    this.#leave(this.#held.fov);
+    this.#setTaken(false);
+    this.#options.onChange();
+  }
+
+  /** The view that is seen, as a show's camera keys hold it. */
+  current(): CameraView {
+    const { position, target, fov, roll } = this.show;
+    if (!this.#taken) return { position: position.toArray(), target: target.toArray(), fov, roll };
+    const stand = this.moving ? this.#held.position : this.camera.position;
+    const ahead = new Vector3().subVectors(this.#controls.target, stand).normalize();
+    const seen = lookedAt(stand, ahead, this.#controls.target);
+    return { position: stand.toArray(), target: seen.toArray(), fov: this.#held.fov, roll: 0 };
+  }
+
+  #setTaken(taken: boolean): void {
+    if (this.#taken === taken) return;
+    this.#taken = taken;
+    this.#options.onTaken(taken);
+  }
+
+  /** Begin to move, from what is seen now. */
+  #leave(fov: number): void {
     this.#fromPosition.copy(this.camera.position);
     this.#fromRotation.copy(this.camera.quaternion);
-    this.#fromFov = this.#heldFov;
-    this.#returnedAt = this.#options.reducedMotion ? Number.NEGATIVE_INFINITY : performance.now();
-    this.#options.onTaken(false);
-    this.#options.onChange();
+    this.#fromFov = fov;
+    this.#movedAt = this.#options.reducedMotion ? Number.NEGATIVE_INFINITY : performance.now();
+  }
+
+  /** Stand where a person asked for. */
+  #arrive(): void {
+    this.#movedAt = Number.NEGATIVE_INFINITY;
+    this.camera.position.copy(this.#held.position);
+    this.#controls.update();
   }
 
   /** Set the camera for the picture that is about to be drawn. */
   follow(): void {
     const { camera, show } = this;
-    let fov = this.#heldFov;
-    if (!this.#taken) {
+    const wanted = this.#taken ? this.#held : show;
+    const elapsed = (performance.now() - this.#movedAt) / MOVE_MS;
+    let fov = wanted.fov;
+    if (!this.#taken) this.#controls.target.copy(show.target);
+    if (elapsed < 1) {
       const goal = this.#goal;
-      aim(goal, show);
-      this.#controls.target.copy(show.target);
-      const elapsed = (performance.now() - this.#returnedAt) / RETURN_MS;
-      if (elapsed < 1) {
-        const share = 1 - (1 - elapsed) ** 3;
-        camera.position.lerpVectors(this.#fromPosition, goal.position, share);
-        camera.quaternion.slerpQuaternions(this.#fromRotation, goal.quaternion, share);
-        fov = this.#fromFov + (show.fov - this.#fromFov) * share;
-      } else {
-        camera.position.copy(goal.position);
-        camera.quaternion.copy(goal.quaternion);
-        fov = show.fov;
-      }
+      aim(goal, wanted);
+      const share = 1 - (1 - elapsed) ** 3;
+      camera.position.lerpVectors(this.#fromPosition, goal.position, share);
+      camera.quaternion.slerpQuaternions(this.#fromRotation, goal.quaternion, share);
+      fov = this.#fromFov + (wanted.fov - this.#fromFov) * share;
+    } else if (!this.#taken) {
+      aim(camera, show);
+    } else if (this.#movedAt > 0) {
+      this.#arrive();
     }
-    const vertical = fitFieldOfView(fov, this.#aspect) * DEGREES;
+    const vertical = widen(fov, this.#widening) * DEGREES;
     if (Math.abs(vertical - camera.fov) > 1e-6) {
       camera.fov = vertical;
       camera.updateProjectionMatrix();

@@ -5,16 +5,52 @@ export const SHOW_ASPECT = 16 / 9;
 /** Half a turn and over cannot be drawn in perspective. */
 const WIDEST_FOV = (170 * Math.PI) / 180;
 
+/** What lies over the picture's edges, pixels from each. */
+export interface Insets {
+  readonly top: number;
+  readonly right: number;
+  readonly bottom: number;
+  readonly left: number;
+}
+
+/** How the show's 16:9 frame lies in a window. */
+export interface Fit {
+  /** Height of the window over that of the frame. */
+  readonly widening: number;
+  /** From the middle of the window to that of the frame, pixels to the right and down. */
+  readonly shiftX: number;
+  readonly shiftY: number;
+}
+
+/** The least share of a side that is left to the picture, whatever lies over it. */
+const LEAST_FREE = 0.3;
+
+/** The free stretch of a side: where it begins, and how long it is. */
+function freeStretch(length: number, before: number, after: number): [start: number, extent: number] {
+  const covered = Math.max(1e-6, before + after);
+  const share = Math.min(1, (length * (1 - LEAST_FREE)) / covered);
+  return [before * share, length - (before + after) * share];
+}
+
+/** The largest 16:9 frame in what is free of a window, in the middle of it. */
+export function fitFrame(width: number, height: number, insets: Insets): Fit {
+  const [left, freeWidth] = freeStretch(width, insets.left, insets.right);
+  const [top, freeHeight] = freeStretch(height, insets.top, insets.bottom);
+  return {
+    widening: Math.max(1, height / Math.min(freeHeight, freeWidth / SHOW_ASPECT)),
+    shiftX: left + freeWidth / 2 - width / 2,
+    shiftY: top + freeHeight / 2 - height / 2,
+  };
+}
+
 /**
- * Vertical field of view that keeps the 16:9 frame inside a window of another shape.
+ * Vertical field of view of a window in which the show's frame is `widening` times lower than the window:
+ * tan(v'/2) = tan(v/2) · widening.
  *
- * A wider window keeps the height; a narrower one keeps the width: tan(v'/2) = tan(v/2) · (16/9) / aspect.
- *
- * @param fov vertical, radians, for 16:9.
- * @param aspect the window's width over its height.
- * @returns vertical field of view, radians.
+ * @param fov of the frame, vertical, radians.
+ * @returns radians.
  */
-export function fitFieldOfView(fov: number, aspect: number): number {
-  if (aspect >= SHOW_ASPECT) return fov;
-  return Math.min(WIDEST_FOV, 2 * Math.atan((Math.tan(fov / 2) * SHOW_ASPECT) / aspect));
+export function widen(fov: number, widening: number): number {
+  if (widening === 1) return fov;
+  return Math.min(WIDEST_FOV, 2 * Math.atan(Math.tan(fov / 2) * widening));
 }

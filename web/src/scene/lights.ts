@@ -1,7 +1,8 @@
 /** The lights of the stage, as the show sets them. */
 
-import { AmbientLight, DirectionalLight, Group, type Scene, Vector3 } from "three";
+import { AmbientLight, Color, DirectionalLight, Group, type Scene, Vector3 } from "three";
 
+import { SPOT_COUNT, Spot } from "./spots";
 import type { TierSettings } from "./tiers";
 
 /** What every light looks at: the player's chest. */
@@ -20,7 +21,16 @@ export class StageLights {
   readonly ambient = new AmbientLight(0xffffff, 0.1);
   /** Unit vector from the player to the key, in the world. */
   readonly toKey = new Vector3(-0.6, 0.5, 0.6);
+  readonly spots: readonly Spot[] = Array.from({ length: SPOT_COUNT }, () => new Spot());
+  /** How much of the spots' cones shows in the air. */
+  haze = 0.5;
+  readonly backWash = { color: new Color(0.07, 0.14, 0.32), intensity: 0 };
+  /** The wash's colour times its intensity. */
+  readonly washed = new Color(0, 0, 0);
+  /** How soft the key's shadows are; 1 at rest. */
+  softness = 1;
   readonly #target = new Group();
+  readonly #shadowRadius: number;
 
   constructor(scene: Scene, tier: TierSettings) {
     this.#target.position.copy(TARGET);
@@ -30,6 +40,8 @@ export class StageLights {
       scene.add(light);
     }
     scene.add(this.ambient, this.#target);
+    for (const { light, cone } of this.spots) scene.add(light, light.target, cone);
+    this.#shadowRadius = tier.shadowMapSize / 512;
     this.key.position.set(-2.5, 2.8, 2.6);
     this.rim.position.set(1.6, 2.6, -2.2);
     if (tier.shadowMapSize > 0) {
@@ -42,12 +54,29 @@ export class StageLights {
       shadow.camera.far = 14;
       shadow.bias = -0.0004;
       shadow.normalBias = 0.012;
-      shadow.radius = tier.shadowMapSize / 512;
     }
   }
 
+  /** Whether the spots are among the lights that surfaces are drawn with. */
+  get spotsLit(): boolean {
+    return this.spots[0]?.light.visible ?? false;
+  }
+
+  /** Light the spots or none: what is lit counts in every surface's shader, so that it is all of them at once. */
+  lightSpots(lit: boolean): void {
+    for (const { light } of this.spots) light.visible = lit;
+  }
+
   /** Follow the key's place: only its direction counts, and the fill stands across from it. */
-  arrange(): void {
+  arrange(songTime: number): void {
+    let lit = false;
+    for (const spot of this.spots) {
+      spot.arrange(this.haze, songTime);
+      lit ||= spot.light.intensity > 0;
+    }
+    this.lightSpots(lit);
+    this.washed.copy(this.backWash.color).multiplyScalar(this.backWash.intensity);
+    this.key.shadow.radius = this.#shadowRadius * this.softness;
     const { key, fill } = this;
     this.toKey.subVectors(key.position, TARGET).normalize();
     key.position.copy(this.toKey).multiplyScalar(KEY_DISTANCE).add(TARGET);
@@ -58,5 +87,6 @@ export class StageLights {
     this.key.dispose();
     this.fill.dispose();
     this.rim.dispose();
+    for (const { light } of this.spots) light.dispose();
   }
 }

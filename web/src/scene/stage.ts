@@ -6,14 +6,19 @@ import type { Hello } from "../generated/protocol";
 import { RigModel, loadRig } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
 import { StageCamera } from "./camera";
+import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera_presets";
 import { type DrawnFrame, ParameterIndex } from "./frame";
+import type { Insets } from "./framing";
 import { StageLights } from "./lights";
+import { PlayerLook } from "./look";
+import { Picture } from "./picture";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
 import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show_binding";
 import { dressSurfaces } from "./surfaces";
+import { OUTLINE_LAYER } from "./toon";
 import { TIERS, type Tier, type TierSettings } from "./tiers";
 
 export interface StageOptions {
@@ -43,6 +48,8 @@ export class Stage {
   readonly #room: Room;
   readonly #reflections: RoomReflections;
   readonly #blocks: NoteBlocks;
+  readonly #picture: Picture;
+  readonly #look = new PlayerLook();
   readonly #show: ShowBinding;
   #models: RigModel[] = [];
   #bell: Bell | null = null;
@@ -67,7 +74,7 @@ export class Stage {
     scene.background = this.#background;
     scene.fog = this.#fog;
     this.#lights = new StageLights(scene, this.#tier);
-    this.#room = createRoom(this.#lights.toKey, this.#tier);
+    this.#room = createRoom(this.#lights, this.#tier);
     scene.add(this.#room.object);
     this.#blocks = new NoteBlocks(options.tier === "low" ? 4 : 10);
     this.#blocks.uniforms.toKey.value = this.#lights.toKey;
@@ -79,6 +86,8 @@ export class Stage {
       onTaken: (taken) => options.onCameraTaken?.(taken),
       onChange: () => this.#drawSoon(),
     });
+    this.#camera.camera.layers.enable(OUTLINE_LAYER);
+    this.#picture = new Picture(this.#renderer, this.#tier);
     this.#show = new ShowBinding({
       renderer: this.#renderer,
       scene,
@@ -88,6 +97,8 @@ export class Stage {
       lights: this.#lights,
       room: this.#room,
       blocks: this.#blocks,
+      picture: this.#picture,
+      look: this.#look,
     });
     canvas.addEventListener("webglcontextrestored", this.#restore);
   }
@@ -130,9 +141,19 @@ export class Stage {
       this.#scene.add(object);
     }
     this.#models = models;
+    this.#look.setModels(models.map(({ object }) => object));
     this.#bell = findBell(models);
     this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
+    await this.#compile();
+  }
+
+  /** Ready the shaders, so that the first picture does not wait for them. */
+  async #compile(): Promise<void> {
+    this.#renderer.setRenderTarget(this.#picture.target);
+    const ready = this.#renderer.compileAsync(this.#scene, this.#camera.camera);
+    this.#renderer.setRenderTarget(null);
+    await ready;
   }
 
   /** Lay out the played part's notes. */
@@ -150,7 +171,7 @@ export class Stage {
     this.#epoch = frame.epoch;
     this.#songTime = frame.songTime;
     for (const model of this.#models) model.pose(floats);
-    this.#show.apply(floats);
+    this.#show.apply(floats, frame.songTime);
     this.#blocks.scroll(frame.songTime);
     if (this.#render()) this.#drawnIndex = frame.index;
   }
@@ -167,6 +188,7 @@ export class Stage {
       this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);
     }
     const { camera } = this.#camera;
+    this.#look.follow(camera);
     this.#blocks.uniforms.pixelAngle.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / this.#height;
     const { shadowMap, info } = this.#renderer;
     info.reset();
@@ -176,9 +198,11 @@ export class Stage {
       mirror.render(this.#renderer, scene, camera, floor);
       shadowMap.autoUpdate = false;
     }
+    this.#renderer.setRenderTarget(this.#picture.target);
     this.#renderer.render(scene, camera);
+    this.#picture.finish(camera, this.#camera.targetDistance);
     this.#changed = false;
-    if (this.#camera.returning) this.#drawSoon();
+    if (this.#camera.moving) this.#drawSoon();
     return true;
   }
 
@@ -205,8 +229,33 @@ export class Stage {
     this.#renderer.setSize(width, height, false);
     this.#height = Math.max(1, height * ratio);
     this.#room.mirror?.resize(width * ratio, height * ratio);
-    this.#camera.resize(width / Math.max(1, height));
+    this.#picture.resize(width * ratio, height * ratio);
+    this.#camera.resize(width, height);
     this.#drawSoon();
+  }
+
+  /** Keep the show's 16:9 frame clear of what lies over the canvas's edges, CSS pixels from each. */
+  setSafeArea(insets: Insets): void {
+    this.#camera.setSafeArea(insets);
+    this.#drawSoon();
+  }
+
+  /** Views that `viewPreset` goes to. */
+  get cameraPresets(): readonly CameraPreset[] {
+    return CAMERA_PRESETS;
+  }
+
+  /** Take the camera to a preset's view; returns false where there is none of that name. */
+  viewPreset(name: string): boolean {
+    const preset = findPreset(name);
+    if (preset === null) return false;
+    this.#camera.view(preset);
+    return true;
+  }
+
+  /** The view that is seen, as a show's camera keys hold it: metres and radians, the field of view for 16:9. */
+  currentView(): CameraView {
+    return this.#camera.current();
   }
 
   /** Leave the camera where it is, free to be orbited. */
@@ -233,6 +282,8 @@ export class Stage {
     this.#camera.dispose();
     this.#lights.dispose();
     this.#blocks.dispose();
+    this.#look.release();
+    this.#picture.dispose();
     release(this.#scene);
     this.#room.mirror?.dispose();
     this.#reflections.dispose();

@@ -15,6 +15,10 @@ export interface TierSettings {
   readonly shafts: boolean;
   /** Shades skin with light that passes under it, and cloth with its sheen. */
   readonly softSurfaces: boolean;
+  /** Draws into a picture with a wide range of light first, whose brightest parts bloom. */
+  readonly bloom: boolean;
+  /** Blurs what is out of focus. */
+  readonly depthOfField: boolean;
 }
 
 export const TIERS: Readonly<Record<Tier, TierSettings>> = {
@@ -26,6 +30,8 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     environmentSize: 256,
     shafts: true,
     softSurfaces: true,
+    bloom: true,
+    depthOfField: true,
   },
   medium: {
     antialias: true,
@@ -35,6 +41,8 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     environmentSize: 128,
     shafts: true,
     softSurfaces: true,
+    bloom: true,
+    depthOfField: false,
   },
   low: {
     antialias: false,
@@ -44,5 +52,7 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     environmentSize: 128,
     shafts: false,
     softSurfaces: false,
+    bloom: false,
+    depthOfField: false,
   },
 };

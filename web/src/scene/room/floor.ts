@@ -1,11 +1,11 @@
 /** A varnished wooden floor that takes light and shadow, and gives a little of the room back. */
 
-import { Mesh, type MeshStandardMaterial, PlaneGeometry, type Vector3 } from "three";
+import { Mesh, type MeshStandardMaterial, PlaneGeometry } from "three";
 
 import { FOOT_SHADE, type Feet } from "./feet";
 import type { FloorMirror } from "./mirror";
 import { ROOM } from "./plan";
-import { createSurface } from "./surface";
+import { createSurface, type RoomLight } from "./surface";
 
 const PLANKS = /* glsl */ `
 float plankHash(vec2 cell) {
@@ -49,13 +49,13 @@ export interface Floor {
 }
 
 /** @param mirror what the floor reflects, or null for the room's environment alone. */
-export function createFloor(toKey: Vector3, mirror: FloorMirror | null, feet: Feet): Floor {
+export function createFloor(light: RoomLight, mirror: FloorMirror | null, feet: Feet): Floor {
   const depth = ROOM.front - ROOM.back;
   const geometry = new PlaneGeometry(2 * ROOM.halfWidth, depth).rotateX(-Math.PI / 2);
   geometry.translate(0, 0, (ROOM.front + ROOM.back) / 2);
   const material = createSurface(
     { color: 0x6b4630, roughness: mirror === null ? 0.5 : 0.62, metalness: 0, envMapIntensity: mirror === null ? 0.45 : 0.7 },
-    toKey,
+    light,
     {
       declarations: PLANKS + FOOT_SHADE + (mirror === null ? "" : REFLECTION),
       color: `layPlanks(vRoomPlace.xz);

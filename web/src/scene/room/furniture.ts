@@ -7,11 +7,10 @@ import {
   InstancedMesh,
   type Material,
   Matrix4,
-  type Vector3,
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-import { createSurface } from "./surface";
+import { createSurface, type RoomLight } from "./surface";
 
 /** x, z and heading about +y of each, metres and radians. */
 type Place = readonly [x: number, z: number, heading: number];
@@ -75,9 +74,9 @@ function place(geometry: BufferGeometry, material: Material, places: readonly Pl
   return mesh;
 }
 
-/** @param toKey unit vector to the key, kept up to date by the lights. */
-export function createFurniture(toKey: Vector3): InstancedMesh[] {
-  const enamel = createSurface({ color: 0x2e2f33, roughness: 0.6, envMapIntensity: 0.5 }, toKey, {});
-  const wood = createSurface({ color: 0x4a2c1a, roughness: 0.7, envMapIntensity: 0.5 }, toKey, {});
+/** Music stands and chairs. */
+export function createFurniture(light: RoomLight): InstancedMesh[] {
+  const enamel = createSurface({ color: 0x2e2f33, roughness: 0.6, envMapIntensity: 0.5 }, light, {});
+  const wood = createSurface({ color: 0x4a2c1a, roughness: 0.7, envMapIntensity: 0.5 }, light, {});
   return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, CHAIRS)];
 }

@@ -1,6 +1,6 @@
 /** The band room after school. */
 
-import { Color, Group, type Vector3 } from "three";
+import { Color, Group } from "three";
 
 import type { TierSettings } from "../tiers";
 import { createFloor, type Floor } from "./floor";
@@ -8,6 +8,7 @@ import { Feet } from "./feet";
 import { createFurniture } from "./furniture";
 import { FloorMirror } from "./mirror";
 import { createShafts } from "./shafts";
+import type { RoomLight } from "./surface";
 import { createWalls } from "./walls";
 
 export { FOOT_JOINTS } from "./feet";
@@ -26,16 +27,16 @@ export interface Room {
   readonly daylight: { value: number };
 }
 
-/** @param toKey unit vector to the key, kept up to date by the lights. */
-export function createRoom(toKey: Vector3, tier: TierSettings): Room {
+/** The room, in the light that the lights keep up to date. */
+export function createRoom(light: RoomLight, tier: TierSettings): Room {
   const keyColor = new Color(3, 2.4, 1.7);
   const daylight = { value: 1 };
   const feet = new Feet();
   const mirror = tier.mirrorScale > 0 ? new FloorMirror(tier.mirrorScale) : null;
-  const { mesh: floor } = createFloor(toKey, mirror, feet);
+  const { mesh: floor } = createFloor(light, mirror, feet);
   const object = new Group();
-  object.add(floor, createWalls(toKey, keyColor, daylight), ...createFurniture(toKey));
-  const shafts = tier.shafts ? createShafts(toKey, keyColor) : null;
+  object.add(floor, createWalls(light, keyColor, daylight), ...createFurniture(light));
+  const shafts = tier.shafts ? createShafts(light.toKey, keyColor) : null;
   if (shafts !== null) object.add(shafts.mesh);
   return { object, floor, mirror, feet, haze: shafts?.density ?? null, keyColor, daylight };
 }

@@ -57,7 +57,10 @@ export class FloorMirror {
     mirrored.lookAt(this.#ahead.setY(-this.#ahead.y));
     mirrored.updateMatrixWorld();
     mirrored.projectionMatrix.copy(camera.projectionMatrix);
-    mirrored.projectionMatrixInverse.copy(camera.projectionMatrixInverse);
+    // Left and right are turned over in it, and so is a picture that is shifted to one side.
+    const { elements } = mirrored.projectionMatrix;
+    elements[8] *= -1;
+    mirrored.projectionMatrixInverse.copy(mirrored.projectionMatrix).invert();
     this.matrix.multiplyMatrices(TO_TEXTURE, mirrored.projectionMatrix).multiply(mirrored.matrixWorldInverse);
 
     hidden.visible = false;

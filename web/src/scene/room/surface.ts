@@ -1,7 +1,8 @@
 /** Floor and walls: a standard material that takes the key through the windows and the other lights gently. */
 
-import { MeshStandardMaterial, type MeshStandardMaterialParameters, ShaderChunk, type Vector3 } from "three";
+import { type Color, MeshStandardMaterial, type MeshStandardMaterialParameters, ShaderChunk, type Vector3 } from "three";
 
+import { ROOM } from "./plan";
 import { WINDOW_LIGHT } from "./window_light";
 
 /** Shares of fill and rim that reach the room: they are for the player. */
@@ -26,11 +27,28 @@ const SHARE = /* glsl */ `
 varying vec3 vRoomPlace;
 uniform vec3 toKey;
 ${WINDOW_LIGHT}
+uniform vec3 backWash;
 float keyShare;
+// Lamps in a row at the foot of the back wall, 1.46 m apart: scallops that run together as they rise.
+vec3 washLight(vec3 place) {
+  float away = place.z - (${ROOM.back.toFixed(2)});
+  float lamp = 0.5 + 0.5 * cos(place.x * 4.3036);
+  float height = smoothstep(0.0, 2.4, place.y);
+  float spread = mix(0.25 + 1.1 * lamp * lamp, 0.8, height);
+  return backWash * spread * exp(-0.42 * place.y) * exp(-1.1 * away) / (0.6 + 2.0 * away);
+}
 float roomShare(int light) {
   return light == 0 ? keyShare : (light == 1 ? ${FILL_SHARE.toFixed(3)} : ${RIM_SHARE.toFixed(3)});
 }
 `;
+
+/** The light that the room takes in its own way; shared, and kept up to date by the lights. */
+export interface RoomLight {
+  /** Unit vector to the key. */
+  readonly toKey: Vector3;
+  /** The back wash's colour times its intensity. */
+  readonly washed: Color;
+}
 
 export interface SurfaceShader {
   /** GLSL before main; `vRoomPlace` is the place in the world, metres. */
@@ -44,19 +62,15 @@ export interface SurfaceShader {
   readonly uniforms?: Record<string, { value: unknown }>;
 }
 
-/**
- * A surface of the room.
- *
- * @param toKey unit vector to the key, shared and kept up to date by the lights.
- */
+/** A surface of the room. */
 export function createSurface(
   parameters: MeshStandardMaterialParameters,
-  toKey: Vector3,
+  light: RoomLight,
   shader: SurfaceShader,
 ): MeshStandardMaterial {
   const material = new MeshStandardMaterial(parameters);
   material.onBeforeCompile = (program) => {
-    Object.assign(program.uniforms, { toKey: { value: toKey } }, shader.uniforms);
+    Object.assign(program.uniforms, { toKey: { value: light.toKey }, backWash: { value: light.washed } }, shader.uniforms);
     program.vertexShader = program.vertexShader
       .replace("#include <common>", "#include <common>\nvarying vec3 vRoomPlace;")
       .replace("#include <project_vertex>", `#include <project_vertex>\n${PLACE}`);
@@ -65,7 +79,7 @@ export function createSurface(
       .replace("#include <color_fragment>", `#include <color_fragment>\n${shader.color ?? ""}`)
       .replace("#include <roughnessmap_fragment>", `#include <roughnessmap_fragment>\n${shader.roughness ?? ""}`)
       .replace("#include <lights_fragment_begin>", `keyShare = windowLight(vRoomPlace, toKey);\n${LIGHTS}`)
-      .replace("#include <opaque_fragment>", `${shader.light ?? ""}\n#include <opaque_fragment>`);
+      .replace("#include <opaque_fragment>", `outgoingLight += diffuseColor.rgb * washLight(vRoomPlace);\n${shader.light ?? ""}\n#include <opaque_fragment>`);
   };
   const source = [shader.declarations, shader.color, shader.roughness, shader.light].join();
   material.customProgramCacheKey = () => source;

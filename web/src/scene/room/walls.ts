@@ -4,7 +4,7 @@ import { BufferGeometry, type Color, Group, Mesh, PlaneGeometry, ShaderMaterial,
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import { PANELLING, ROOM, WINDOWS } from "./plan";
-import { createSurface } from "./surface";
+import { createSurface, type RoomLight } from "./surface";
 import { WINDOW_PATTERN } from "./window_light";
 
 /** Plaster above wooden panelling, both darker toward the corners and the ceiling. */
@@ -84,7 +84,7 @@ function createWindows(toKey: Vector3, keyColor: Color, daylight: { value: numbe
  * @param keyColor the key's colour times its intensity: what the sun's windows shine with.
  * @param daylight how strongly the sky stands in the windows. Both are shared and kept up to date.
  */
-export function createWalls(toKey: Vector3, keyColor: Color, daylight: { value: number }): Group {
+export function createWalls(light: RoomLight, keyColor: Color, daylight: { value: number }): Group {
   const depth = ROOM.front - ROOM.back;
   const middle = (ROOM.front + ROOM.back) / 2;
   const surfaces = mergeGeometries([
@@ -94,7 +94,7 @@ export function createWalls(toKey: Vector3, keyColor: Color, daylight: { value: 
     wall(depth, ROOM.height, -Math.PI / 2, ROOM.halfWidth, middle),
     new PlaneGeometry(2 * ROOM.halfWidth, depth).rotateX(Math.PI / 2).translate(0, ROOM.height, middle),
   ]);
-  const material = createSurface({ color: 0xb9ad9a, roughness: 0.92, metalness: 0, envMapIntensity: 0.3 }, toKey, {
+  const material = createSurface({ color: 0xb9ad9a, roughness: 0.92, metalness: 0, envMapIntensity: 0.3 }, light, {
     color: WALL_COLOR,
     roughness: "roughnessFactor = mix(0.5, 0.95, aboveRail);",
   });
@@ -102,6 +102,6 @@ export function createWalls(toKey: Vector3, keyColor: Color, daylight: { value: 
   walls.name = "walls";
   walls.receiveShadow = true;
   const group = new Group();
-  group.add(walls, createWindows(toKey, keyColor, daylight));
+  group.add(walls, createWindows(light.toKey, keyColor, daylight));
   return group;
 }

@@ -1,0 +1,43 @@
+/** Views of the player that a person can go to, each framed for 16:9. */
+
+import { Vector3 } from "three";
+
+export interface CameraPreset {
+  readonly name: string;
+  /** What the page calls it. */
+  readonly title: string;
+  /** In the world, metres. */
+  readonly position: readonly [number, number, number];
+  readonly target: readonly [number, number, number];
+  /** Vertical for 16:9, radians. */
+  readonly fov: number;
+}
+
+/** Lenses on a full frame: 35 mm has 0.56 rad, 50 has 0.40, 85 has 0.24. */
+export const CAMERA_PRESETS: readonly CameraPreset[] = [
+  { name: "whole_figure", title: "Whole figure", position: [-1.75, 1.35, 4.3], target: [0.22, 0.93, 0.2], fov: 0.46 },
+  { name: "three_quarter", title: "Three-quarter", position: [-1.62, 1.56, 2.4], target: [0.06, 1.29, 0.28], fov: 0.5 },
+  { name: "valves", title: "Valves", position: [-0.86, 1.74, 1.02], target: [0.02, 1.46, 0.36], fov: 0.36 },
+  { name: "face", title: "Face", position: [-1.0, 1.52, 1.62], target: [0.03, 1.51, 0.2], fov: 0.24 },
+  { name: "player", title: "Player's view", position: [-0.13, 1.74, -0.16], target: [0.06, 1.44, 0.6], fov: 1.0 },
+  { name: "hall", title: "Hall", position: [-2.9, 1.75, 6.2], target: [0.3, 1.25, 0.2], fov: 0.6 },
+];
+
+/** A camera's stand, as a show's camera keys hold it. */
+export interface CameraView {
+  readonly position: [number, number, number];
+  readonly target: [number, number, number];
+  readonly fov: number;
+  readonly roll: number;
+}
+
+/** @returns the preset of that name, or null. */
+export function findPreset(name: string): CameraPreset | null {
+  return CAMERA_PRESETS.find((preset) => preset.name === name) ?? null;
+}
+
+/** The point that a camera looks at, as far ahead as `about` is. */
+export function lookedAt(position: Vector3, ahead: Vector3, about: Vector3): Vector3 {
+  const distance = Math.max(0.25, new Vector3().subVectors(about, position).dot(ahead));
+  return ahead.clone().multiplyScalar(distance).add(position);
+}
