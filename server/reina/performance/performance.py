@@ -15,6 +15,7 @@ from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, Skele
 from reina.performance.gesture_planners import GESTURE_PLANNERS
 from reina.performance.idle_motion import IdleMotion
 from reina.performance.player_body import PlayerBody
+from reina.performance.slide_finger import SLIDE_FINGERS
 
 if TYPE_CHECKING:
     from reina.instruments import Instrument, PlayedPart
@@ -91,6 +92,9 @@ class Performance:
         self._valve_rows: IntArray = self._curves.index(valves)
         self._lift_rows: IntArray = self._curves.index(lifts)
         self._streamed_rows: IntArray = self._curves.index(streamed)
+        self._slide_rows = {
+            name: self._curves.names.index(name) for name in SLIDE_FINGERS if name in streamed
+        }
         self._gesture_rows = dict(zip(_GESTURES, self._curves.index(_GESTURES).tolist(), strict=True))
 
         self.layout = FrameLayout(
@@ -134,7 +138,8 @@ class Performance:
         valves = curves[self._valve_rows].T
         lifts = (curves[self._lift_rows] * amounts["finger_lift"]).T
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
-        pose = self._body.solve(self._body_signals(times, gestures, amounts), lowered, valves, lifts)
+        slides = {name: curves[row] for name, row in self._slide_rows.items()}
+        pose = self._body.solve(self._body_signals(times, gestures, amounts), lowered, valves, lifts, slides)
 
         rotations = np.empty((len(times), *self._still.shape), dtype=np.float32)
         rotations[:] = self._still

@@ -10,6 +10,7 @@ import numpy as np
 from reina.kinematics import TwistHelpers, TwoBoneLimbs
 from reina.performance.body_table import EYES, TRUNK, body_matrix
 from reina.performance.hands_on_instrument import PressingFingers
+from reina.performance.slide_finger import SLIDE_FINGERS, SlideFinger
 from reina.performance.trunk import Trunk
 from reina.rotations import (
     conjugate,
@@ -23,6 +24,8 @@ from reina.rotations import (
 from reina.skeleton import Point, RigError, forward_kinematics
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import Hold, Rig
 
@@ -110,12 +113,24 @@ class PlayerBody:
         self._fingers = PressingFingers(
             rig, instrument_rig, right, hand_positions[1], self._hand_rotations[1]
         )
+        self._slides = {
+            slide: SlideFinger(rig, chain, part.travel, self._hand_rotations[0], rotations)
+            for slide, chain in SLIDE_FINGERS.items()
+            for part in instrument_rig.parts
+            if part.parameter.endswith(f"/{slide}") and part.travel is not None and chain in rig.chains
+        }
         self._twists = TwistHelpers(rig)
         self.held: FloatArray = same_hemisphere(rotations, skeleton.rest_rotations)
         """All joints' local rotations in the hold, ``(J, 4)``."""
         fingers = self._fingers.chains.joints
         self.moving: IntArray = np.concatenate(
-            [self._turned, joints[:, 0], joints[:, 1], joints[:, 2], fingers.ravel(), self._twists.joints]
+            [
+                self._turned,
+                *joints.T,
+                fingers.ravel(),
+                *(finger.joints for finger in self._slides.values()),
+                self._twists.joints,
+            ]
         )
         """Indices of the joints that move, ``(M,)``."""
         place = {joint: index for index, joint in enumerate(self.moving.tolist())}
@@ -133,7 +148,14 @@ class PlayerBody:
             raise RigError(f"{rig.skeleton.names[joint]!r} must be one of {', '.join(TRUNK)}", where="joints")
         return int(found[0])
 
-    def solve(self, signals: FloatArray, lowered: FloatArray, valves: FloatArray, lifts: FloatArray) -> Pose:
+    def solve(
+        self,
+        signals: FloatArray,
+        lowered: FloatArray,
+        valves: FloatArray,
+        lifts: FloatArray,
+        slides: Mapping[str, FloatArray],
+    ) -> Pose:
         """Poses for a block.
 
         Args:
@@ -141,6 +163,7 @@ class PlayerBody:
             lowered: How far the instrument is taken down, 0..1, ``(F,)``.
             valves: How far down each valve is, ``(F, V)``.
             lifts: How far each valve's finger is off its cap, ``(F, V)``.
+            slides: How far out each slide of `SLIDE_FINGERS` is, 0..1, ``(F,)``; one that is missing is in.
         """
         moved = (signals.T @ self._matrix).reshape(signals.shape[1], -1, 3)
         turns = exp(moved[:, :-2])
@@ -191,7 +214,12 @@ class PlayerBody:
         moving[:, turned : turned + 4] = ends[:, :4]
         moving[:, turned + 4 : turned + 8] = limbs.lower_local
         moving[:, turned + 8 : turned + 12] = ends[:, 4:]
-        moving[:, turned + 12 : helpers] = fingers.reshape(frames, -1, 4)
+        pressing = turned + 12 + len(used) * 3
+        moving[:, turned + 12 : pressing] = fingers.reshape(frames, -1, 4)
+        for index, (name, finger) in enumerate(self._slides.items()):
+            out = slides.get(name)
+            begin = pressing + 3 * index
+            moving[:, begin : begin + 3] = finger.held if out is None else finger.solve(out)
         moving[:, helpers:] = self._twists.solve(moving[:, self._twist_sources])
         return Pose(
             moving=same_hemisphere(moving, self._moving_rest),
