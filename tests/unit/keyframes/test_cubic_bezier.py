@@ -20,6 +20,8 @@ KEYWORDS = {
 
 def _by_halving(u: float, handles: tuple[float, float, float, float]) -> float:
     x1, y1, x2, y2 = handles
+    if u in (0.0, 1.0):
+        return u
 
     def curve(s: float, first: float, second: float) -> float:
         return 3 * (1 - s) ** 2 * s * first + 3 * (1 - s) * s**2 * second + s**3
