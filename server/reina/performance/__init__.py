@@ -1,6 +1,7 @@
 """The whole player at any frame: gestures, body, inverse kinematics, valves and show put together."""
 
 from reina.performance.amounts import PLAYER_PARAMETERS
+from reina.performance.export import performance_clip
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
 from reina.performance.performance import Performance
 
@@ -11,4 +12,5 @@ __all__ = [
     "FrameLayout",
     "Performance",
     "SkeletonLayout",
+    "performance_clip",
 ]
