@@ -86,7 +86,7 @@ def solve_left(grip: Grip, trumpet: Rig) -> Pose:
     ring, saddle = trumpet.contact("ring")[1], trumpet.contact("saddle")[1]
     third = trumpet.content["buttons"][2]["position"]
     casing = trumpet.contact("grip_left")[1][0]
-    hand = LeftHand(grip, ring, saddle, np.array([0.0185, -0.030, 0.064]), third[2], casing)
+    hand = LeftHand(grip, ring, saddle, np.array([-0.004, -0.034, 0.040]), third[2], casing)
     x = search(hand.residuals, left_hand.START, "left")
     arm = grip.reach(x)[2]
     print("left hand", np.round(x, 4).tolist())

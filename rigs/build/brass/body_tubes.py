@@ -131,8 +131,8 @@ def _braces(body: Workpiece, metals: Metals) -> None:
         body.brace(metals.brass, [bell - 0.005, y, z], [0.006, y - 0.002, z], 0.0028)
 
 
-def _hook(body: Workpiece, metals: Metals) -> None:
-    """The little finger's hook on the leadpipe."""
+def hook_path() -> np.ndarray:
+    """The middle of the wire of the little finger's hook on the leadpipe (33, 3)."""
     x, y, z = m.X_LEADPIPE, m.Y_TOP, m.HOOK_Z
     rise = bezier(
         [x, y + 0.005, z + 0.004],
@@ -148,8 +148,12 @@ def _hook(body: Workpiece, metals: Metals) -> None:
         [x - 0.010, y + 0.016, z - 0.024],
         14,
     )
-    radius = np.r_[np.linspace(0.0030, 0.0024, 20), np.linspace(0.0024, 0.0016, 13)]
-    body.sweep(metals.brass, joined_path(rise, turn), radius, 12, caps=True, oval=(1.5, 0.8))
+    return joined_path(rise, turn)
+
+
+def _hook(body: Workpiece, metals: Metals) -> None:
+    radius = np.r_[np.linspace(0.0030, m.HOOK_RADIUS, 20), np.linspace(m.HOOK_RADIUS, 0.0016, 13)]
+    body.sweep(metals.brass, hook_path(), radius, 12, caps=True, oval=(1.5, 0.8))
 
 
 def _outer_legs(body: Workpiece, metals: Metals) -> None:

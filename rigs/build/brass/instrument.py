@@ -24,9 +24,9 @@ CONTACTS: dict[str, tuple[float, float, float]] = {
     "mouthpiece": (m.X_LEADPIPE, m.Y_TOP, m.Z_RIM),
     "bell": (m.X_BELL, m.Y_TOP, m.Z_BELL_END),
     "ring": m.RING,
-    "hook": (m.X_LEADPIPE - 0.002, m.Y_TOP + 0.0125, m.HOOK_Z - 0.012),
-    "saddle": (m.SADDLE[0], m.SADDLE[1] - 0.0076, m.SADDLE[2]),
-    "thumb_right": (-0.0056, 0.017, (m.VALVE_Z[0] + m.VALVE_Z[1]) / 2),
+    "hook": (m.HOOK_TOP[0], m.HOOK_TOP[1] + 0.8 * m.HOOK_RADIUS, m.HOOK_TOP[2]),
+    "saddle": (m.SADDLE[0], m.SADDLE[1] - m.SADDLE_DEPTH + m.SADDLE_WIRE, m.SADDLE[2]),
+    "thumb_right": (m.X_LEADPIPE - 0.0015, m.Y_TOP - 0.98 * m.TUBE, (m.VALVE_Z[0] + m.VALVE_Z[1]) / 2),
     "grip_left": (m.CASING, -0.010, m.VALVE_Z[1]),
 }
 

@@ -32,16 +32,22 @@ FLARE_POWER = -0.66
 TAIL_RADIUS = 0.0061
 
 SLIDE1_X, SLIDE1_Y = 0.006, (-0.026, 0.004)
-SLIDE1_Z = VALVE_Z[0] - 0.034  # where the moving slide begins
-SLIDE3_X, SLIDE3_Y = 0.011, (-0.034, -0.009)
-SLIDE3_Z = VALVE_Z[2] + 0.046
+SLIDE1_Z = VALVE_Z[0] - 0.024  # where the moving slide begins
+SLIDE1_REACH = 0.038
+SLIDE3_X, SLIDE3_Y = 0.011, (-0.040, -0.015)
+SLIDE3_Z = VALVE_Z[2] + 0.040
+SLIDE3_REACH = 0.056
 SLIDE3_TRAVEL = 0.020
-SADDLE = (0.006, SLIDE1_Y[1] + TUBE + 0.010, VALVE_Z[0] - 0.040)
-RING = (0.0110, SLIDE3_Y[1] + TUBE + 0.0122, VALVE_Z[2] + 0.052)
+SADDLE = (0.006, SLIDE1_Y[1] + TUBE + 0.012, VALVE_Z[0] - 0.031)
+SADDLE_DEPTH = 0.0115
+SADDLE_WIRE = 0.0019
+RING = (0.0110, SLIDE3_Y[1] + TUBE + 0.0122, VALVE_Z[2] + 0.048)
 RING_RADIUS = 0.0112
 RING_WIRE = 0.0017
 SLIDE2_Y = (-0.025, -0.001)
 HOOK_Z = 0.056
+HOOK_RADIUS = 0.0024
+HOOK_TOP = (X_LEADPIPE - 0.0062, Y_TOP + 0.031, HOOK_Z - 0.017)  # the middle of its wire where it is highest
 
 
 def bell_radius(distance_from_end: float) -> float:

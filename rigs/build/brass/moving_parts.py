@@ -70,11 +70,11 @@ def _valve_slide(
 
 def first_slide(detail: float, metals: Metals) -> Workpiece:
     """With the thumb's saddle."""
-    piece = _valve_slide(detail, metals, m.SLIDE1_X, m.SLIDE1_Y, m.SLIDE1_Z, -0.028)
+    piece = _valve_slide(detail, metals, m.SLIDE1_X, m.SLIDE1_Y, m.SLIDE1_Z, -m.SLIDE1_REACH)
     a = np.linspace(-0.15, np.pi + 0.15, piece.facets(22, 9))
     x, y, z = m.SADDLE
-    arch = np.column_stack([np.full(len(a), x), y + 0.001 - 0.0105 * np.sin(a), z + 0.010 * np.cos(a)])
-    piece.sweep(metals.brass, arch, 0.0019, 12, caps=True, oval=(2.1, 1))
+    arch = np.column_stack([np.full(len(a), x), y - m.SADDLE_DEPTH * np.sin(a), z + 0.0118 * np.cos(a)])
+    piece.sweep(metals.brass, arch, m.SADDLE_WIRE, 12, caps=True, oval=(2.1, 1))
     return piece
 
 
@@ -96,11 +96,11 @@ def second_slide(detail: float, metals: Metals) -> Workpiece:
 
 def third_slide(detail: float, metals: Metals) -> Workpiece:
     """With the ring finger's ring on its upper leg."""
-    piece = _valve_slide(detail, metals, m.SLIDE3_X, m.SLIDE3_Y, m.SLIDE3_Z, 0.050)
+    piece = _valve_slide(detail, metals, m.SLIDE3_X, m.SLIDE3_Y, m.SLIDE3_Z, m.SLIDE3_REACH)
     piece.ring(metals.brass, m.RING, [1, 0, 0], m.RING_RADIUS, m.RING_WIRE, 40, 12)
     x, y, z = m.SLIDE3_X, m.SLIDE3_Y[1] + m.TUBE, m.RING[2]
     piece.sweep(metals.brass, line([x, y - 0.001, z], [x, y + 0.0015, z]), 0.003, 12)
-    piece.sweep(metals.brass, line([x, m.SLIDE3_Y[0], z + 0.022], [x, m.SLIDE3_Y[1], z + 0.022]), 0.0018, 12)
+    piece.sweep(metals.brass, line([x, m.SLIDE3_Y[0], z + 0.026], [x, m.SLIDE3_Y[1], z + 0.026]), 0.0018, 12)
     return piece
 
 

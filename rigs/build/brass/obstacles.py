@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from brass import measures as m
-from brass.body_tubes import bell_path
+from brass.body_tubes import bell_path, hook_path
 from brass.paths import arc_length, at_lengths, u_bend
 
 BELL_PIECES = 14
 BOW_PIECES = 6
+RING_PIECES = 8
 
 
 def trumpet_capsules() -> list[dict[str, Any]]:
@@ -42,14 +43,20 @@ def trumpet_capsules() -> list[dict[str, Any]]:
     add([m.X_RETURN, m.Y_LOW, 0.158], [m.X_RETURN, m.Y_LOW, 0.118], m.TUBE)
     add([m.X_RETURN, m.Y_LOW, 0.118], [0, m.Y_LOW, m.VALVE_Z[2]], m.TUBE)
     add([m.X_LEADPIPE, m.Y_TOP, 0.092], [m.X_RETURN, m.Y_LOW, 0.092], 0.0022)
-    for x, levels, z, end in (
-        (m.SLIDE1_X, m.SLIDE1_Y, m.VALVE_Z[0], m.SLIDE1_Z - 0.013),
-        (m.SLIDE3_X, m.SLIDE3_Y, m.VALVE_Z[2], m.SLIDE3_Z + 0.0375),
+    for x, levels, z, tip in (
+        (m.SLIDE1_X, m.SLIDE1_Y, m.VALVE_Z[0], m.SLIDE1_Z - m.SLIDE1_REACH),
+        (m.SLIDE3_X, m.SLIDE3_Y, m.VALVE_Z[2], m.SLIDE3_Z + m.SLIDE3_REACH),
     ):
+        reach = (levels[1] - levels[0]) / 2 * np.sign(tip - z)
+        end = tip - reach
         for y in levels:
             add([x * 0.8, y, z], [x, y, end], m.TUBE + 0.0006)
-        reach = (levels[1] - levels[0]) / 2 * np.sign(end - z)
         add_path(u_bend(x, x, levels[1], levels[0], end, reach, BOW_PIECES), m.TUBE)
+    x, y, z = m.SADDLE
+    add([x - 0.0025, y - m.SADDLE_DEPTH, z], [x + 0.0025, y - m.SADDLE_DEPTH, z], m.SADDLE_WIRE)
+    turn = np.linspace(0, 2 * np.pi, RING_PIECES + 1)
+    add_path(m.RING + m.RING_RADIUS * np.c_[0 * turn, np.cos(turn), np.sin(turn)], m.RING_WIRE)
+    add_path(hook_path()[::4], m.HOOK_RADIUS)
     for y in m.SLIDE2_Y:
         add([0, y, 0], [-0.026, y, 0], m.TUBE + 0.0006)
     add([-0.036, m.SLIDE2_Y[1] - 0.004, 0], [-0.036, m.SLIDE2_Y[0] + 0.004, 0], m.TUBE)

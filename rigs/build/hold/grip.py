@@ -64,12 +64,12 @@ class Grip:
         twist, flexion, deviation = arm.wrist * DEG
         return [
             np.array([arm.lacking * MM]),
-            (arm.elbow - self.shoulder - ELBOW_FROM_SHOULDER_M[self.side]) / 0.04,
-            x[7:9] * DEG / 6,
-            np.array([twist / 60, flexion / 8, deviation / 7]),
+            (arm.elbow - self.shoulder - ELBOW_FROM_SHOULDER_M[self.side]) / [0.03, 0.05, 0.05],
+            x[7:9] * DEG / 5,
+            np.array([twist / 60, flexion / 6, deviation / 6]),
             beyond(twist, -85, 85)[None] / 4,
-            beyond(flexion, -38, 30)[None] / 3,
-            beyond(deviation, -16, 16)[None] / 3,
+            beyond(flexion, -30, 13)[None] / 1,
+            beyond(deviation, -11, 11)[None] / 0.8,
         ]
 
     def palm_spheres(self) -> tuple[Array, Array]:

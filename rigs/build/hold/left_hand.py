@@ -1,7 +1,8 @@
 """The left hand round the valve casings.
 
-Index and middle finger lie round the third casing, the ring finger in the third slide's ring, the little
-finger along the slide, the thumb in the first slide's saddle, the palm against the casings.
+Index and middle finger lie round the third casing with their tips back toward the palm, the ring finger goes
+through the third slide's ring, the little finger curls against the slide, the thumb is bent in the first
+slide's saddle, and the heel of the palm rests on the casings.
 """
 
 from __future__ import annotations
@@ -17,16 +18,18 @@ from hold.right_hand import thumb_cost
 
 Array = NDArray[np.float64]
 
-START = np.array(  # place, rotation vector, swivel, shoulder; thumb; abduction, θ1, θ2 of each finger
+START = np.array(  # place, rotation vector, swivel, shoulder; thumb; abduction, θ1, θ2, θ3 of each finger
     [
-        *(0.064, -0.058, -0.027), *(-1.605, -1.863, -1.365), 0.5, 0.1, 0.1,
-        *(-0.57, 0.39, -0.56, 0.16, 0.26),
-        *(0.25, 0.0, -1.33), *(0.0, -0.13, -1.45), *(-0.25, 0.10, -0.64), *(0.20, 0.10, -0.70),
+        *(0.044, -0.071, -0.029), *(-1.892, -1.733, -1.044), -0.03, 0.24, 0.23,
+        *(-0.22, 0.63, -0.58, 0.17, -0.52),
+        *(0.28, -0.02, -1.43, -0.26), *(0.07, -0.24, -1.49, -0.76),
+        *(-0.09, -0.07, -0.77, -0.45), *(-0.30, -0.42, -1.48, -0.66),
     ]
 )  # fmt: skip
-KAPPA = 0.5  # how far the outer joint follows while gripping
 RING_BONE = 1  # the ring finger's middle bone passes the ring
-PAD_HEIGHTS_M = (0.0185, 0.0030)  # of index and middle finger on the casing
+PAD_HEIGHTS_M = (0.0180, 0.0020)  # of index and middle finger on the casing
+CURL_DEG = (-62.0, -62.0, -55.0, -60.0)
+HEEL_SAMPLES = 2  # of the palm's spheres along each capsule, those next to the wrist
 
 
 @dataclass
@@ -45,7 +48,7 @@ class LeftHand:
 
     def angles(self, x: Array) -> list[Array]:
         """Abduction, θ1, θ2, θ3 (4,) of each finger."""
-        return [np.array([a, t1, t2, KAPPA * t2]) for a, t1, t2 in x[14:26].reshape(4, 3)]
+        return list(x[14:30].reshape(4, 4))
 
     def residuals(self, x: Array) -> Array:
         """All residuals at once, for `least_squares`."""
@@ -57,20 +60,24 @@ class LeftHand:
             looking = rotation @ self.grip.fingers[k].pad_direction(angles[k])
             terms.append(self._on_casing(chains[k][3], looking, height))
         terms.append(self._through_ring(chains[2]))
-        terms.append((chains[3][3] - self.slide) * MM / 7)
-        terms.append(self.grip.obstacles.clearance(chains[3][3:]) * MM / 0.7)
-        for a in angles:
-            abduction, theta1, theta2, _ = a * DEG
-            terms.append(np.array([abduction / 11, (theta1 + 30) / 40, (theta2 + 50) / 40]))
+        terms.append((chains[3][3] - self.slide) * MM / 8)
+        terms.append(self.grip.obstacles.clearance(chains[3][3:]) * MM / 0.4)
+        for a, curl in zip(angles, CURL_DEG, strict=True):
+            abduction, theta1, theta2, theta3 = a * DEG
+            terms.append(
+                np.array([abduction / 9, (theta1 + 22) / 25, (theta2 - curl) / 12, (theta3 + 26) / 9])
+            )
             terms += [
-                beyond(abduction, -17, 17) / 1.5,
-                beyond(theta1, -67, 12) / 2,
-                beyond(theta2, -84, -6) / 2,
+                beyond(abduction, -16, 16) / 0.4,
+                beyond(theta1, -67, 8) / 2,
+                beyond(theta2, -84, -44) / 1.5,
+                beyond(theta3, -42, -15) / 1.5,
             ]
         thumb_points, looking = self.grip.thumb.points(x[9:14])
-        terms.append((position + rotation @ thumb_points[3] - self.saddle) * MM / [2.0, 0.8, 1.5])
-        terms.append((rotation @ looking - [-0.3, -0.8, -0.3]) / 0.8)
+        terms.append((position + rotation @ thumb_points[3] - self.saddle) * MM / [1.0, 0.4, 1.2])
+        terms.append((rotation @ looking - [-0.3, -0.85, -0.3]) / 0.6)
         terms.append(thumb_cost(x[9:14]))
+        terms.append((x[13:14] * DEG + 30) / 8)
         terms += self._collisions(rotation, position, angles, x[9:14])
         return np.concatenate([np.ravel(t) for t in terms])
 
@@ -78,33 +85,35 @@ class LeftHand:
         """The pad lies on the casing's right side, at a height, and looks at its axis."""
         spoke = np.array([pad[0], 0, pad[2] - self.casing_z])
         radius = float(np.linalg.norm(spoke))
-        aside = beyond(pad[0], -1.0, -0.005) * MM
+        aside = beyond(pad[0], -1.0, -0.007) * MM
         square = 1 + looking @ spoke / radius
         return np.array(
-            [(radius - self.casing_radius) * MM / 0.4, (pad[1] - height) * MM / 3, aside / 2, square / 0.35]
+            [(radius - self.casing_radius) * MM / 0.3, (pad[1] - height) * MM / 3, aside / 1.5, square / 0.3]
         )
 
     def _through_ring(self, chain: Array) -> Array:
         """The ring finger's middle bone goes through the middle of the ring, more or less square to it."""
         a, b = chain[RING_BONE], chain[RING_BONE + 1]
-        t = np.clip((self.ring - a) @ (b - a) / ((b - a) @ (b - a)), 0.25, 1.2)
+        t = np.clip((self.ring - a) @ (b - a) / ((b - a) @ (b - a)), 0.2, 1.1)
         miss = (a + t * (b - a) - self.ring) * MM
         direction = (b - a) / np.linalg.norm(b - a)
-        return np.r_[miss[1:] / 1.0, miss[0] / 1.5, beyond(direction[0], -1.0, -0.7) / 0.15]
+        return np.r_[miss[1:] / 0.8, miss[0] / 1.5, beyond(direction[0], -1.0, -0.75) / 0.15]
 
     def _collisions(self, rotation: Array, position: Array, angles: list[Array], thumb: Array) -> list[Array]:
         """Depths inside metal, fingers inside one another, and the palm's gap from the casings."""
-        fingers = [f.spheres(a, 5) for f, a in zip(self.grip.fingers, angles, strict=True)]
+        fingers = [f.spheres(a, 6) for f, a in zip(self.grip.fingers, angles, strict=True)]
         palm = self.grip.palm_spheres()
         terms = [
-            self.grip.depth(rotation, position, *each) / 0.7
+            self.grip.depth(rotation, position, *each) / 0.35
             for each in (*fingers, self.grip.thumb.spheres(thumb, 4))
         ]
         terms.append(self.grip.depth(rotation, position, *palm, allowed_m=0.002) / 0.7)
         for (first, first_radii), (second, second_radii) in itertools.pairwise(fingers):
-            gap = np.linalg.norm(first[5:, None] - second[None, 5:], axis=2)  # inner bones lie in one palm
-            depth = first_radii[5:, None] + second_radii[None, 5:] - 0.0015 - gap
-            terms.append(np.maximum(depth, 0) * MM / 1.0)
-        resting = (self.grip.obstacles.clearance(position + palm[0] @ rotation.T) - palm[1]).min()
-        terms.append(np.array([max(resting, 0.0) * MM / 3]))
+            gap = np.linalg.norm(first[4:, None] - second[None, 4:], axis=2)  # the knuckles lie in one palm
+            depth = first_radii[4:, None] + second_radii[None, 4:] - 0.0012 - gap
+            terms.append(np.maximum(depth, 0) * MM / 0.8)
+        gaps = self.grip.obstacles.clearance(position + palm[0] @ rotation.T) - palm[1]
+        terms.append(np.array([max(float(gaps.min()), 0.0) * MM / 2]))
+        heel = gaps.reshape(len(self.grip.palm), -1)[:, :HEEL_SAMPLES]
+        terms.append(np.array([max(float(heel.min()), 0.0) * MM / 2.5]))
         return terms

@@ -18,9 +18,9 @@ HEIGHTS_M = (0.0, -0.0165, 0.004)  # valve up, valve down, finger resting off th
 ABDUCTION_DEG = 12.0
 THETA1_DEG = (-67.0, 77.0)  # limits less a margin of three degrees
 THETA2_DEG = (-132.0, -3.0)
-CURL_DEG = (-52.0, -58.0, -54.0)
+CURL_DEG = (-52.0, -56.0, -50.0)
 START = np.array(  # place, rotation vector, swivel, shoulder; thumb
-    [*(-0.107, 0.022, 0.006), *(-0.20, 0.03, 0.96), 0.6, -0.2, -0.04, *(0.64, -0.42, -0.59, 0.32, 0.30)]
+    [*(-0.122, 0.031, -0.004), *(-0.07, -0.04, 0.81), 0.74, -0.18, -0.02, *(0.62, -0.55, -0.32, 0.29, 0.27)]
 )
 
 
@@ -66,25 +66,25 @@ class RightHand:
                 beyond(theta1, *THETA1_DEG) / 2,
                 beyond(theta2, *THETA2_DEG) / 2,
             ]
-            terms += [beyond(theta2, -82, -18) / 4]
+            terms += [beyond(theta2, -69, -38) / 1.5]
             points = self.grip.fingers[k].points(angles[k][0]) @ rotation.T
             bone = (points[3] - points[2]) / np.linalg.norm(points[3] - points[2])
-            terms.append(np.array([np.arcsin(np.clip(-bone[1], -1, 1)) * DEG - 58]) / 9)
+            terms.append(np.array([np.arcsin(np.clip(-bone[1], -1, 1)) * DEG - 48]) / 12)
         little = angles[3][0] * DEG
         terms += [
-            lacking[3] * MM / 2,
+            lacking[3] * MM / 0.2,
             little[:1] / 9,
-            (little[1:2] + 35) / 20,
-            (little[2:3] + 40) / 14,
+            (little[1:2] + 30) / 20,
+            (little[2:3] + 42) / 14,
             beyond(little[:1], -18, 18) / 1.5,
             beyond(little[1:2], *THETA1_DEG) / 3,
             beyond(little[2:3], -95, -12) / 5,
         ]
         thumb_points, pad_direction = self.grip.thumb.points(x[9:14])
         thumb_points = position + thumb_points @ rotation.T
-        terms.append((thumb_points[3] - self.thumb) * MM / [1.0, 2.5, 1.5])
+        terms.append((thumb_points[3] - self.thumb) * MM / [2.0, 0.7, 2.5])
         terms.append(self.grip.obstacles.clearance(thumb_points[3:]) * MM / 0.5)
-        terms.append((rotation @ pad_direction - [0.93, 0.2, 0.3]) / 0.5)
+        terms.append((rotation @ pad_direction - [0.40, 0.90, 0.15]) / 0.5)
         terms.append(thumb_cost(x[9:14]))
         terms += self._collisions(rotation, position, angles, x[9:14])
         return np.concatenate([np.ravel(t) for t in terms])

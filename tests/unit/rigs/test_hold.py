@@ -191,7 +191,10 @@ def clearance(trumpet: dict[str, Any], point: Array) -> float:
     return best
 
 
-@pytest.mark.parametrize("pad", ["leftIndexTip", "leftMiddleTip", "leftLittleTip", "rightThumbTip"])
+@pytest.mark.parametrize(
+    "pad",
+    ["leftThumbTip", "leftIndexTip", "leftMiddleTip", "leftLittleTip", "rightThumbTip", "rightLittleTip"],
+)
 def test_gripping_pads_touch_the_metal(pad: str) -> None:
     h = held()
     effector = item(h.player["effectors"], pad)
@@ -212,6 +215,37 @@ def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring() -> None
         t = np.clip((ring - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
         gaps.append(float(np.linalg.norm(a + t * (b - a) - ring)))
     assert min(gaps) < 0.004
+
+
+@pytest.mark.parametrize("finger", ["leftIndex", "leftMiddle", "leftLittle"])
+def test_left_fingers_wrap_the_third_casing(finger: str) -> None:
+    """Round its front to its right side, every joint bent, the tip turned back toward the palm."""
+    h = held()
+    tip = item(h.player["effectors"], f"{finger}Tip")
+    pad = h.in_trumpet(tip["joint"], tip["offset"])
+    outer = h.in_trumpet(f"{finger}Distal", np.zeros(3))
+    assert h.in_trumpet(f"{finger}Proximal", np.zeros(3))[0] > 0.02
+    assert pad[0] < 0
+    assert (pad - outer)[2] < -0.004
+    for part, low, high in (("Intermediate", -88, -40), ("Distal", -45, -12)):
+        quaternion = h.hold["pose"][f"{finger}{part}"]
+        assert low < np.degrees(2 * np.arctan2(quaternion[2], quaternion[3])) < high
+
+
+@pytest.mark.parametrize("finger", ["rightIndex", "rightMiddle"])
+def test_pressing_fingers_are_curved(finger: str) -> None:
+    quaternion = held().hold["pose"][f"{finger}Intermediate"]
+    assert -70 <= np.degrees(2 * np.arctan2(quaternion[2], quaternion[3])) <= -40
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_wrists_are_nearly_straight(side: str) -> None:
+    h = held()
+    rest = next(joint["rotation"] for joint in h.player["joints"] if joint["name"] == f"{side}Hand")
+    turn = Rotation.from_quat(rest).inv() * Rotation.from_quat(h.hold["pose"][f"{side}Hand"])
+    _, flexion, deviation = turn.as_euler("XZY", degrees=True)
+    assert abs(flexion) < 15
+    assert abs(deviation) <= 12
 
 
 @pytest.mark.parametrize("joint", ["leftHand", "rightHand"])
