@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 FIND_BROWSER = Path(__file__).with_name("find_browser.py")
-SOFTWARE_GL = (
+BROWSER_ARGUMENTS = (
     "--no-sandbox",
     "--use-gl=angle",
     "--use-angle=swiftshader",
@@ -27,6 +27,15 @@ SOFTWARE_GL = (
     "--disable-sync",
     "--no-first-run",
 )
+SOUND_WAITS = """
+let touched = false;
+addEventListener("pointerdown", () => { touched = true; }, true);
+window.AudioContext = class extends AudioContext {
+  constructor(...options) { super(...options); void super.suspend(); }
+  resume() { return touched ? super.resume() : new Promise(() => {}); }
+};
+"""
+"""What browsers do outside of tests, where a script that the driver runs counts as its user's own doing."""
 SMALL = (760, 430)
 """Width and height of the window: software GL draws a picture of this size in about a tenth of a second."""
 
@@ -51,7 +60,7 @@ def browser() -> Iterator[Browser]:
     found = subprocess.run([sys.executable, str(FIND_BROWSER)], capture_output=True, text=True, check=True)
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
-            executable_path=found.stdout.strip(), args=list(SOFTWARE_GL), timeout=60_000
+            executable_path=found.stdout.strip(), args=list(BROWSER_ARGUMENTS), timeout=60_000
         )
         yield browser
         browser.close()
@@ -62,7 +71,7 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
     """Opens pages of the server, each in a browser profile of its own unless `beside` another.
 
     Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
-    `refusals`.
+    `refusals`. With `sound_waits` the browser lets no sound out before a click or a key.
     """
     opened: list[Opened] = []
 
@@ -72,11 +81,14 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
         size: tuple[int, int] = SMALL,
         beside: Opened | None = None,
         refusals: tuple[str, ...] = (),
+        sound_waits: bool = False,
     ) -> Opened:
         if beside is None:
             context = browser.new_context(viewport={"width": size[0], "height": size[1]})
         else:
             context = beside.page.context
+        if sound_waits:
+            context.add_init_script(SOUND_WAITS)
         one = Opened(context.new_page(), server.address, refusals)
         opened.append(one)
         one.go(path)

@@ -123,10 +123,17 @@ def test_a_seek_in_one_tab_moves_the_other(visit: Visit, client: httpx.Client) -
 
 def test_without_the_token_one_watches(visit: Visit) -> None:
     owner = open_scale(visit)
-    watcher = visit(f"/s/{owner.session}")
+    watcher = visit(f"/s/{owner.session}", sound_waits=True)
     watcher.until_drawn()
     assert watcher.page.get_by_text("Watching", exact=True).is_visible()
     assert watcher.page.get_by_role("button", name="Play", exact=True).first.is_disabled()
+    owner.page.keyboard.press("l")
+    watcher.page.wait_for_selector(".loop")
+    owner.page.keyboard.press("Space")
+    sound_on = watcher.page.get_by_role("button", name="Turn the sound on")
+    sound_on.click()
+    watcher.until("window.reina.sound === 'ready' && window.reina.soundAhead !== null")
+    sound_on.wait_for(state="detached")
     owner.page.keyboard.press("End")
     watcher.until("window.reina.songTime > 7")
 
