@@ -19,7 +19,7 @@ export const CAMERA_PRESETS: readonly CameraPreset[] = [
   { name: "three_quarter", title: "Three-quarter", position: [-1.62, 1.56, 2.4], target: [0.06, 1.29, 0.28], fov: 0.5 },
   { name: "valves", title: "Valves", position: [-0.86, 1.74, 1.02], target: [0.02, 1.46, 0.36], fov: 0.36 },
   { name: "face", title: "Face", position: [-1.0, 1.52, 1.62], target: [0.03, 1.51, 0.2], fov: 0.24 },
-  { name: "player", title: "Player's view", position: [-0.13, 1.74, -0.16], target: [0.06, 1.44, 0.6], fov: 1.0 },
+  { name: "player", title: "Player's view", position: [-0.035, 1.575, 0.13], target: [0.05, 1.42, 0.62], fov: 1.0 },
   { name: "hall", title: "Hall", position: [-2.9, 1.75, 6.2], target: [0.3, 1.25, 0.2], fov: 0.6 },
 ];
 

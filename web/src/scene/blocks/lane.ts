@@ -7,7 +7,7 @@ export const LANE = {
   /** Height of one diatonic step on the staff. */
   step: 0.033,
   /** toward_bell: the ribbon leaves the bell and turns to the player's left. */
-  bell: { side: 1, radius: 1.15, turn: 1.12, height: 1.32, funnel: 0.5, narrowest: 0.5, sight: 3.6 },
+  bell: { side: 1, radius: 1.15, turn: 1.12, height: 1.32, funnel: 0.5, narrowest: 0.68, sight: 3.6 },
   /** lane_below: a desk before the player; the moment that sounds stands at `now`. */
   below: { now: -0.55, near: 1.05, height: 0.42, lean: 0.5, past: 0.75, sight: 2.4 },
 } as const;

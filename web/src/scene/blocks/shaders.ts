@@ -100,12 +100,12 @@ void main() {
   // Lacquer: a matt body under a clear coat that catches the window.
   float wrapped = 0.5 + 0.5 * dot(normal, toKey);
   float sky = 0.5 + 0.5 * normal.y;
-  vec3 light = vec3(1.0, 0.88, 0.72) * wrapped * wrapped * 0.9 + vec3(0.3, 0.31, 0.35) * sky;
+  vec3 light = vec3(1.0, 0.9, 0.76) * wrapped * wrapped * 0.62 + vec3(0.3, 0.31, 0.34) * sky;
   float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
-  float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0) * 1.6;
+  float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0);
   vec3 mirrored = reflect(-eye, normal);
-  float window = smoothstep(0.15, 0.5, dot(mirrored, toKey)) * smoothstep(-0.1, 0.15, mirrored.y) * 0.12;
-  vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.35 * fresnel + glint + window);
+  float window = smoothstep(0.15, 0.5, dot(mirrored, toKey)) * smoothstep(-0.1, 0.15, mirrored.y) * 0.05;
+  vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.25 * fresnel + glint + window);
 
   // From the edge of the face inward, metres.
   float fromEnds = min(vInside.x, vLength - vInside.x);
@@ -113,29 +113,34 @@ void main() {
   float inward = min(fromEnds, fromSides);
   float facing = smoothstep(0.6, 0.9, abs(vFace.z));
 
-  // Lit from within: brightest in the core, and still bright at the rim.
+  // Lit from within, in its own colour: deeper toward the edge, as in a lantern, and never so bright that it turns white.
   float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
-  float warmth = glow / (1.0 + 0.35 * glow);
-  // The colour is deeper toward the edge, as in a lantern.
-  vec3 lit = soundingColor * mix(soundingColor, vec3(1.0), 0.6 * core) * (0.2 + warmth * (0.3 + 0.85 * core)) + 0.3 * shaded;
+  float warmth = glow / (1.0 + 0.5 * glow);
+  float peak = max(max(soundingColor.r, soundingColor.g), max(soundingColor.b, 0.05));
+  vec3 deep = soundingColor * soundingColor / peak;
+  vec3 lit = mix(deep * deep / peak, mix(deep, soundingColor, 0.35 * core), 0.35 + 0.65 * core);
+  lit = lit * (0.35 + 0.75 * warmth * (0.55 + 0.45 * core)) + 0.12 * shaded;
   vec3 surface = mix(shaded, lit, vSounding);
+  // A dark line about the face: the block keeps its body before a bright window and in its own light.
+  float line = 1.0 - smoothstep(0.0012, 0.0012 + max(0.0016, fwidth(vInside.y)), inward);
+  surface *= 1.0 - 0.6 * line * facing;
 
   float pixel = max(fwidth(vInside.y), 1e-5);
   // Three valves in a column at the note's beginning, the first on top: it holds from either side. They stand on ink,
   // to be told apart on a block of any colour.
-  float radius = min(0.0078, 0.34 * vLength);
-  vec2 fromColumn = vInside - vec2(min(0.018, 0.5 * vLength), 0.0);
-  vec2 overColumn = vec2(fromColumn.x, fromColumn.y - clamp(fromColumn.y, -0.0192, 0.0192));
-  float plate = 1.0 - smoothstep(-pixel, pixel, length(overColumn) - radius - 0.0026);
-  if (playable) surface = mix(surface, INK, 0.9 * plate * facing);
+  float radius = min(0.0088, 0.34 * vLength);
+  vec2 fromColumn = vInside - vec2(min(0.0185, 0.5 * vLength), 0.0);
+  vec2 overColumn = vec2(fromColumn.x, fromColumn.y - clamp(fromColumn.y, -0.0202, 0.0202));
+  float plate = 1.0 - smoothstep(-pixel, pixel, length(overColumn) - radius - 0.0028);
+  if (playable) surface = mix(surface, INK, 0.94 * plate * facing);
   for (int valve = 0; valve < 3; valve++) {
-    float away = length(fromColumn - vec2(0.0, (1.0 - float(valve)) * 0.0192));
+    float away = length(fromColumn - vec2(0.0, (1.0 - float(valve)) * 0.0202));
     bool down = mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
     float disc = 1.0 - smoothstep(-pixel, pixel, away - radius);
-    float ring = disc * smoothstep(-pixel, pixel, away - radius + 0.0018);
-    vec3 mark = down ? valveColor(valve) * 1.5 : PAPER;
+    float ring = disc * smoothstep(-pixel, pixel, away - radius + max(0.0024, 0.8 * pixel));
+    vec3 mark = down ? valveColor(valve) * (valve == 1 ? 2.2 : 1.35) : PAPER;
     // The rings of an open note are whole paper; beside a pressed valve they step back.
-    float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.5);
+    float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.45);
     if (playable) surface = mix(surface, mark, share * facing);
   }
   // What cannot be played is an empty frame.
@@ -190,7 +195,7 @@ varying vec2 vFrom;
 varying float vSight;
 void main() {
   float falloff = max(0.0, 1.0 - length(vFrom));
-  float light = falloff * falloff * falloff * glow / (1.0 + 0.35 * glow) * 0.17 * opacity * max(vSight, 0.35);
+  float light = falloff * falloff * falloff * glow / (1.0 + 0.35 * glow) * 0.11 * opacity * max(vSight, 0.35);
   gl_FragColor = vec4(soundingColor * light, 1.0);
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
@@ -207,6 +212,7 @@ uniform float pixelAngle;
 varying float vSight;
 varying float vBar;
 varying float vThin;
+varying float vOff;
 void main() {
   vec4 mvPosition = vec4(0.0, 0.0, 0.0, 1.0);
   float start = max((line.x - songTime) * speed, laneStart());
@@ -214,7 +220,7 @@ void main() {
   bool bar = line.z != line.w;
   vBar = bar ? 1.0 : 0.0;
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  vSight = vThin = 0.0;
+  vSight = vThin = vOff = 0.0;
   if (bar ? (start <= end + 1e-5 && (line.x - songTime) * speed >= laneStart()) : start < end) {
     float overhang = bar || line.y - line.x > 1e5 ? 0.0 : 0.018;
     float ahead = mix(start - overhang * step(laneStart() + overhang, start), min(end + overhang, laneEnd()), position.x);
@@ -225,7 +231,9 @@ void main() {
     float width = max(wanted, 0.6 * pixelAngle * away);
     vThin = wanted / width;
     vec3 across = bar ? place.along : place.up;
-    vec3 point = place.point + across * position.y * width;
+    // Three times as wide as the line: its dark edges lie on either side.
+    vOff = 6.0 * position.y;
+    vec3 point = place.point + across * position.y * 3.0 * max(width, pixelAngle * away);
     mvPosition = viewMatrix * vec4(point, 1.0);
     gl_Position = projectionMatrix * mvPosition;
     vSight = place.sight * smoothstep(0.2, 0.5, away);
@@ -241,9 +249,13 @@ uniform float opacity;
 varying float vSight;
 varying float vBar;
 varying float vThin;
+varying float vOff;
 ${MARKS}
 void main() {
-  gl_FragColor = vec4(PAPER, vSight * vThin * mix(0.5, 0.72, vBar) * min(1.0, opacity * 1.2));
+  float line = 1.0 - smoothstep(0.5, 1.4, abs(vOff));
+  float shade = 0.5 * (1.0 - smoothstep(0.8, 3.0, abs(vOff)));
+  float alpha = max(line * vThin * mix(0.6, 0.8, vBar), shade * sqrt(vThin));
+  gl_FragColor = vec4(mix(INK, PAPER, line), vSight * alpha * min(1.0, opacity * 1.2));
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
   #include <fog_fragment>
