@@ -12,7 +12,8 @@ class Limits:
     Attributes:
         size_bytes: Size of the file.
         tracks: Tracks of a MIDI file, parts of a JSON document.
-        events: Messages of all tracks together, notes and others.
+        chunks: Chunks of a MIDI file beside its tracks.
+        events: Messages of all tracks together, notes and others; objects of a JSON document.
         notes: Notes of the score.
         duration_s: Seconds from the beginning to the end of the last note.
         beats: Quarter notes from the beginning to the end of the last note.
@@ -21,6 +22,7 @@ class Limits:
 
     size_bytes: int = 32 * 2**20
     tracks: int = 1024
+    chunks: int = 10_000
     events: int = 1_000_000
     notes: int = 250_000
     duration_s: float = 4 * 3600.0

@@ -292,6 +292,10 @@ def test_limits_hold_for_documents():
     many = [{"beat": 0, "duration": 1, "pitch": 60}] * 250_001
     with pytest.raises(ScoreLimitError, match="number of notes"):
         read(own(parts=[{"notes": many}]))
+    with pytest.raises(ScoreLimitError, match="number of JSON objects"):
+        read_score(b'{"tracks": [' + b"{}," * 1_000_000 + b"{}]}")
+    with pytest.raises(ScoreError, match="at most 100000 items"):
+        read(own(tempos=[{"beat": 0, "bpm": 60}] * 100_001))
     with pytest.raises(ScoreLimitError, match="number of parts"):
         read(own(parts=[{}] * 1025))
     with pytest.raises(ScoreLimitError, match="length in seconds"):

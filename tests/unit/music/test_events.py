@@ -1,3 +1,5 @@
+import asyncio
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -181,6 +183,17 @@ def test_a_listener_may_call_the_emitter():
     scale.add_listener(lambda event: told.append(brief(event)))
     scale.advance(0.0)
     assert told == [("on", 0.0, "c")] * 2 + [("off", 2.5, "c")] * 2 + [("on", 2.5, "e")] * 2
+
+
+def test_a_queue_of_asyncio_is_a_listener():
+    async def play() -> list[str]:
+        scale, _ = emitter(*SCALE)
+        queue: asyncio.Queue[NoteEvent[str]] = asyncio.Queue()
+        scale.add_listener(queue.put_nowait)
+        scale.advance(1.0)
+        return [(await queue.get()).note for _ in range(3)]
+
+    assert asyncio.run(play()) == ["c", "c", "d"]
 
 
 def test_the_rate_of_play_changes_no_event():

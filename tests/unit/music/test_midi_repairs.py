@@ -393,6 +393,31 @@ def test_bombs_are_refused_at_once():
         read_score(ticks)
 
 
+@pytest.mark.parametrize(
+    ("piece", "count", "what"),
+    [
+        (b"\x00\x90\x3c\x40", 1_000_001, "more events"),
+        (b"\x00\xf8", 1_000_001, "more events"),
+        (b"\x00\xff\x01\x00", 1_000_001, "more events"),
+        (b"\x00\xff\x51\x03\x07\xa1\x20", 100_001, "more events"),
+        (b"\x00\x90\x3c\x40\x01\x80\x3c\x40", 250_001, "number of notes"),
+    ],
+    ids=["notes", "system messages", "metas", "tempos", "short notes"],
+)
+def test_floods_of_events_are_refused(piece: bytes, count: int, what: str):
+    with pytest.raises(ScoreLimitError, match=what):
+        read_score(header() + chunk(b"MTrk", piece * count))
+
+
+def test_floods_of_chunks_are_refused():
+    with pytest.raises(ScoreLimitError, match="number of tracks"):
+        read_score(header() + chunk(b"MTrk", events(END)) * 1025)
+    with pytest.raises(ScoreLimitError, match="number of chunks"):
+        read_score(header() + chunk(b"ABCD", b"") * 10_001)
+    with pytest.raises(ScoreLimitError, match="size in bytes"):
+        read_score(bytes(32 * 2**20 + 1))
+
+
 def test_a_fault_that_occurs_often_is_told_some_times_and_counted():
     score = read_score(
         midi(tuple(on(0, 60, 200) for _ in range(500)) + tuple(off(1, 60) for _ in range(500)))

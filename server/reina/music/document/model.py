@@ -9,6 +9,9 @@ _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "##": 2, "x": 2, "b": -1, "♭": -1, "bb": -2}
 _NAME = re.compile(r"([A-Ga-g])(##|#|♯|x|bb|b|♭|)(-?\d{1,2})")
 
+MOST_CHANGES = 100_000
+"""Of tempos, and of metres."""
+
 
 def pitch_number(value: object) -> object:
     """Return the MIDI number of a pitch given by name (``"B♭4"``, ``"F#3"``; C4 is 60), else `value` itself.
@@ -102,10 +105,14 @@ class ScoreDocument(_Model):
     version: Literal[1] = Field(default=1, description="Version of the form.")
     title: str = Field(default="", max_length=500)
     tempos: list[TempoEntry] = Field(
-        default_factory=list[TempoEntry], description="120 a minute where none is said."
+        default_factory=list[TempoEntry],
+        max_length=MOST_CHANGES,
+        description="120 a minute where none is said.",
     )
     time_signatures: list[TimeSignatureEntry] = Field(
-        default_factory=list[TimeSignatureEntry], description="4/4 where none is said."
+        default_factory=list[TimeSignatureEntry],
+        max_length=MOST_CHANGES,
+        description="4/4 where none is said.",
     )
     pickup_beats: Beat = Field(default=0.0, description="Length of an incomplete first bar in quarter notes.")
     parts: list[PartEntry] = Field(min_length=1)

@@ -24,6 +24,7 @@ def read_json(data: bytes, *, title: str, limits: Limits) -> Score:
     Raises:
         ScoreError: If it is no JSON, of another shape, or without notes; it names the path in the document.
     """
+    limits.check("events", data.count(b"{"), what="number of JSON objects")
     document = _parse(data)
     if document.get("format") == "reina-score" or "parts" in document:
         _count(document.get("parts"), "parts", limits)

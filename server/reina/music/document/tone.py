@@ -15,8 +15,10 @@ from reina.music.gm import DRUM_CHANNEL
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap, TimeSignature
 from reina.music.score import Score
-from reina.music.tempo import TempoMap
+from reina.music.tempo import DEFAULT_SECONDS_PER_BEAT, TempoMap
 from reina.music.warnings import WarningLog
+
+LONGEST_NAME = 500
 
 AGREES_S = 0.001
 """Ticks are kept as the beat of a time in seconds if they say the same to this; else the seconds hold."""
@@ -54,22 +56,27 @@ def read_tone(document: ToneDocument, *, title: str, limits: Limits) -> Score:
         for index, track in enumerate(document.tracks)
     ]
     return assemble(
-        parts, header.name.strip() or title, tempo_map, _metre_map(header), limits=limits, log=log
+        parts,
+        header.name.strip()[:LONGEST_NAME] or title,
+        tempo_map,
+        _metre_map(header),
+        limits=limits,
+        log=log,
     )
 
 
 def _tempo_map(header: ToneHeader) -> TempoMap:
-    beats: list[float] = []
-    lengths: list[float] = []
-    if header.bpm is not None:
-        beats, lengths = [0.0], [60.0 / header.bpm]
+    """Place tempos by their ticks; those that have seconds alone by the tempo that they end."""
+    beat, second = 0.0, 0.0
+    length = DEFAULT_SECONDS_PER_BEAT if header.bpm is None else 60.0 / header.bpm
+    beats, lengths = [beat], [length]
     for tempo in header.tempos:
-        if tempo.ticks is not None:
-            beat = tempo.ticks / header.ppq
-        else:
-            beat = TempoMap(beats, lengths).beats(tempo.time or 0.0) if beats else 0.0
+        ticks = tempo.ticks
+        to = beat + ((tempo.time or 0.0) - second) / length if ticks is None else ticks / header.ppq
+        second += (to - beat) * length
+        beat, length = max(to, 0.0), 60.0 / tempo.bpm
         beats.append(beat)
-        lengths.append(60.0 / tempo.bpm)
+        lengths.append(length)
     return TempoMap(beats, lengths)
 
 
@@ -127,7 +134,7 @@ def _part(
     agrees = (long_beats > 0) & (np.abs(end_by_beats - end_s) <= AGREES_S)
     return PartNotes(
         path=path,
-        name=track.name.strip() or track.instrument.name.strip(),
+        name=(track.name.strip() or track.instrument.name.strip())[:LONGEST_NAME],
         program=program,
         is_drums=is_drums,
         channel=channel,

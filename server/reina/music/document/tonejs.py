@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import AliasChoices, BaseModel, BeforeValidator, ConfigDict, Field
 
-from reina.music.document.model import Pitch
+from reina.music.document.model import MOST_CHANGES, Pitch
 
 Seconds = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 Ticks = Annotated[float, Field(ge=0, le=1e12, allow_inf_nan=False)]
@@ -41,8 +41,10 @@ class ToneHeader(_Model):
     ppq: float = Field(
         default=480.0, ge=1, le=1e6, allow_inf_nan=False, validation_alias=AliasChoices("ppq", "PPQ")
     )
-    tempos: list[ToneTempo] = Field(default_factory=list[ToneTempo])
-    timeSignatures: list[ToneTimeSignature] = Field(default_factory=list[ToneTimeSignature])  # noqa: N815
+    tempos: list[ToneTempo] = Field(default_factory=list[ToneTempo], max_length=MOST_CHANGES)
+    timeSignatures: list[ToneTimeSignature] = Field(  # noqa: N815
+        default_factory=list[ToneTimeSignature], max_length=MOST_CHANGES
+    )
     bpm: Bpm | None = None
     timeSignature: tuple[MetreNumber, MetreNumber] | None = None  # noqa: N815
 

@@ -2,12 +2,18 @@
 
 import re
 
+LONGEST_BYTES = 500
+
 _KANA = re.compile(r"[\u3040-\u30ff\uff66-\uff9f]{2}")
 _CONTROL = re.compile(r"[\x00-\x20\x7f-\x9f]+")
 
 
 def decode_text(data: bytes) -> str:
-    """Decode a name: UTF-8, else Shift JIS if that gives kana, else Windows-1252; no control characters."""
+    """Decode the beginning of a name: UTF-8, else Shift JIS if that gives kana, else Windows-1252.
+
+    Control characters become spaces.
+    """
+    data = data[:LONGEST_BYTES]
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError:

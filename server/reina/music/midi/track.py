@@ -120,6 +120,7 @@ def _read_events(data: bytes, track: Track, place: _Place, most_events: int, log
     at = 0
     tick = 0
     status = 0
+    others = 0
     while at < end:
         track.end_tick, track.end = tick, at
         delta = data[at]
@@ -133,12 +134,18 @@ def _read_events(data: bytes, track: Track, place: _Place, most_events: int, log
             if byte < 0xF0:
                 status = byte
             else:
+                others += 1
+                if others > most_events:
+                    raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
                 at = _read_system(data, at, byte, tick, track, place, log)
                 if track.ended:
                     track.end_tick, track.end = tick, at
                     return
                 continue
         elif not status:
+            others += 1
+            if others > most_events:
+                raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
             at = _skip_stray(data, at, place, log)
             continue
         first = data[at]

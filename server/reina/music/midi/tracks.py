@@ -12,13 +12,16 @@ def read_tracks(data: bytes, header: Header, *, offset: int, limits: Limits, log
 
     Raises:
         ScoreError: If there is no track.
-        ScoreLimitError: If there are too many tracks or events.
+        ScoreLimitError: If there are too many tracks, other chunks or events.
     """
     tracks: list[Track] = []
+    passed = 0
     events_left = limits.events
     at = header.end
     while at < len(data):
         if data[at : at + 4] != b"MTrk":
+            passed += 1
+            limits.check("chunks", passed, what="number of chunks", where=f"byte {at + offset}")
             at = _pass_chunk(data, at, offset, log)
         elif at + 8 >= len(data):
             log.add("truncated_track", f"byte {at + offset}", "the file ends at the beginning of a track")

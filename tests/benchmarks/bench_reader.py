@@ -1,0 +1,129 @@
+"""Seconds to read MIDI files of 1,000 to 100,000 notes, beside mido, pretty_midi and symusic.
+
+Run as ``python tests/benchmarks/bench_reader.py``. Every reader gets the same bytes and has to give notes
+with their times in seconds; the best of a few runs counts. pretty_midi and symusic are measured where they
+are installed (``pip install -r requirements/bench.in``). The status is 1 if Reina needs more than a second
+for 100,000 notes, or if its time grows faster than the notes.
+"""
+
+import importlib
+import importlib.util
+import io
+import json
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import mido
+import numpy as np
+from machine import heading
+
+from reina.music import read_score
+
+SIZES = (1_000, 10_000, 100_000)
+MOST_S = 1.0
+MOST_GROWTH = 2.0
+"""How much longer a note may take in the largest file than in the middle one."""
+
+
+def midi_file(notes: int) -> bytes:
+    """Three parts with tempo changes, chords, controllers and bends."""
+    rng = np.random.default_rng(notes)
+    file = mido.MidiFile(type=1, ticks_per_beat=480)
+    conductor = file.add_track("Bench")
+    for _ in range(max(1, notes // 500)):
+        conductor.append(mido.MetaMessage("set_tempo", tempo=int(rng.integers(300_000, 700_000)), time=960))
+    for part in range(3):
+        track = file.add_track(f"Part {part}")
+        track.append(mido.Message("program_change", channel=part, program=56 + part))
+        for note in range(notes // 3 + (notes % 3 if part == 0 else 0)):
+            pitch = int(rng.integers(50, 90))
+            if note % 10 == 0:
+                track.append(mido.Message("control_change", channel=part, control=11, value=note % 128))
+            wait, length = int(rng.integers(0, 60)), int(rng.integers(20, 200))
+            track.append(mido.Message("note_on", channel=part, note=pitch, velocity=80, time=wait))
+            track.append(mido.Message("note_off", channel=part, note=pitch, time=length))
+    stream = io.BytesIO()
+    file.save(file=stream)
+    return stream.getvalue()
+
+
+def json_file(notes: int) -> bytes:
+    """The same number of notes as Tone.js's converter writes them."""
+    entries = [
+        {"midi": 60 + note % 20, "ticks": note * 60, "time": note / 16, "duration": 0.05, "velocity": 0.5}
+        for note in range(notes)
+    ]
+    header = {"ppq": 480, "tempos": [{"bpm": 120, "ticks": 0}]}
+    return json.dumps({"header": header, "tracks": [{"notes": entries}]}).encode()
+
+
+def by_reina(data: bytes) -> int:
+    """Read with Reina."""
+    return len(read_score(data).notes)
+
+
+def by_mido(data: bytes) -> int:
+    """Read with mido and go through the messages in seconds, as its users do."""
+    return sum(message.type == "note_on" for message in mido.MidiFile(file=io.BytesIO(data)))
+
+
+def by_pretty_midi(data: bytes) -> int:
+    """Read with pretty_midi."""
+    module: Any = importlib.import_module("pretty_midi")
+    return sum(len(instrument.notes) for instrument in module.PrettyMIDI(io.BytesIO(data)).instruments)
+
+
+def by_symusic(data: bytes) -> int:
+    """Read with symusic, times in seconds."""
+    module: Any = importlib.import_module("symusic")
+    score = module.Score.from_midi(data, ttype="second")
+    return sum(len(track.notes) for track in score.tracks)
+
+
+READERS: dict[str, tuple[Callable[[bytes], int], int]] = {
+    "reina": (by_reina, 5),
+    "mido": (by_mido, 1),
+    "pretty_midi": (by_pretty_midi, 1),
+    "symusic": (by_symusic, 5),
+}
+"""Each reader and how often it runs."""
+
+
+def seconds(read: Callable[[bytes], int], data: bytes, notes: int, runs: int) -> float:
+    """Return the best time of a few runs."""
+    times: list[float] = []
+    for _ in range(runs):
+        begin = time.perf_counter()
+        found = read(data)
+        times.append(time.perf_counter() - begin)
+        if found != notes:
+            print(f"  ({read.__name__} found {found} notes of {notes})")
+    return min(times)
+
+
+def main() -> int:
+    """Measure and print a table; return 1 if a bound is missed."""
+    print(heading(__file__))
+    taken: dict[tuple[str, int], float] = {}
+    files = {size: midi_file(size) for size in SIZES}
+    print(f"{'':12}" + "".join(f"{size:>14,} notes" for size in SIZES) + f"{'notes a second':>18}")
+    for name, (read, runs) in READERS.items():
+        if name not in {"reina", "mido"} and importlib.util.find_spec(name) is None:
+            print(f"{name:12}  not installed: pip install -r requirements/bench.in")
+            continue
+        for size, data in files.items():
+            taken[name, size] = seconds(read, data, size, runs)
+        row = "".join(f"{taken[name, size] * 1000:>17.1f} ms" for size in SIZES)
+        print(f"{name:12}{row}{SIZES[-1] / taken[name, SIZES[-1]]:>18,.0f}")
+    taken["json", SIZES[-1]] = seconds(by_reina, json_file(SIZES[-1]), SIZES[-1], 3)
+    print(f"reina, JSON of Tone.js's form, {SIZES[-1]:,} notes: {taken['json', SIZES[-1]] * 1000:.1f} ms")
+    largest = taken["reina", SIZES[-1]]
+    growth = (largest / SIZES[-1]) / (taken["reina", SIZES[-2]] / SIZES[-2])
+    print(f"a note of the largest file takes {growth:.2f} times as long as one of the middle file")
+    return 1 if max(largest, taken["json", SIZES[-1]]) > MOST_S or growth > MOST_GROWTH else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
