@@ -1,43 +1,19 @@
 """Which notes belong to one instrument, and what is known of it."""
 
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 
 from reina.music.arrays import IntArray
 from reina.music.gm import DRUM_CHANNEL, PROGRAM_NAMES
+from reina.music.midi.messages import Messages
 from reina.music.midi.text import decode_text
 from reina.music.midi.track import INSTRUMENT_NAME, TRACK_NAME, Track
 from reina.music.score import Part
 
 
-class ProgramChanges(Protocol):
-    """Program changes as columns of one length, sorted by tick."""
-
-    @property
-    def track(self) -> IntArray:
-        """Index of the track."""
-        ...
-
-    @property
-    def tick(self) -> IntArray:
-        """When."""
-        ...
-
-    @property
-    def channel(self) -> IntArray:
-        """The channel, from 0."""
-        ...
-
-    @property
-    def first(self) -> IntArray:
-        """The program."""
-        ...
-
-
 def find_parts(
-    tracks: Sequence[Track], source: IntArray, tick: IntArray, programs: ProgramChanges
+    tracks: Sequence[Track], source: IntArray, tick: IntArray, programs: Messages
 ) -> tuple[tuple[Part, ...], IntArray]:
     """Make a part of each channel in each track that has notes.
 
@@ -45,7 +21,7 @@ def find_parts(
         tracks: The tracks.
         source: (N,) ``track index << 4 | channel`` of each note.
         tick: (N,) onset of each note.
-        programs: The program changes of all tracks.
+        programs: The program changes of all tracks, sorted by tick.
 
     Returns:
         The parts and (N,) the index of each note's part.

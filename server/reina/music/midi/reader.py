@@ -6,83 +6,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from reina.music.arrays import FloatArray, IntArray
-from reina.music.controls import Control, ControlKind
 from reina.music.errors import ScoreError
 from reina.music.limits import Limits
-from reina.music.metre import MetreMap, TimeSignature
 from reina.music.midi.chunks import read_header, unwrap
+from reina.music.midi.control_messages import read_controls
 from reina.music.midi.division import Division, read_division
+from reina.music.midi.maps import read_metre_map, read_tempo_map
+from reina.music.midi.messages import Messages
 from reina.music.midi.pairing import Pairs, pair_notes
 from reina.music.midi.parts import find_parts
 from reina.music.midi.text import decode_text
-from reina.music.midi.track import (
-    CHANNEL_PRESSURE,
-    CONTROLLER,
-    KEY_PRESSURE,
-    NOTE_OFF,
-    NOTE_ON,
-    PITCH_BEND,
-    PROGRAM,
-    SET_TEMPO,
-    TIME_SIGNATURE,
-    TRACK_NAME,
-    Track,
-)
+from reina.music.midi.track import NOTE_OFF, NOTE_ON, PROGRAM, TRACK_NAME, Track
 from reina.music.midi.tracks import read_tracks
 from reina.music.notes import Notes
 from reina.music.score import Score
 from reina.music.taps import TAP_S, lengthen_taps
 from reina.music.tempo import TempoMap
 from reina.music.warnings import WarningLog
-
-CONTROL_KINDS: dict[int, ControlKind] = {
-    KEY_PRESSURE: "key_pressure",
-    CONTROLLER: "controller",
-    PROGRAM: "program",
-    CHANNEL_PRESSURE: "channel_pressure",
-    PITCH_BEND: "pitch_bend",
-}
-
-
-@dataclass(frozen=True)
-class Messages:
-    """The channel messages of all tracks as columns of one length.
-
-    Attributes:
-        track: Index of the track.
-        tick: Time in ticks.
-        command: Upper four bits of the status.
-        channel: Counted from 0.
-        first: First data byte.
-        second: Second data byte, or 0.
-    """
-
-    track: IntArray
-    tick: IntArray
-    command: IntArray
-    channel: IntArray
-    first: IntArray
-    second: IntArray
-
-    @classmethod
-    def of(cls, tracks: Sequence[Track]) -> "Messages":
-        """Unpack the messages of `tracks`, one track after the other."""
-        lengths = [len(track.packed) for track in tracks]
-        packed = np.concatenate([np.array(track.packed, dtype=np.int64) for track in tracks])
-        status = packed >> 16 & 0xFF
-        return cls(
-            track=np.repeat(np.arange(len(tracks)), lengths),
-            tick=packed >> 24,
-            command=status >> 4,
-            channel=status & 0xF,
-            first=packed >> 8 & 0xFF,
-            second=packed & 0xFF,
-        )
-
-    def take(self, chosen: IntArray) -> "Messages":
-        """Return the messages at the given indices."""
-        columns = (self.track, self.tick, self.command, self.channel, self.first, self.second)
-        return Messages(*(column[chosen] for column in columns))
 
 
 def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) -> Score:
@@ -114,7 +54,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         raise ScoreError("the file is MIDI and holds no note", where=f"{len(tracks)} tracks")
     limits.check("notes", int(np.count_nonzero(is_on)), what="number of notes")
 
-    tempo_map = _tempo_map(tracks, division, log)
+    tempo_map = read_tempo_map(tracks, division, log)
     key = note_messages.track << 11 | note_messages.channel << 7 | note_messages.first
     pairs = pair_notes(key, is_on)
     notes, part_of_note = _time_notes(note_messages, pairs, tracks, division, tempo_map, log)
@@ -122,7 +62,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     end_s, end_beats = float(np.max(notes.end_s)), float(np.max(notes.end_beats))
     limits.check("duration_s", end_s, what="length in seconds")
     limits.check("beats", end_beats, what="length in beats")
-    metre_map = _metre_map(tracks, division, log)
+    metre_map = read_metre_map(tracks, division, log)
     limits.check("bars", metre_map.bar_count(end_beats), what="number of bars")
     table = Notes.from_columns(
         part=part,
@@ -140,7 +80,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         notes=table,
         tempo_map=tempo_map,
         metre_map=metre_map,
-        controls=_controls(messages.take(np.flatnonzero(~sounding)), division, tempo_map),
+        controls=read_controls(messages.take(np.flatnonzero(~sounding)), division, tempo_map),
         warnings=log.warnings(),
         duration_s=float(np.max(table.end_s)),
         sequence=sequence or 0,
@@ -235,70 +175,9 @@ def _time_notes(
     return notes, on.track << 4 | on.channel
 
 
-def _tempo_map(tracks: Sequence[Track], division: Division, log: WarningLog) -> TempoMap:
-    """Merge the tempos of all tracks; at one tick the later track's holds, as in players."""
-    changes: list[tuple[int, int]] = []
-    for track in tracks:
-        for meta in track.metas:
-            if meta.kind != SET_TEMPO:
-                continue
-            value = int.from_bytes(meta.data[:3], "big")
-            place = f"track {track.number}, byte {meta.byte}"
-            if len(meta.data) != 3 or value == 0:
-                log.add(
-                    "bad_tempo", place, f"a tempo of the data {meta.data[:8].hex() or 'none'} was left out"
-                )
-            elif division.seconds_per_tick is not None:
-                log.add("smpte_tempo", place, "in a file in SMPTE frames a tempo changes nothing")
-            else:
-                changes.append((meta.tick, value))
-    if not changes:
-        return TempoMap()
-    changes.sort(key=lambda change: change[0])
-    ticks, lengths = np.array(changes, dtype=np.float64).T
-    return TempoMap(ticks / division.ticks_per_beat, lengths / 1e6)
-
-
-def _metre_map(tracks: Sequence[Track], division: Division, log: WarningLog) -> MetreMap:
-    signatures: list[TimeSignature] = []
-    for track in tracks:
-        for meta in track.metas:
-            if meta.kind != TIME_SIGNATURE:
-                continue
-            numerator, power = (meta.data + b"\0\xff")[:2]
-            if len(meta.data) < 2 or numerator == 0 or power > 6:
-                place = f"track {track.number}, byte {meta.byte}"
-                log.add(
-                    "bad_metre", place, f"a metre of the data {meta.data[:8].hex() or 'none'} was left out"
-                )
-            else:
-                signatures.append(TimeSignature(meta.tick / division.ticks_per_beat, numerator, 2**power))
-    return MetreMap(signatures)
-
-
 def _programs(messages: Messages) -> Messages:
     chosen = np.flatnonzero(messages.command == PROGRAM)
     return messages.take(chosen[np.argsort(messages.tick[chosen], kind="stable")])
-
-
-def _controls(messages: Messages, division: Division, tempo_map: TempoMap) -> tuple[Control, ...]:
-    messages = messages.take(np.argsort(messages.tick, kind="stable"))
-    beats = messages.tick / division.ticks_per_beat
-    has_number = (messages.command == CONTROLLER) | (messages.command == KEY_PRESSURE)
-    bend = (messages.second << 7 | messages.first) - 8192
-    value = np.where(
-        has_number, messages.second, np.where(messages.command == PITCH_BEND, bend, messages.first)
-    )
-    columns = zip(
-        (CONTROL_KINDS[command] for command in messages.command.tolist()),
-        tempo_map.seconds(beats).tolist(),
-        beats.tolist(),
-        messages.channel.tolist(),
-        np.where(has_number, messages.first, 0).tolist(),
-        value.tolist(),
-        strict=True,
-    )
-    return tuple(map(Control._make, columns))
 
 
 def _title(tracks: Sequence[Track], file_format: int) -> str:

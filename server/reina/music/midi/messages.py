@@ -1,0 +1,50 @@
+"""Channel messages as columns."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reina.music.arrays import IntArray
+from reina.music.midi.track import Track
+
+
+@dataclass(frozen=True)
+class Messages:
+    """The channel messages of all tracks as columns of one length.
+
+    Attributes:
+        track: Index of the track.
+        tick: Time in ticks.
+        command: Upper four bits of the status.
+        channel: Counted from 0.
+        first: First data byte.
+        second: Second data byte, or 0.
+    """
+
+    track: IntArray
+    tick: IntArray
+    command: IntArray
+    channel: IntArray
+    first: IntArray
+    second: IntArray
+
+    @classmethod
+    def of(cls, tracks: Sequence[Track]) -> "Messages":
+        """Unpack the messages of `tracks`, one track after the other."""
+        lengths = [len(track.packed) for track in tracks]
+        packed = np.concatenate([np.array(track.packed, dtype=np.int64) for track in tracks])
+        status = packed >> 16 & 0xFF
+        return cls(
+            track=np.repeat(np.arange(len(tracks)), lengths),
+            tick=packed >> 24,
+            command=status >> 4,
+            channel=status & 0xF,
+            first=packed >> 8 & 0xFF,
+            second=packed & 0xFF,
+        )
+
+    def take(self, chosen: IntArray) -> "Messages":
+        """Return the messages at the given indices."""
+        columns = (self.track, self.tick, self.command, self.channel, self.first, self.second)
+        return Messages(*(column[chosen] for column in columns))
