@@ -73,8 +73,12 @@ class Audience:
         """
         now = self._now()
         self._settle(now)
-        self._post(self._notes.advance(now))
         state = self._clock.state(now)
+        if self._viewers:
+            self._post(self._notes.advance(now))
+        else:
+            # What went by while nobody watched is not made up for.
+            self._notes.begin(state)
         for text in (hello(state), *self._notes.sounding()):
             viewer.post_text(text)
         for message in self._broadcast.catch_up(state, viewer.frames_per_message):
@@ -90,6 +94,8 @@ class Audience:
         self._viewers.discard(viewer)
         if not self._viewers:
             self._frames.forget()
+            # Who comes next begins at the present, not where the last one left off.
+            self._broadcast = Broadcast(self._frames, self._state, resumed=True)
             if self._ticking:
                 self._ticking.cancel()
                 self._ticking = None
@@ -113,8 +119,12 @@ class Audience:
         """
         self._frames = frames or self._frames
         now = self._now()
-        if notes is not None:
-            self._notes = notes
+        if self._viewers:
+            # What came before the change is told before it.
+            self._post(self._notes.advance(now))
+            if notes is not None:
+                self._post(self._notes.end())
+        self._notes = notes or self._notes
         self._begin(self._clock.state(now), Broadcast(self._frames, self._clock.state(now)))
         self._send_due(now)
         self._woken.set()

@@ -50,6 +50,11 @@ class NoteMessages:
         self._emitter.seek(state.song_time_s)
         return self._heard()
 
+    def end(self) -> list[str]:
+        """`note_off` of every note that sounds: others are told of from now on."""
+        at_s = self._emitter.position_s
+        return [self._message("note_off", index, at_s) for index in self._emitter.sounding]
+
     def advance(self, now: float) -> list[str]:
         """What ends and begins up to server time `now`, since the call before."""
         if self._state is not None:

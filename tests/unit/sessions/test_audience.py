@@ -259,3 +259,59 @@ def test_a_ticker_that_fails_lets_everybody_go(caplog: pytest.LogCaptureFixture)
 
     assert asyncio.run(scenario()) == (1011, "the stream has failed")
     assert "ticker of a session failed" in caplog.text
+
+
+def test_what_went_by_while_nobody_watched_is_not_made_up_for() -> None:
+    def scenario(hall: Hall) -> None:
+        first = hall.join()
+        hall.clock.set_loop(0.0, 3.0)
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(0.1)
+        hall.audience.leave(first)
+        evaluated = len(hall.performance.evaluated)
+        hall.now.time_s += 3600.0 + 0.3
+        late = hall.join()
+        assert late.types == ["hello", "note_on"]
+        hall.audience.tick(hall.now())
+        got = hall.read(late)
+        assert got["index"].tolist() == list(range(24, 31)), "the present and the lead"
+        assert np.all(got["due_time_s"] > hall.now() - 2 * FRAME)
+        assert len(hall.performance.evaluated) - evaluated <= 1
+
+    in_hall(scenario)
+
+
+def test_a_change_tells_of_what_came_before_it() -> None:
+    def scenario(hall: Hall) -> None:
+        inbox = hall.join()
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(0.9)
+        inbox.texts.clear()
+        # The note at 1 s begins and ends between two ticks, then the rate is changed.
+        hall.now.time_s += 0.65
+        hall.clock.set_rate(2.0)
+        hall.audience.restart()
+        assert inbox.types == ["note_on", "note_off", "transport"]
+        assert [text.get("song_time_s") for text in inbox.texts[:2]] == [1.0, 1.5]
+
+    in_hall(scenario)
+
+
+def test_other_notes_end_those_that_sound() -> None:
+    def scenario(hall: Hall) -> None:
+        hall.clock.seek(1.25)
+        hall.audience.restart()
+        inbox = hall.join()
+        inbox.texts.clear()
+        other = NoteMessages(np.array([1.2]), np.array([1.4]), np.array([70]), lambda _: note(7))
+        hall.clock.touch()
+        hall.audience.restart(notes=other)
+        assert [(text["type"], text.get("index")) for text in inbox.texts] == [
+            ("note_off", 1),
+            ("transport", None),
+            ("note_on", 7),
+        ]
+
+    in_hall(scenario)
