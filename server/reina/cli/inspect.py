@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -46,12 +47,14 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"reina inspect: {file}: {reason}", file=sys.stderr)
         return 1
     if arguments.json:
-        json.dump(
-            describe_score(score, instrument, played, rankings=rankings), sys.stdout, ensure_ascii=False
-        )
-        print()
+        text = json.dumps(describe_score(score, instrument, played, rankings=rankings), ensure_ascii=False)
     else:
-        print("\n".join(_lines(score, instrument, rankings, played)))
+        text = "\n".join(_lines(score, instrument, rankings, played))
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        # Whoever reads has read enough, as `head` does; Python must not fail on flushing what is left.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 0
 
 

@@ -1,6 +1,8 @@
 """`reina inspect`."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -133,3 +135,15 @@ def test_commands_are_listed(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit) as ended:
         main([])
     assert ended.value.code == 2
+
+
+def test_a_reader_may_stop_reading():
+    program = "from reina.cli import main; raise SystemExit(main())"
+    command = [sys.executable, "-c", program, "inspect", str(MARCH), "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        assert process.stdout.read(1) == b"{"
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 0
