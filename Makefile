@@ -35,7 +35,7 @@ generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
 assets: .venv/.dev ## Build the rigs anew from their pinned sources
 	$(BIN)/python rigs/build/build.py
 
-bench: setup .venv/.dev ## Measure, and print the figures
+bench: setup .venv/.bench ## Measure, and print the figures
 	$(BIN)/python tests/benchmarks/run.py
 
 lock: ## Pin the Python dependencies anew (needs uv)
@@ -55,6 +55,10 @@ clean: ## Remove everything that was built
 
 .venv/.dev: .venv/.serve requirements/dev.txt
 	$(BIN)/pip install --quiet --require-hashes -r requirements/dev.txt
+	@touch $@
+
+.venv/.bench: .venv/.dev requirements/bench.txt
+	$(BIN)/pip install --quiet --require-hashes -r requirements/bench.txt
 	@touch $@
 
 .venv/.browser: .venv/.dev
