@@ -1,0 +1,68 @@
+"""The page keeps nothing of the frames it has drawn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Page
+    from tests.e2e.opened import Opened
+
+    Visit = Callable[..., Opened]
+
+pytestmark = pytest.mark.browser
+
+TINY = (240, 136)
+"""Software GL draws a window of this size often enough to count frames."""
+
+ROUNDS = 3
+FRAMES_A_ROUND = 60
+KEPT_BYTES_A_FRAME = 400
+"""A frame is some 2 kB on the wire: who kept one, or an object of each joint, would be far above."""
+
+
+def heap_used(devtools: Any) -> int:
+    """Bytes that are still held after the garbage is collected."""
+    for _ in range(2):
+        devtools.send("HeapProfiler.collectGarbage")
+    return int(devtools.send("Runtime.getHeapUsage")["usedSize"])
+
+
+def pictures(page: Page) -> int:
+    """How many pictures were drawn since they were first counted."""
+    return int(page.evaluate("window.pictures"))
+
+
+def test_nothing_is_retained_per_frame(visit: Visit) -> None:
+    opened = visit(size=TINY)
+    opened.until_drawn()
+    opened.page.keyboard.press("m")
+    opened.page.keyboard.press("Space")
+    opened.until("window.reina.playing")
+    devtools: Any = opened.page.context.new_cdp_session(opened.page)
+    opened.page.evaluate(
+        """() => {
+            window.pictures = 0;
+            let last = reina.drawnIndex;
+            setInterval(() => {
+                if (reina.drawnIndex !== last) { last = reina.drawnIndex; window.pictures++; }
+            }, 4);
+        }"""
+    )
+
+    def draw(count: int) -> int:
+        before = pictures(opened.page)
+        opened.until("(until) => window.pictures >= until", before + count)
+        return pictures(opened.page) - before
+
+    draw(FRAMES_A_ROUND)
+    kept: list[float] = []
+    for _ in range(ROUNDS):
+        before = heap_used(devtools)
+        drawn = draw(FRAMES_A_ROUND)
+        kept.append((heap_used(devtools) - before) / drawn)
+    assert min(kept) < KEPT_BYTES_A_FRAME, f"bytes kept a frame, round by round: {kept}"
