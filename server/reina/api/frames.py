@@ -13,14 +13,22 @@ from reina.api.problems import ProblemError
 from reina.protocol.messages import Hello
 from reina.sessions.frames import FRAMES_PER_BLOCK, EncodedFrames
 from reina.sessions.production import Production
+from reina.sessions.session import Session
 
 router = APIRouter(tags=["frames"])
 
 LONGEST_S = 600.0
+LATEST_S = 7 * 24 * 3600.0
+"""No music lasts so long, and every frame up to here has an index of 32 bits."""
 FASTEST_FPS = 240
 GRID_TOLERANCE = 1e-6
 
 FramesPerSecond = Annotated[int, Query(ge=1, le=FASTEST_FPS, description="Frames a second of song time.")]
+StartS = Annotated[float, Query(ge=0, le=LATEST_S, description="Song time of the first frame.")]
+EndS = Annotated[
+    float | None,
+    Query(ge=0, le=LATEST_S, description="Song time before which they end; the music's end by default."),
+]
 
 
 @router.get("/sessions/{session_id}/manifest")
@@ -39,23 +47,12 @@ async def get_manifest(session: Watched, fps: FramesPerSecond = 60) -> Hello:
 async def get_frames(
     request: Request,
     session: Watched,
-    start_s: Annotated[float, Query(ge=0, description="Song time of the first frame.")] = 0.0,
-    end_s: Annotated[
-        float | None, Query(ge=0, description="Song time before which they end; the music's end by default.")
-    ] = None,
+    start_s: StartS = 0.0,
+    end_s: EndS = None,
     fps: FramesPerSecond = 60,
 ) -> StreamingResponse:
     """The frames k with start_s ≤ k / fps < end_s, epoch 0, due time 0."""
-    end_s = session.clock.duration_s if end_s is None else end_s
-    if not start_s <= end_s <= start_s + LONGEST_S:
-        raise ProblemError(
-            422,
-            "span-invalid",
-            "These frames cannot be sent",
-            f"end_s lies between start_s and start_s + {LONGEST_S:g}, not at {end_s:g}; "
-            "longer spans are asked for piecewise",
-        )
-    first, end = (math.ceil(time_s * fps - GRID_TOLERANCE) for time_s in (start_s, end_s))
+    first, end = frame_span(session, start_s, end_s, fps)
     production = session.production
     return StreamingResponse(
         _frames(production, first, end, fps, request.app.state.computing),
@@ -65,6 +62,24 @@ async def get_frames(
             "Cache-Control": "no-store",
         },
     )
+
+
+def frame_span(session: Session, start_s: float, end_s: float | None, fps: int) -> tuple[int, int]:
+    """The first frame at or after a song time, and the first at or after another, where the span ends.
+
+    Raises:
+        ProblemError: 422 when it ends before it begins, or is too long.
+    """
+    end_s = session.clock.duration_s if end_s is None else end_s
+    if not start_s <= end_s <= start_s + LONGEST_S:
+        raise ProblemError(
+            422,
+            "span-invalid",
+            "These frames cannot be sent",
+            f"end_s lies between start_s and start_s + {LONGEST_S:g}, not at {end_s:g}; "
+            "longer spans are asked for piecewise",
+        )
+    return math.ceil(start_s * fps - GRID_TOLERANCE), math.ceil(end_s * fps - GRID_TOLERANCE)
 
 
 async def _frames(

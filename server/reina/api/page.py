@@ -7,6 +7,7 @@ from fastapi.responses import FileResponse
 from starlette.convertors import PathConvertor, register_url_convertor
 
 from reina.api.access import ServerSettings
+from reina.api.files import file_below
 from reina.api.problems import ProblemError
 
 router = APIRouter(include_in_schema=False)
@@ -43,9 +44,8 @@ def get_page(settings: ServerSettings) -> FileResponse:
 @router.api_route("/{file:page_file}", methods=READING)
 def get_file(file: str, settings: ServerSettings) -> FileResponse:
     """A file of the page."""
-    root = settings.page_dir.resolve()
-    path = (root / file).resolve()
-    if not path.is_relative_to(root) or not path.is_file():
+    path = file_below(settings.page_dir, file)
+    if path is None:
         raise ProblemError(
             404,
             "unknown-address",

@@ -53,8 +53,16 @@ class ProblemError(Exception):
     ) -> None:
         super().__init__(detail)
         self.status = status
+        faults = [
+            Fault(detail=_sendable(fault.detail), location=_sendable(fault.location or "") or None)
+            for fault in errors
+        ]
         self.problem = Problem(
-            type=f"urn:reina:problem:{kind}", title=title, status=status, detail=detail, errors=list(errors)
+            type=f"urn:reina:problem:{kind}",
+            title=title,
+            status=status,
+            detail=_sendable(detail),
+            errors=faults,
         )
         self.headers = dict(headers or {})
 
@@ -63,6 +71,11 @@ class ProblemError(Exception):
         return Response(
             self.problem.model_dump_json(), self.status, headers=self.headers, media_type=MEDIA_TYPE
         )
+
+
+def _sendable(text: str) -> str:
+    """What came in, repeated without half a character (a lone surrogate), which UTF-8 cannot hold."""
+    return text.encode("utf-8", "backslashreplace").decode()
 
 
 INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (

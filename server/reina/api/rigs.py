@@ -8,6 +8,7 @@ from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
 from reina.api.access import ServerSettings
+from reina.api.files import file_below
 from reina.api.problems import ProblemError
 from reina.protocol.links import rig_href
 from reina.protocol.resources import RigList, RigSummary
@@ -51,11 +52,10 @@ def get_rig_file(name: str, file: str, settings: ServerSettings) -> FileResponse
 
 
 def _file(rigs_dir: Path, name: str, file: str) -> Path:
-    folder = (rigs_dir / name).resolve()
-    path = (folder / file).resolve()
-    is_rig = folder.parent == rigs_dir.resolve() and (folder / DESCRIPTION).is_file()
-    if not is_rig:
+    description = file_below(rigs_dir, f"{name}/{DESCRIPTION}")
+    if description is None or description.parent.parent != rigs_dir.resolve():
         raise ProblemError(404, "unknown-rig", "There is no such rig", f"no rig has the name {name!r}")
-    if not path.is_file() or not path.is_relative_to(folder):
+    path = file_below(description.parent, file)
+    if path is None:
         raise ProblemError(404, "unknown-file", "The rig has no such file", f"{name} has no file {file!r}")
     return path

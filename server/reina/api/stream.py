@@ -3,7 +3,7 @@
 import asyncio
 import contextlib
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
@@ -20,13 +20,14 @@ if TYPE_CHECKING:
 router = APIRouter()
 
 MOST_FRAMES_PER_MESSAGE = 12
+SIZES = {str(size): size for size in range(1, MOST_FRAMES_PER_MESSAGE + 1)}
+CLOSED_UNDER_WAY = 1006
 
 
 class WebSocketConnection:
-    """A WebSocket as a viewer's connection."""
+    """A WebSocket as a viewer's connection; sending raises WebSocketDisconnect once the viewer has gone."""
 
     def __init__(self, socket: WebSocket) -> None:
-        self._send = socket.send
         self._socket = socket
 
     async def send_bytes(self, data: bytes) -> None:
@@ -41,6 +42,13 @@ class WebSocketConnection:
         """Say goodbye."""
         await self._socket.close(code, reason)
 
+    async def _send(self, message: dict[str, Any]) -> None:
+        try:
+            await self._socket.send(message)
+        except RuntimeError as error:
+            # What the ASGI server raises when the connection was closed under it, as for a message too large.
+            raise WebSocketDisconnect(CLOSED_UNDER_WAY) from error
+
 
 @router.websocket("/sessions/{session_id}/stream")
 async def stream(
@@ -52,7 +60,7 @@ async def stream(
     store: SessionStore = socket.app.state.store
     now: Callable[[], float] = socket.app.state.now
     session = await store.get(session_id)
-    size = int(frames_per_message) if frames_per_message.isdecimal() else 0
+    size = SIZES.get(frames_per_message)
     problem: ProblemError | None = None
     if session is None:
         problem = unknown_session(session_id)
@@ -60,10 +68,10 @@ async def stream(
         offered = ", ".join(socket.scope["subprotocols"]) or "none"
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
-    elif not 1 <= size <= MOST_FRAMES_PER_MESSAGE:
-        detail = f"frames_per_message is 1 to {MOST_FRAMES_PER_MESSAGE}, not {frames_per_message}"
+    elif size is None:
+        detail = f"frames_per_message is 1 to {MOST_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
-    if problem or session is None:
+    if problem or session is None or size is None:
         if problem:
             await socket.send_denial_response(problem.response())
         return

@@ -73,6 +73,9 @@ async def receive_upload(request: Request, folder: Path) -> Upload:
     refused = 0
     try:
         parser = MultipartParser(boundary, writer.callbacks())
+    except FormParserError as error:
+        raise _malformed(str(error)) from error
+    try:
         async for chunk in request.stream():
             if problem:
                 refused += len(chunk)

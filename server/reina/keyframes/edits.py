@@ -100,7 +100,14 @@ def _put_track(tracks: Tracks, edit: Json, registry: ParameterRegistry) -> str:
         raise Place().error("a track is a JSON object", "track")
     fields = dict(cast("Json", document))
     parameter = _parameter(fields.get("parameter"), registry)
-    tracks[parameter.path] = {"keyframes": [], **fields}
+    if fields.get("keyframes") or "events" in fields:
+        # Keyframes get their keys here, so that later edits of the list can name them.
+        written = track_document(read_track(fields, parameter, "seconds"), "seconds")
+        written.pop("time", None)
+        fields = written | {name: fields[name] for name in ("time",) if name in fields}
+    else:
+        fields["keyframes"] = []
+    tracks[parameter.path] = fields
     return parameter.path
 
 

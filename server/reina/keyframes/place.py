@@ -11,6 +11,11 @@ Json = Mapping[str, Any]
 Choice = TypeVar("Choice", bound=str)
 
 
+def is_text(value: str) -> bool:
+    """Whether a string can be written as UTF-8: a lone surrogate, half a character, cannot."""
+    return value.isascii() or not any("\ud800" <= character <= "\udfff" for character in value)
+
+
 @dataclass(frozen=True)
 class Place:
     """Where in a show something is read; makes the errors.
@@ -57,6 +62,8 @@ class Place:
         value: object = document.get(field, default)
         if not isinstance(value, str):
             raise self.error("a text in quotes is needed here", field)
+        if not is_text(value):
+            raise self.error("half a character (a lone surrogate) is no text", field)
         return value
 
     def flag(self, document: Json, field: str) -> bool:

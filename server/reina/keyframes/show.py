@@ -9,6 +9,7 @@ from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.parameter import Parameter
 from reina.keyframes.parameter_registry import ParameterRegistry
 from reina.keyframes.place import Json, Place
+from reina.keyframes.plain_json import check_plain
 from reina.keyframes.show_plan import ShowPlan
 from reina.keyframes.show_reader import KEYFRAME_FIELDS, read_keyframe, read_track
 from reina.keyframes.show_writer import json_value, keyframe_document, track_document
@@ -82,8 +83,11 @@ class Show:
             if not isinstance(path, str) or not path:
                 raise place.error("a parameter's path is needed here", f"tracks/{index}/parameter")
             parameter = registry.get(path)
-            known = parameter is not None
-            tracks.append(read_track(track, parameter, unit) if known else UnknownTrack(path, dict(track)))
+            if parameter is None:
+                check_plain(track, place, f"tracks/{index}")
+                tracks.append(UnknownTrack(path, dict(track)))
+            else:
+                tracks.append(read_track(track, parameter, unit))
         show = cls(
             tracks=tuple(tracks),
             title=place.text(fields, "title"),

@@ -38,12 +38,12 @@ def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> 
         raise place.error(
             f"{len(entries)} keyframes are more than a track may have, {LONGEST_TRACK}", "keyframes"
         )
-    named = [
-        key for entry in entries if isinstance(entry, Mapping) and (key := cast("Json", entry).get("key"))
-    ]
-    free = (
-        f"k{number}" for number in range(1, len(entries) + len(named) + 1) if f"k{number}" not in set(named)
-    )
+    taken: set[str] = set()
+    for entry in entries:
+        key: object = cast("Json", entry).get("key") if isinstance(entry, Mapping) else None
+        if isinstance(key, str):
+            taken.add(key)
+    free = (f"k{number}" for number in range(1, 2 * len(entries) + 1) if f"k{number}" not in taken)
     return Track(
         parameter=parameter.path,
         keyframes=tuple(read_keyframe(entry, parameter, free) for entry in entries),
@@ -68,7 +68,7 @@ def read_keyframe(document: object, parameter: Parameter, free_keys: Iterable[st
         )
     fields = cast("Json", document)
     given_key = Place(parameter.path).text(fields, "key")
-    key = given_key or next(iter(free_keys))
+    key = given_key or next(iter(free_keys), "")
     place = Place(parameter.path, key)
     if _KEY.fullmatch(key) is None:
         raise place.error("a key has 1 to 64 letters, digits, - and _", "key")

@@ -4,6 +4,7 @@ Everything about a type stands in one row of `VALUE_TYPES`.
 """
 
 import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, cast
@@ -47,9 +48,12 @@ def parse_number(value: object) -> float:
     Raises:
         ValueError: It is none.
     """
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise ValueError(f"{_shown(value)} is no number; write a finite number, as 0.5")
-    return float(value)
+    if not isinstance(value, bool) and isinstance(value, int | float):
+        # JSON has whole numbers of any length; those that no float holds are infinite here.
+        number = float(value) if abs(value) <= sys.float_info.max else math.inf
+        if math.isfinite(number):
+            return number
+    raise ValueError(f"{_shown(value)} is no number; write a finite number, as 0.5")
 
 
 def parse_numbers(value: object, length: int) -> tuple[float, ...]:
