@@ -26,7 +26,7 @@ pytestmark = pytest.mark.browser
 
 FPS = 60
 MIDI = ("scale.mid", "audio/midi", scale(32))
-WAV = ("scale.wav", "audio/wav", song())
+WAV = ("scale.wav", "audio/wav", song(12.0))
 
 
 def open_scale(visit: Visit) -> Opened:

@@ -28,6 +28,8 @@ interface Voice {
 /** From planning a start to its sound being computed. */
 const LEAD_S = 0.06;
 const FADE_S = 0.012;
+/** Less than this before the song's end is not worth a start. */
+const SHORTEST_START_S = 0.25;
 /** After a start the output timestamp needs a moment to be true. */
 const SETTLE_S = 0.6;
 const VOLUME_GLIDE_S = 0.03;
@@ -47,6 +49,7 @@ export class SongPlayer {
   #song: AudioBuffer | null = null;
   #transport: TransportState | null = null;
   #voice: Voice | null = null;
+  #songs = 0;
   #checkFrom = 0;
   #state: SoundState = "silent";
   #volume = 1;
@@ -75,7 +78,11 @@ export class SongPlayer {
    * @throws DOMException when the browser cannot decode it
    */
   async setSong(bytes: ArrayBuffer | null): Promise<void> {
-    this.#song = bytes === null ? null : await this.#context.decodeAudioData(bytes);
+    const turn = ++this.#songs;
+    const song = bytes === null ? null : await this.#context.decodeAudioData(bytes);
+    // Decoding takes a moment; what was set meanwhile counts.
+    if (turn !== this.#songs) return;
+    this.#song = song;
     this.#tellState();
     this.#restart();
   }
@@ -116,10 +123,13 @@ export class SongPlayer {
     return voice.path.errorAt(this.#heard(), this.#time.songTimeAt(this.#time.pageNow()));
   }
 
-  /** Measure, and correct when the sound is not where it should be. */
+  /** Measure, and correct when the sound is not where it should be, or is silent where the song has sound. */
   check(): void {
     const voice = this.#voice;
-    if (voice === null) return;
+    if (voice === null) {
+      this.#resumeAfterSilence();
+      return;
+    }
     const pageTime = this.#time.pageNow();
     if (pageTime < this.#checkFrom) return;
     const error = this.soundAhead();
@@ -139,6 +149,13 @@ export class SongPlayer {
     this.#stopVoice();
     this.#context.onstatechange = null;
     await this.#context.close();
+  }
+
+  /** A loop that reaches beyond the song's end comes back from there. */
+  #resumeAfterSilence(): void {
+    if (this.#song === null || this.#transport?.playing !== true || this.#context.state !== "running") return;
+    const position = this.#time.songTimeAt(this.#time.pageNow());
+    if (position < this.#song.duration - SHORTEST_START_S) this.#startVoice(this.#song, this.#transport);
   }
 
   #restart(): void {
@@ -170,9 +187,13 @@ export class SongPlayer {
     gain.gain.linearRampToValueAtTime(1, when + FADE_S);
     source.connect(gain).connect(this.#master);
     source.start(when, position);
-    source.onended = () => gain.disconnect();
     const path = new PlaybackPath(when, position, transport.rate, loop);
-    this.#voice = { source, gain, path, rate: transport.rate };
+    const voice = { source, gain, path, rate: transport.rate };
+    this.#voice = voice;
+    source.onended = () => {
+      gain.disconnect();
+      if (this.#voice === voice) this.#voice = null;
+    };
     this.#drift.reset();
     this.#checkFrom = pageTime + SETTLE_S;
   }
