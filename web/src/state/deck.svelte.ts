@@ -2,7 +2,7 @@ import { nextRate } from "./rates";
 import { phrasesOf } from "./overview";
 import type { Reina } from "./reina.svelte";
 import { neighbouringBarLine } from "./score-time";
-import { shortcutOf, type Action } from "./shortcuts";
+import { keepsKey, shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered } from "./storage";
 
@@ -73,6 +73,7 @@ export class Deck {
     if (isTyping(event.target) || event.defaultPrevented) return false;
     if (event.key === "Escape") return this.#escape();
     if ((event.key === "Enter" || event.key === " ") && isPressable(event.target)) return false;
+    if (event.target instanceof HTMLInputElement && keepsKey(event.target.type, event.key)) return false;
     const shortcut = shortcutOf(event);
     if (shortcut === null) return false;
     const { view } = this.reina;
