@@ -11,6 +11,8 @@ from reina.sessions.sound_facts import AudioFacts, BrokenAudioError
 
 HEAD_BYTES = 16
 """How many bytes of a file are looked at to tell its format."""
+LONGEST_S = 24 * 3600.0
+"""A song that lasts longer is none: a header of a few bytes can claim two thousand years."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,8 @@ def probe_audio(path: Path) -> AudioInfo:
     """Tell format and length of an audio file from its headers; nothing is decoded.
 
     Raises:
-        InputError: The file is empty, is no audio that a browser plays, or breaks off within its headers.
+        InputError: The file is empty, is no audio that a browser plays, breaks off within its headers, or
+            claims to last longer than a day.
     """
     size = path.stat().st_size
     if size == 0:
@@ -79,6 +82,11 @@ def probe_audio(path: Path) -> AudioInfo:
         except BrokenAudioError as error:
             detail = f"the song looks like {audio_format.name}, but {error}; {SUPPORTED} is expected"
             raise InputError(detail) from error
+    if facts.duration_s is not None and not 0 <= facts.duration_s <= LONGEST_S:
+        claimed = f"{facts.duration_s / 3600:,.0f} hours"
+        raise InputError(
+            f"the song's headers say that it lasts {claimed}; at most {LONGEST_S / 3600:.0f} are played"
+        )
     return AudioInfo(
         format=audio_format.name,
         media_type=audio_format.media_type,

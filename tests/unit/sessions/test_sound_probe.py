@@ -187,3 +187,12 @@ def test_broken_songs_are_refused_or_read_but_never_crash(
     except InputError:
         return
     assert duration_s is None or duration_s >= 0
+
+
+def test_a_song_that_claims_to_last_for_weeks_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "song"
+    path.write_bytes(flac((1 << 36) - 1))
+    with pytest.raises(InputError, match="433 hours"):
+        probe_audio(path)
+    path.write_bytes(flac(44100 * 3600 * 23))
+    assert probe_audio(path).duration_s == 23 * 3600
