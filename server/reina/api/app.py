@@ -10,7 +10,22 @@ from typing import TYPE_CHECKING
 from fastapi import FastAPI
 
 import reina
-from reina.api import catalogue, examples, frames, page, problems, rigs, sessions, show, song, stream
+from reina.api import (
+    catalogue,
+    examples,
+    export,
+    frames,
+    library,
+    page,
+    problems,
+    rigs,
+    sessions,
+    show,
+    show_edits,
+    song,
+    stream,
+    tracks,
+)
 from reina.api.compression import Compression
 from reina.api.description import describe
 from reina.api.guard import Guard
@@ -23,7 +38,6 @@ from reina.sessions.store import SessionStore
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
 
-DEFAULT_SHOW = "shows/default.json"
 DESCRIPTION = """\
 A score becomes a trumpeter. Make a session of a MIDI or JSON score, then watch it: over the WebSocket
 `/api/v1/sessions/{id}/stream` (docs/protocol.md says what comes), or frame by frame over HTTP.
@@ -32,11 +46,17 @@ Errors are problem details (RFC 9457). Watching needs a session's id, changing i
 """
 
 
-def create_app(settings: Settings | None = None, *, now: Callable[[], float] = time.monotonic) -> FastAPI:
+def create_app(
+    settings: Settings | None = None,
+    *,
+    stage: Stage | None = None,
+    now: Callable[[], float] = time.monotonic,
+) -> FastAPI:
     """The server as an ASGI application.
 
     Args:
         settings: Where files are and whom it answers; defaults that work in the repository.
+        stage: Who plays on what; read from the settings' rigs at the start when None.
         now: Server time, seconds; never goes back, and runs as the event loop's clock does.
     """
     chosen = settings or Settings()
@@ -44,8 +64,14 @@ def create_app(settings: Settings | None = None, *, now: Callable[[], float] = t
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
         renderer = SongRenderer(chosen.data_dir)
-        stage = Stage.load(chosen.rigs_dir, chosen.examples_dir / DEFAULT_SHOW)
-        store = SessionStore(chosen.data_dir, stage, renderer, now=now)
+        store = SessionStore(
+            chosen.data_dir,
+            stage or Stage.load(chosen.rigs_dir),
+            renderer,
+            now=now,
+            song_cache_bytes=chosen.song_cache_bytes,
+        )
+        await store.prune_songs()
         app.state.store = store
         app.state.computing = asyncio.Semaphore(1)
         yield
@@ -56,7 +82,20 @@ def create_app(settings: Settings | None = None, *, now: Callable[[], float] = t
     )
     app.state.settings = chosen
     app.state.now = now
-    for module in (sessions, frames, song, show, rigs, examples, catalogue, stream):
+    for module in (
+        sessions,
+        frames,
+        export,
+        song,
+        show,
+        show_edits,
+        tracks,
+        rigs,
+        examples,
+        library,
+        catalogue,
+        stream,
+    ):
         app.include_router(module.router, prefix=API, responses=problems.RESPONSES)
     app.include_router(page.router)
     problems.install(app)

@@ -23,12 +23,15 @@ HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
 )
 async def get_song(session: Watched) -> Response:
     """The audio; while the server still makes it from the score, how far it is."""
-    state = session.song_state()
     song = session.song
+    if song.source == "rendered" and song.path is not None and not song.path.is_file():
+        # Removed to make room, or by hand.
+        session.renew_song()
+        song = session.song
     if song.error is not None:
         raise ProblemError(502, "no-song", "There is no sound", f"no song could be made: {song.error}")
     if song.path is None:
         return JSONResponse(
-            state.model_dump(), 202, headers={"Retry-After": "1", "Cache-Control": "no-store"}
+            session.song_state().model_dump(), 202, headers={"Retry-After": "1", "Cache-Control": "no-store"}
         )
     return FileResponse(song.path, media_type=song.media_type, headers=HEADERS)

@@ -15,7 +15,10 @@ from typing import TYPE_CHECKING
 import uvicorn
 
 from reina.api.app import create_app
-from reina.api.settings import Settings
+from reina.api.settings import Settings, require_page, require_writable
+from reina.cli.listening import listen
+from reina.errors import InputError
+from reina.sessions.production import Stage
 
 if TYPE_CHECKING:
     import socket
@@ -39,7 +42,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--port",
         type=int,
-        default=int(environment.get("REINA_PORT", PORT)),
+        # A text is held to the type as if it had been given.
+        default=environment.get("REINA_PORT", str(PORT)),
         help=f"port to listen on; 0 picks a free one ({PORT})",
     )
     parser.add_argument("--data-dir", type=Path, default=None, help="where sessions are kept (data)")
@@ -57,27 +61,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="ORIGIN",
         help="an origin whose pages may write and watch, beside the server's own; may be repeated",
     )
+    parser.add_argument(
+        "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until SIGINT or SIGTERM; returns the exit status."""
+    """Serve until SIGINT or SIGTERM; returns the exit status.
+
+    What keeps the server from starting is told in a line on standard error, with status 1.
+    """
+    try:
+        settings = _settings(arguments)
+        if not arguments.no_page:
+            require_page(settings)
+        require_writable(settings.data_dir)
+        stage = _stage(settings)
+        sockets = listen(arguments.host, arguments.port)
+    except InputError as error:
+        print(f"reina serve: {error}", file=sys.stderr)
+        return 1
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
-    settings = Settings()
-    if arguments.data_dir is not None:
-        settings = replace(settings, data_dir=arguments.data_dir)
-    hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}
-    if arguments.host not in EVERY_ADDRESS:
-        hosts.add(arguments.host.lower())
-    settings = replace(
-        settings, allowed_hosts=frozenset(hosts), allowed_origins=frozenset(arguments.allow_origin)
-    )
     server = Server(
         uvicorn.Config(
-            create_app(settings),
-            host=arguments.host,
-            port=arguments.port,
+            create_app(settings, stage=stage),
             # Deflate saves 3 % of the frames' bytes at ten times the cost.
             ws_per_message_deflate=False,
             ws_max_size=LARGEST_MESSAGE,
@@ -88,8 +97,30 @@ def run(arguments: argparse.Namespace) -> int:
             server_header=False,
         )
     )
-    server.run()
+    server.run(sockets)
     return 0 if server.started else 1
+
+
+def _settings(arguments: argparse.Namespace) -> Settings:
+    settings = Settings()
+    if arguments.data_dir is not None:
+        settings = replace(settings, data_dir=arguments.data_dir)
+    hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}
+    if arguments.host not in EVERY_ADDRESS:
+        hosts.add(arguments.host.lower())
+    return replace(
+        settings, allowed_hosts=frozenset(hosts), allowed_origins=frozenset(arguments.allow_origin)
+    )
+
+
+def _stage(settings: Settings) -> Stage:
+    try:
+        return Stage.load(settings.rigs_dir)
+    except InputError as error:
+        raise InputError(
+            f"the rigs in {settings.rigs_dir} cannot be used: {error}; they come with Reina, "
+            "and REINA_RIGS names another folder"
+        ) from error
 
 
 class Server(uvicorn.Server):

@@ -118,7 +118,7 @@ def documentation() -> str:
 def _model(model: type[BaseModel]) -> str:
     kind = model.model_fields.get("type")
     values = get_args(kind.annotation) if kind else ()
-    title = f"`{values[0]}`" if values else model.__name__
+    title = f"`{values[0]}`" if len(values) == 1 else model.__name__
     rows = [
         f"### {title}",
         "",

@@ -35,6 +35,8 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.CreatedSession,
     resources.SessionList,
     resources.Score,
+    resources.ShowEdited,
+    resources.ShowLibrary,
     resources.RigList,
     resources.ShowParameterList,
     resources.ExampleList,

@@ -39,6 +39,14 @@ def session_links(session_id: str) -> SessionLinks:
     )
 
 
+def rendering_href(session_id: str, part: int, transposition: int) -> str:
+    """A song that the server makes from the score: another address for each of a session's renderings.
+
+    The query only tells them apart; what is sent is always the song of the part that is played now.
+    """
+    return f"{session_href(session_id)}/song?part={part}&transposition={transposition}"
+
+
 def stream_links(session_id: str, rigs: Iterable[str]) -> StreamLinks:
     """What a viewer needs beside the stream, the rigs of the skeletons in it among them."""
     links = session_links(session_id)

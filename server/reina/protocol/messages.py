@@ -14,6 +14,7 @@ class SongState(WireModel):
     """The sound that goes with the score."""
 
     href: str
+    """Another one whenever the sound is another: what was fetched from it before may be kept."""
     status: Literal["ready", "rendering", "failed"]
     """`rendering`: the server is still making it from the score; `song_ready` follows."""
     source: Literal["uploaded", "rendered"]
@@ -52,22 +53,34 @@ class Transport(TransportState):
     type: Literal["transport"] = "transport"
 
 
-class ShowChanged(WireModel):
+class ShowState(WireModel):
+    """Which state of its show a session is in."""
+
+    revision: int
+    """Rises by one with each edit, undo and redo; counted anew when the server loads the session."""
+    etag: str
+    """The show's validator, quotes and all: what `If-Match` takes."""
+    undo: int
+    """How many steps can be taken back."""
+    redo: int
+    """How many of those taken back can be done again."""
+
+
+class ShowChanged(ShowState):
     """The show was edited; the frames already follow."""
 
     type: Literal["show_changed"] = "show_changed"
     path: str | None
-    """The track that changed, or null for the whole show."""
-    revision: int
-    """Rises by one with each edit."""
+    """The parameter whose track changed, or null for several or the whole show."""
 
 
 class ScoreChanged(WireModel):
-    """Another part or transposition was chosen; read the score anew."""
+    """Another part or transposition was chosen; read the score anew, and the song if its `href` changed."""
 
     type: Literal["score_changed"] = "score_changed"
     part: int
     transposition: int
+    song: SongState
 
 
 class SongReady(WireModel):

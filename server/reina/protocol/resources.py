@@ -5,7 +5,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from reina.keyframes.value_types import TypeName
-from reina.protocol.messages import SongState
+from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
 
@@ -169,6 +169,30 @@ class Score(WireModel):
     notes: list[WireNote]
     """By onset; of one part alone with `?part=`."""
     warnings: list[Warned]
+
+
+class ShowEdited(ShowState):
+    """What came of an edit, an undo or a redo."""
+
+    tracks: list[dict[str, Any]]
+    """The tracks that changed, as the show holds them now."""
+    removed: list[str]
+    """Parameters whose tracks are gone."""
+
+
+class ShowSummary(WireModel):
+    """A show in the library."""
+
+    name: str
+    title: str
+    description: str
+    href: str
+
+
+class ShowLibrary(WireModel):
+    """The bundled shows, each to be fetched and put into a session of one's own."""
+
+    shows: list[ShowSummary]
 
 
 class RigSummary(WireModel):

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from reina.instruments import INSTRUMENTS
-from reina.keyframes import ParameterRegistry, Show, ShowError, ShowPlan, TimeMap, stage_registry
+from reina.keyframes import ParameterRegistry, Show, ShowError, ShowPlan, stage_registry, write_default_show
 from reina.performance import PLAYER_PARAMETERS, Performance
 from reina.protocol import Manifest, build_manifest
+from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.skeleton import Hold, Rig, load_hold, load_rig
 
 if TYPE_CHECKING:
@@ -33,7 +34,6 @@ class Stage:
         instrument_rig: On what.
         hold: How it is held.
         registry: Everything that a show can move.
-        show: What is shown around a score that comes without a show of its own.
     """
 
     instrument: Instrument
@@ -41,29 +41,24 @@ class Stage:
     instrument_rig: Rig
     hold: Hold
     registry: ParameterRegistry
-    show: Show
 
     @classmethod
-    def load(cls, rigs_dir: Path, show: Path | None = None) -> Stage:
-        """Read the rigs, and the show that is the default.
+    def load(cls, rigs_dir: Path) -> Stage:
+        """Read the rigs.
 
         Args:
             rigs_dir: One folder a rig.
-            show: The show's file; the resting stage when None or when it is not there.
 
         Raises:
             RigError: A rig is not there, or is broken.
-            ShowError: The show is broken.
         """
-        registry = stage_registry().extended(PLAYER_PARAMETERS)
         instrument = INSTRUMENTS[INSTRUMENT]
         return cls(
             instrument=instrument,
             player_rig=load_rig(rigs_dir / PLAYER_RIG),
             instrument_rig=load_rig(rigs_dir / instrument.rig),
             hold=load_hold(rigs_dir / PLAYER_RIG, instrument.rig),
-            registry=registry,
-            show=read_show(show.read_bytes(), registry) if show and show.is_file() else Show(),
+            registry=stage_registry().extended(PLAYER_PARAMETERS),
         )
 
 
@@ -113,7 +108,7 @@ class Production:
         cls,
         stage: Stage,
         score: Score,
-        show: Show,
+        show: Show | None = None,
         *,
         part: int | None = None,
         transposition: int = 0,
@@ -123,7 +118,7 @@ class Production:
         Args:
             stage: Who plays on what.
             score: What is played.
-            show: The show around it.
+            show: The show around it; when None, one is written from the form of the music.
             part: The part that the player plays; the one that suits the instrument best when None.
             transposition: Semitones by which it is moved.
 
@@ -132,7 +127,9 @@ class Production:
         """
         ranking = stage.instrument.rank_parts(score)
         played = stage.instrument.play(score, ranking[0].part if part is None else part, transposition)
-        show_plan = show.plan(stage.registry, time_map(score))
+        if show is None:
+            show = write_default_show(music_form(score, played), title=score.title)
+        show_plan = show.plan(stage.registry, time_map(score), triggers=triggers(score, played))
         performance = _performance(stage, score, played, show_plan)
         return cls(
             stage=stage,
@@ -154,27 +151,20 @@ class Production:
 
     def with_show(self, show: Show) -> Production:
         """The same with another show; what was planned of the player is kept."""
-        plan = show.plan(self.stage.registry, time_map(self.score), earlier=self.show_plan)
+        plan = show.plan(self.stage.registry, self.show_plan.time_map, earlier=self.show_plan)
         return replace(self, show=show, show_plan=plan, performance=self.performance.with_show(plan))
 
     def at_rate(self, fps: int) -> Production:
         """The same function on another grid of frames."""
         if fps == self.manifest.fps:
             return self
-        plan = self.show.plan(self.stage.registry, time_map(self.score), fps=fps)
+        plan = self.show.plan(
+            self.stage.registry, self.show_plan.time_map, triggers=self.show_plan.triggers, fps=fps
+        )
         performance = _performance(self.stage, self.score, self.played, plan, fps=fps)
         return replace(
             self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)
         )
-
-
-def time_map(score: Score) -> TimeMap:
-    """The score's beats and bars, as keyframes count them."""
-    return TimeMap(
-        beats=score.tempo_map.beats,
-        seconds=score.tempo_map.seconds,
-        bar_lines_beats=score.metre_map.bar_lines(score.duration_beats + 1e-9),
-    )
 
 
 def _performance(

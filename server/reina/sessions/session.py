@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 from reina.music import ClockError, ClockState, MusicClock
 from reina.performance.performance import TAIL_S
 from reina.protocol import resources
-from reina.protocol.links import session_links, stream_links
+from reina.protocol.links import rendering_href, session_links, stream_links
 from reina.protocol.messages import Hello, ScoreChanged, ShowChanged, SongReady, StreamError
 from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
 from reina.sessions.audience import Audience
 from reina.sessions.description import NoteTable, part_summaries, transport_state, warned
 from reina.sessions.frames import EncodedFrames
+from reina.sessions.kept_show import changed_path
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.song import Song, song_state
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from reina.protocol.messages import SongState
     from reina.protocol.transport import TransportCommand
+    from reina.sessions.kept_show import KeptShow
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
     from reina.sessions.viewer import Viewer
@@ -36,7 +38,8 @@ class Session:
     Args:
         record: What is kept of it.
         production: What it plays.
-        song: Makes its sound; called when the rest is ready.
+        kept_show: The show that it plays, with its history.
+        song: Makes its sound; called when the rest is ready, and whenever the sound is another.
         now: Server time, seconds; never goes back.
     """
 
@@ -44,14 +47,14 @@ class Session:
         self,
         record: SessionRecord,
         production: Production,
+        kept_show: KeptShow,
         song: Callable[[Session], Song],
         *,
         now: Callable[[], float],
     ) -> None:
         self.record = record
         self.production = production
-        self.revision = 0
-        """Counts the edits of the show."""
+        self.kept_show = kept_show
         self.editing = asyncio.Lock()
         """Held while an edit is planned, so that edits do not overtake one another."""
         self.clock = MusicClock(now, self._duration_s())
@@ -59,6 +62,7 @@ class Session:
             self.clock.seek(record.song_time_s)
         frames = EncodedFrames(production.performance, production.manifest)
         self.audience = Audience(frames, self.clock, _note_messages(production), now=now)
+        self._make_song = song
         self.song = song(self)
 
     @property
@@ -80,7 +84,12 @@ class Session:
 
     def song_state(self) -> SongState:
         """The song, ready or on its way."""
-        return song_state(self.song, session_links(self.id).song)
+        production = self.production
+        if self.record.song is not None:
+            href = session_links(self.id).song
+        else:
+            href = rendering_href(self.id, production.part, production.transposition)
+        return song_state(self.song, href)
 
     def hello(self, state: ClockState | None = None) -> Hello:
         """What a viewer hears first.
@@ -160,22 +169,32 @@ class Session:
         self.audience.restart()
         return self.transport()
 
-    def change_show(self, production: Production, *, path: str | None) -> None:
+    def change_show(self, production: Production, kept_show: KeptShow) -> None:
         """Play the same with another show.
 
         Args:
             production: The same but for the show.
-            path: The track that changed, or None for the whole show.
+            kept_show: The other show, with its history.
         """
-        self.revision += 1
+        path = changed_path(self.kept_show.show, kept_show.show)
+        self.kept_show = kept_show
         self._replace(production)
-        self.audience.announce(ShowChanged(path=path, revision=self.revision))
+        self.audience.announce(ShowChanged(path=path, **dict(kept_show.state)))
 
     def change_part(self, record: SessionRecord, production: Production) -> None:
-        """Let the player play another part, or the same elsewhere."""
+        """Let the player play another part, or the same elsewhere; a song that was rendered is made anew."""
         self.record = record
         self._replace(production, notes=_note_messages(production))
-        self.audience.announce(ScoreChanged(part=record.part, transposition=record.transposition))
+        if record.song is None:
+            self.renew_song()
+        self.audience.announce(
+            ScoreChanged(part=record.part, transposition=record.transposition, song=self.song_state())
+        )
+
+    def renew_song(self) -> None:
+        """Make the sound anew, for what is played now."""
+        self.song.close()
+        self.song = self._make_song(self)
 
     def tell_song(self) -> None:
         """Tell the audience that the song is ready, or will not be."""

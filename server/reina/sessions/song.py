@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from reina.instruments import PlayedPart
     from reina.music import Score
     from reina.sessions.record import SongRecord
 
@@ -42,7 +43,7 @@ class RenderedSong:
     Args:
         renderer: Makes it.
         score: From this.
-        part: The part that the player plays.
+        played: The part that the player plays, as it is played.
         ready: Called when it can be fetched, or has failed.
     """
 
@@ -50,11 +51,13 @@ class RenderedSong:
     media_type = SONG_MEDIA_TYPE
     duration_s: float | None = None
 
-    def __init__(self, renderer: SongRenderer, score: Score, part: int, *, ready: Callable[[], None]) -> None:
+    def __init__(
+        self, renderer: SongRenderer, score: Score, played: PlayedPart, *, ready: Callable[[], None]
+    ) -> None:
         self.path: Path | None = None
         self.error: str | None = None
         self._request: SongRequest | None = None
-        self._making = asyncio.create_task(self._make(renderer, score, part, ready))
+        self._making = asyncio.create_task(self._make(renderer, score, played, ready))
 
     @property
     def progress(self) -> float:
@@ -65,9 +68,13 @@ class RenderedSong:
         """Give it up, unless it is there."""
         self._making.cancel()
 
-    async def _make(self, renderer: SongRenderer, score: Score, part: int, ready: Callable[[], None]) -> None:
+    async def _make(
+        self, renderer: SongRenderer, score: Score, played: PlayedPart, ready: Callable[[], None]
+    ) -> None:
         try:
-            self._request = await renderer.request(score, trumpet_part=part)
+            self._request = await renderer.request(
+                score, trumpet_part=played.part, transposition=played.transposition
+            )
             self.path = await self._request.wait()
         except (SoundError, InputError) as error:
             self.error = str(error)

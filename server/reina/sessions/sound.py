@@ -183,13 +183,21 @@ class SongRenderer:
             most_bytes: How large the rendered songs may be together.
             in_use: Songs that stay in any case.
         """
-        songs = [(song, song.stat()) for song in self._songs.glob("*.wav")]
+        songs: list[tuple[Path, os.stat_result]] = []
+        for song in self._songs.glob("*.wav"):
+            with contextlib.suppress(FileNotFoundError):  # removed meanwhile
+                songs.append((song, song.stat()))
         total = freed = sum(stat.st_size for _, stat in songs)
         for song, stat in sorted(songs, key=lambda entry: entry[1].st_mtime):
             if total > most_bytes and song not in in_use:
                 song.unlink(missing_ok=True)
                 total -= stat.st_size
         return freed - total
+
+    def discard(self, path: Path | None) -> None:
+        """Remove a song that nobody needs any more; None, and one that is gone already, are no error."""
+        if path is not None:
+            path.unlink(missing_ok=True)
 
     def _ended(self, path: Path, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-import json
+import logging
 from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.music import read_score
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
+from reina.sessions.kept_show import KeptShow
 from reina.sessions.production import Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import Session
@@ -21,12 +22,18 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
     from pathlib import Path
 
-    from reina.keyframes import Show
+    from reina.keyframes import ShowHistory
     from reina.sessions.production import Stage
+
+SONG_CACHE_BYTES = 2_000_000_000
+"""How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
 
 LOADED = 32
 """How many sessions are kept in memory; beyond that, the idle ones that were asked for least recently are put
 away."""
+
+
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -67,6 +74,7 @@ class SessionStore:
         renderer: Makes songs for scores that come without.
         now: Server time, seconds; never goes back.
         loaded: How many sessions are kept in memory.
+        song_cache_bytes: How large the rendered songs may be together.
     """
 
     def __init__(
@@ -77,12 +85,15 @@ class SessionStore:
         *,
         now: Callable[[], float],
         loaded: int = LOADED,
+        song_cache_bytes: int = SONG_CACHE_BYTES,
     ) -> None:
         self.stage = stage
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
         self._now = now
         self._most_loaded = loaded
+        self._song_cache_bytes = song_cache_bytes
+        self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
         self._loading: dict[str, asyncio.Task[Session]] = {}
 
@@ -105,8 +116,7 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
-        record, production = await asyncio.to_thread(self._make, draft, hash_token(token))
-        return self._admit(record, production), token
+        return self._admit(*await asyncio.to_thread(self._make, draft, hash_token(token))), token
 
     async def get(self, session_id: str) -> Session | None:
         """A session, loaded if need be; None where there is none."""
@@ -159,41 +169,55 @@ class SessionStore:
                     transposition=record.transposition,
                 )
                 session.change_part(record, production)
-                session.song.close()
-                session.song = self._song(session)
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
 
-    async def set_show(self, session: Session, edit: Callable[[Show], Show], *, path: str | None) -> Show:
-        """Change a session's show and keep it.
+    async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> KeptShow:
+        """Take a session's show one step on or back, and keep it; edits of a session follow one another.
 
         Args:
             session: Whose.
-            edit: The show as it is -> as it is to be; may raise ShowError.
-            path: The track that is edited, or None for the whole show.
+            step: The history as it is -> as it is to be; runs on a thread. What it raises is raised on, and
+                nothing is changed then.
         """
         async with session.editing:
-            show = edit(session.production.show)
-            production = await asyncio.to_thread(session.production.with_show, show)
-            # Seen first, then kept: the answer waits for both.
-            session.change_show(production, path=path)
-            folder = self._folders.folder(session.id)
-            await asyncio.to_thread(_write_show, folder, show)
-        return show
+            kept = await asyncio.to_thread(session.kept_show.then, step)
+            if kept is not session.kept_show:
+                production = await asyncio.to_thread(session.production.with_show, kept.show)
+                # Seen first, then kept: the answer waits for both.
+                session.change_show(production, kept)
+                await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+        return kept
 
     async def delete(self, session: Session) -> None:
-        """End a session and remove everything of it."""
+        """End a session and remove everything of it.
+
+        The song that was rendered for it goes too, unless a session that is loaded has the same; one that is
+        not will have it rendered anew.
+        """
         self._sessions.pop(session.id, None)
         session.close()
         await asyncio.to_thread(self._folders.delete, session.id)
+        if session.record.song is None and session.song.path not in self._songs_in_use():
+            await asyncio.to_thread(self._renderer.discard, session.song.path)
+
+    async def prune_songs(self) -> None:
+        """Remove the rendered songs that were not asked for the longest until the rest is small enough."""
+        freed = await asyncio.to_thread(
+            self._renderer.prune, self._song_cache_bytes, in_use=self._songs_in_use()
+        )
+        if freed:
+            _log.info("removed %.0f MB of rendered songs", freed / 1e6)
 
     async def aclose(self) -> None:
         """Put every session away."""
         for session in list(self._sessions.values()):
             self._put_away(session)
         await self._renderer.aclose()
+        if self._pruning:
+            await asyncio.wait(self._pruning)
 
-    def _make(self, draft: Draft, token_sha256: str) -> tuple[SessionRecord, Production]:
+    def _make(self, draft: Draft, token_sha256: str) -> tuple[SessionRecord, Production, KeptShow]:
         score = read_score((draft.folder / draft.score).read_bytes(), filename=draft.score_filename)
         song: SongRecord | None = None
         if draft.song is not None:
@@ -201,7 +225,7 @@ class SessionStore:
             named = f"song{info.suffix}"
             (draft.folder / draft.song).rename(draft.folder / named)
             song = SongRecord(file=named, media_type=info.media_type, duration_s=info.duration_s)
-        show = self.stage.show
+        show = None
         if draft.show is not None:
             show = read_show((draft.folder / draft.show).read_bytes(), self.stage.registry)
             (draft.folder / draft.show).unlink()
@@ -209,7 +233,8 @@ class SessionStore:
             self.stage, score, show, part=draft.part, transposition=draft.transposition
         )
         (draft.folder / draft.score).rename(draft.folder / SCORE)
-        _write_show(draft.folder, show)
+        kept = KeptShow.begin(production.show)
+        _write_show(draft.folder, kept)
         record = SessionRecord(
             id=new_id(),
             title=draft.title or score.title,
@@ -223,13 +248,12 @@ class SessionStore:
             song=song,
         )
         self._folders.adopt(draft.folder, record)
-        return record, production
+        return record, production, kept
 
     async def _load(self, session_id: str) -> Session:
-        record, production = await asyncio.to_thread(self._read, session_id)
-        return self._admit(record, production)
+        return self._admit(*await asyncio.to_thread(self._read, session_id))
 
-    def _read(self, session_id: str) -> tuple[SessionRecord, Production]:
+    def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow]:
         record = self._folders.record(session_id)
         folder = self._folders.folder(session_id)
         score = read_score((folder / SCORE).read_bytes(), filename=record.score_filename)
@@ -237,10 +261,10 @@ class SessionStore:
         production = Production.plan(
             self.stage, score, show, part=record.part, transposition=record.transposition
         )
-        return record, production
+        return record, production, KeptShow.begin(show)
 
-    def _admit(self, record: SessionRecord, production: Production) -> Session:
-        session = Session(record, production, self._song, now=self._now)
+    def _admit(self, record: SessionRecord, production: Production, kept: KeptShow) -> Session:
+        session = Session(record, production, kept, self._song, now=self._now)
         self._sessions[session.id] = session
         self._make_room()
         return session
@@ -249,7 +273,18 @@ class SessionStore:
         record, production = session.record, session.production
         if record.song:
             return UploadedSong(self._folders.folder(record.id), record.song)
-        return RenderedSong(self._renderer, production.score, production.part, ready=session.tell_song)
+        return RenderedSong(
+            self._renderer, production.score, production.played, ready=lambda: self._song_made(session)
+        )
+
+    def _song_made(self, session: Session) -> None:
+        session.tell_song()
+        pruning = asyncio.create_task(self.prune_songs())
+        self._pruning.add(pruning)
+        pruning.add_done_callback(self._pruning.discard)
+
+    def _songs_in_use(self) -> set[Path]:
+        return {session.song.path for session in self._sessions.values() if session.song.path is not None}
 
     def _make_room(self) -> None:
         *others, _ = self._sessions.values()
@@ -265,5 +300,5 @@ class SessionStore:
         session.close()
 
 
-def _write_show(folder: Path, show: Show) -> None:
-    write_atomically(folder / SHOW, json.dumps(show.to_document(), indent=1).encode())
+def _write_show(folder: Path, kept: KeptShow) -> None:
+    write_atomically(folder / SHOW, kept.text.text.encode())

@@ -116,7 +116,7 @@ def test_another_part_keeps_the_show_and_begins_an_epoch(tmp_path: Path, stage: 
         desk = Desk(tmp_path, stage)
         session = await desk.create(duet())
         show = Show(title="Kept")
-        await desk.store.set_show(session, lambda _: show, path=None)
+        await desk.store.change_show(session, lambda history: history.then(show))
         epoch = session.transport().epoch
         await desk.store.change(session, part=0)
         assert session.transport().epoch == epoch + 1

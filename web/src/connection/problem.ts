@@ -25,6 +25,11 @@ export class ProblemError extends Error {
     return this.status === 404;
   }
 
+  /** It was changed by somebody else since it was read. */
+  get isStale(): boolean {
+    return this.status === 412;
+  }
+
   /** This page may watch the session, but not change it. */
   get isForbidden(): boolean {
     return this.status === 401 || this.status === 403;

@@ -89,10 +89,11 @@ export class ReinaApi {
   async request(
     method: string,
     path: string,
-    options: { json?: unknown; body?: BodyInit; token?: string; signal?: AbortSignal } = {},
+    options: { json?: unknown; body?: BodyInit; token?: string; ifMatch?: string; signal?: AbortSignal } = {},
   ): Promise<Response> {
     const headers: Record<string, string> = { Accept: "application/json, */*" };
     if (options.token !== undefined) headers["Authorization"] = `Bearer ${options.token}`;
+    if (options.ifMatch !== undefined) headers["If-Match"] = options.ifMatch;
     if (options.json !== undefined) headers["Content-Type"] = "application/json";
     const body = options.json === undefined ? options.body : JSON.stringify(options.json);
     const init: RequestInit = { method, headers };

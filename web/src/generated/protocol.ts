@@ -156,6 +156,18 @@ export interface TransportState {
   epoch: number
 }
 
+/** Which state of its show a session is in. */
+export interface ShowState {
+  /** Rises by one with each edit, undo and redo; counted anew when the server loads the session. */
+  revision: number
+  /** The show's validator, quotes and all: what If-Match takes. */
+  etag: string
+  /** How many steps can be taken back. */
+  undo: number
+  /** How many of those taken back can be done again. */
+  redo: number
+}
+
 /** One note of a part, with its fingering where the player plays that part. */
 export interface WireNote {
   /** The note's place in the score's table of notes. */
@@ -221,19 +233,18 @@ export interface Transport extends TransportState {
 }
 
 /** The show was edited; the frames already follow. */
-export interface ShowChanged {
+export interface ShowChanged extends ShowState {
   type: "show_changed"
-  /** The track that changed, or null for the whole show. */
+  /** The parameter whose track changed, or null for several or the whole show. */
   path: string | null
-  /** Rises by one with each edit. */
-  revision: number
 }
 
-/** Another part or transposition was chosen; read the score anew. */
+/** Another part or transposition was chosen; read the score anew, and the song if its href changed. */
 export interface ScoreChanged {
   type: "score_changed"
   part: number
   transposition: number
+  song: SongState
 }
 
 /** The song can be fetched. */
@@ -294,6 +305,19 @@ export interface Score {
   /** By onset; of one part alone with ?part=. */
   notes: WireNote[]
   warnings: Warned[]
+}
+
+/** What came of an edit, an undo or a redo. */
+export interface ShowEdited extends ShowState {
+  /** The tracks that changed, as the show holds them now. */
+  tracks: (Record<string, unknown>)[]
+  /** Parameters whose tracks are gone. */
+  removed: string[]
+}
+
+/** The bundled shows, each to be fetched and put into a session of one's own. */
+export interface ShowLibrary {
+  shows: ShowSummary[]
 }
 
 /** The rigs that this server has. */
@@ -498,6 +522,14 @@ export interface ShowParameter {
   documentation: string
 }
 
+/** A show in the library. */
+export interface ShowSummary {
+  name: string
+  title: string
+  description: string
+  href: string
+}
+
 /** One skeleton of the frame. */
 export interface SkeletonManifest {
   /** player or the instrument's name; another player's begin with players/2/. */
@@ -514,6 +546,7 @@ export interface SkeletonManifest {
 
 /** The sound that goes with the score. */
 export interface SongState {
+  /** Another one whenever the sound is another: what was fetched from it before may be kept. */
   href: string
   /** rendering: the server is still making it from the score; song_ready follows. */
   status: "ready" | "rendering" | "failed"

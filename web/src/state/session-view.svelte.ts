@@ -66,6 +66,7 @@ export class SessionView {
   #queue: FrameQueue | null = null;
   #followed: TransportState | null = null;
   #songHref: string | null = null;
+  #songWanted = new AbortController();
 
   /** Get a session's score and clock and join its stream. Throws ProblemError when there is none. */
   static async open(id: string, token: string | null, surroundings: Surroundings): Promise<SessionView> {
@@ -209,6 +210,7 @@ export class SessionView {
         break;
       case "score_changed":
         void this.#attempt(() => this.#readAnew());
+        this.#loadSong(message.song.href);
         break;
       case "show_changed":
         this.showRevision += 1;
@@ -286,14 +288,17 @@ export class SessionView {
   #loadSong(href: string): void {
     if (this.#songHref === href) return;
     this.#songHref = href;
-    void this.#takeSong(href);
+    this.#songWanted.abort();
+    this.#songWanted = new AbortController();
+    void this.#takeSong(href, AbortSignal.any([this.#ended.signal, this.#songWanted.signal]));
   }
 
-  async #takeSong(href: string): Promise<void> {
+  async #takeSong(href: string, signal: AbortSignal): Promise<void> {
     this.soundShare = 0;
     this.soundError = null;
-    const { signal } = this.#ended;
     try {
+      // What sounded before belongs to other fingers.
+      await this.#player.setSong(null);
       const bytes = await loadSong(this.#surroundings.api, href, signal, (share) => (this.soundShare = share));
       if (!signal.aborted) await this.#player.setSong(bytes);
     } catch (error) {
@@ -302,6 +307,6 @@ export class SessionView {
       this.soundError =
         error instanceof ProblemError ? error.message : "This browser cannot play the song's audio format.";
     }
-    this.soundShare = null;
+    if (!signal.aborted) this.soundShare = null;
   }
 }

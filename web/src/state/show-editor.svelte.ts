@@ -15,6 +15,8 @@ const SAME_PLACE_S = 1 / 120;
 export class ShowEditor {
   readonly #reina: Reina;
   readonly #view: SessionView;
+  /** The validator of the show that `document` is. */
+  #etag: string | null = null;
   document = $state.raw<ShowDocument | null>(null);
   /** Path of the chosen track's parameter. */
   chosen = $state<string | null>(null);
@@ -50,7 +52,9 @@ export class ShowEditor {
   async read(): Promise<void> {
     try {
       const response = await this.#api.request("GET", this.#api.sessionPath(this.#view.id, "show"));
-      this.document = (await response.json()) as ShowDocument;
+      const document = (await response.json()) as ShowDocument;
+      this.#etag = response.headers.get("ETag");
+      this.document = document;
     } catch (error) {
       this.#reina.tell(error);
     }
@@ -84,12 +88,17 @@ export class ShowEditor {
     const { token } = this.#view;
     if (token === null) return;
     try {
-      const body = json === undefined ? { token } : { token, json };
-      await this.#api.request(method, this.#api.sessionPath(this.#view.id, `show/${below}`), body);
+      const condition = this.#etag === null ? {} : { ifMatch: this.#etag };
+      const body = json === undefined ? {} : { json };
+      await this.#api.request(method, this.#api.sessionPath(this.#view.id, `show/${below}`), {
+        token,
+        ...condition,
+        ...body,
+      });
       await this.read();
     } catch (error) {
       this.#reina.tell(error);
-      if (error instanceof ProblemError && error.isUnknown) await this.read();
+      if (error instanceof ProblemError && (error.isUnknown || error.isStale)) await this.read();
     }
   }
 

@@ -1,0 +1,57 @@
+"""Motion in files that other programs read."""
+
+import asyncio
+import re
+from collections.abc import AsyncIterator
+from typing import Annotated
+from urllib.parse import quote
+
+from fastapi import APIRouter, Query, Request
+from fastapi.responses import StreamingResponse
+
+from reina.api.access import Watched
+from reina.api.frames import EndS, FramesPerSecond, StartS, frame_span
+from reina.sessions.motion_export import BvhExport
+
+router = APIRouter(tags=["frames"])
+
+
+@router.get(
+    "/sessions/{session_id}/export.bvh",
+    response_class=StreamingResponse,
+    responses={200: {"content": {"text/plain": {}}, "description": "A BVH file."}},
+)
+async def export_bvh(
+    request: Request,
+    session: Watched,
+    start_s: StartS = 0.0,
+    end_s: EndS = None,
+    fps: FramesPerSecond = 60,
+    skeleton: Annotated[str, Query(description="Whose motion, by its name in the manifest.")] = "player",
+) -> StreamingResponse:
+    """The motion of one skeleton, frame by frame the stream's, in metres and degrees.
+
+    BVH knows no rest rotations: at rest every joint's frame stands along the world's axes. Joints are where
+    the frames have them.
+    """
+    first, end = frame_span(session, start_s, end_s, fps)
+    production = await asyncio.to_thread(session.production.at_rate, fps)
+    export = BvhExport(production, skeleton, first, end)
+    title = re.sub(r"[^\w .-]+", " ", session.record.title).strip() or "session"
+    filename = quote(f"{title} - {skeleton}.bvh".replace("/", " "), safe="")
+    return StreamingResponse(
+        _lines(export, request.app.state.computing),
+        media_type="text/plain; charset=utf-8",
+        headers={
+            "Content-Disposition": f"attachment; filename*=UTF-8''{filename}",
+            "Cache-Control": "no-store",
+        },
+    )
+
+
+async def _lines(export: BvhExport, computing: asyncio.Semaphore) -> AsyncIterator[bytes]:
+    for block in export.blocks:
+        # As for frames over HTTP: on a thread, one block at a time, whoever computes.
+        async with computing:
+            text = await asyncio.to_thread(export.text, block)
+        yield text.encode()

@@ -1,0 +1,207 @@
+"""One track of a show, and its keyframes."""
+
+import json
+from typing import Annotated, Any
+from urllib.parse import quote
+
+from fastapi import APIRouter, Body, Path, Response
+
+from reina.api.access import Controlled, Store, Watched
+from reina.api.conditions import IfMatch, IfNoneMatch, conditional
+from reina.api.problems import ProblemError
+from reina.api.show_change import ShowChange
+from reina.keyframes import (
+    Keyframe,
+    KeyNotFoundError,
+    Parameter,
+    ParameterRegistry,
+    Show,
+    ShowError,
+    Track,
+    keyframe_document,
+    with_edits,
+)
+from reina.protocol.links import session_links
+
+router = APIRouter(tags=["show"])
+
+Document = dict[str, Any]
+TrackPath = Annotated[
+    str, Path(description="The parameter's path, slashes and all.", examples=["lights/key/intensity"])
+]
+Key = Annotated[str, Path(description="The keyframe's key in its track.", examples=["k3"])]
+NewKeyframe = Annotated[
+    Document, Body(examples=[{"key": "k3", "time": 1.5, "value": 0.8, "interpolation": "quad_in"}])
+]
+Changes = Annotated[Document, Body(examples=[{"time": 2.25, "value": 1.1}])]
+TrackDocument = Annotated[
+    Document,
+    Body(
+        examples=[
+            {
+                "time": "beats",
+                "after": "loop",
+                "keyframes": [
+                    {"key": "k1", "time": 0, "value": 1.0},
+                    {"key": "k2", "time": 4, "value": 2.0, "interpolation": "linear"},
+                ],
+            }
+        ]
+    ),
+]
+
+KEYFRAMES = "/sessions/{session_id}/show/tracks/{path:path}/keyframes"
+TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
+
+
+@router.get(KEYFRAMES, response_model=Document)
+async def list_keyframes(
+    session: Watched, path: TrackPath, store: Store, if_none_match: IfNoneMatch = None
+) -> Response:
+    """A parameter's keyframes; none where the show does not move it."""
+    _parameter(store.stage.registry, path)
+    kept = session.kept_show
+    keyframes = [keyframe_document(keyframe) for keyframe in _keyframes(kept.show, path)]
+    return conditional(json.dumps({"keyframes": keyframes}), kept.text.track_etag(path), if_none_match)
+
+
+@router.post(KEYFRAMES, status_code=201)
+async def add_keyframe(
+    session: Controlled,
+    path: TrackPath,
+    fields: NewKeyframe,
+    store: Store,
+    response: Response,
+    if_match: IfMatch = None,
+) -> Document:
+    """One keyframe more; it is given the next free key unless it names its own."""
+    parameter = _parameter(store.stage.registry, path)
+    added: list[Keyframe[Any]] = []
+
+    def edit(show: Show) -> Show:
+        keyframe = show.new_keyframe(parameter, fields)
+        if any(other.key == keyframe.key for other in _keyframes(show, path)):
+            raise ProblemError(
+                409,
+                "key-taken",
+                "There is such a keyframe already",
+                f"{path} has a keyframe {keyframe.key}; PATCH changes it",
+            )
+        added.append(keyframe)
+        return show.with_keyframe(path, keyframe)
+
+    kept = await ShowChange(session, store, if_match, path).edit(edit)
+    key = quote(added[0].key)
+    response.headers["ETag"] = kept.text.track_etag(path)
+    response.headers["Location"] = f"{session_links(session.id).show}/tracks/{quote(path)}/keyframes/{key}"
+    return keyframe_document(added[0])
+
+
+@router.get(f"{KEYFRAMES}/{{key}}", response_model=Document)
+async def get_keyframe(
+    session: Watched, path: TrackPath, key: Key, store: Store, if_none_match: IfNoneMatch = None
+) -> Response:
+    """One keyframe, under its track's validator."""
+    _parameter(store.stage.registry, path)
+    kept = session.kept_show
+    document = keyframe_document(kept.show.track(path).keyframe(key))
+    return conditional(json.dumps(document), kept.text.track_etag(path), if_none_match)
+
+
+@router.patch(f"{KEYFRAMES}/{{key}}")
+async def change_keyframe(
+    session: Controlled,
+    path: TrackPath,
+    key: Key,
+    fields: Changes,
+    store: Store,
+    response: Response,
+    if_match: IfMatch = None,
+) -> Document:
+    """Change some fields of a keyframe; null takes one back to its default."""
+    parameter = _parameter(store.stage.registry, path)
+    if fields.get("key", key) != key:
+        raise ProblemError(
+            422, "key-fixed", "The show cannot be used", "a keyframe's key stays; add another and remove this"
+        )
+    kept = await ShowChange(session, store, if_match, path).edit(
+        lambda show: show.with_changed(parameter, key, fields)
+    )
+    response.headers["ETag"] = kept.text.track_etag(path)
+    return keyframe_document(kept.show.track(path).keyframe(key))
+
+
+@router.delete(f"{KEYFRAMES}/{{key}}", status_code=204)
+async def remove_keyframe(
+    session: Controlled, path: TrackPath, key: Key, store: Store, response: Response, if_match: IfMatch = None
+) -> None:
+    """One keyframe less; a track that loses its last and answers no events goes with it."""
+    _parameter(store.stage.registry, path)
+    kept = await ShowChange(session, store, if_match, path).edit(
+        lambda show: show.without_keyframe(path, key)
+    )
+    response.headers["ETag"] = kept.text.track_etag(path)
+
+
+@router.get(TRACK, response_model=Document)
+async def get_track(
+    session: Watched, path: TrackPath, store: Store, if_none_match: IfNoneMatch = None
+) -> Response:
+    """A whole track: its keyframes, their unit, what comes before and after them, what it answers."""
+    _parameter(store.stage.registry, path)
+    written = session.kept_show.text.tracks.get(path)
+    if written is None:
+        raise KeyNotFoundError("the show has no such track", track=path)
+    return conditional(written.text, written.etag, if_none_match)
+
+
+@router.put(TRACK, response_model=Document)
+async def put_track(
+    session: Controlled,
+    path: TrackPath,
+    fields: TrackDocument,
+    store: Store,
+    if_match: IfMatch = None,
+) -> Response:
+    """Another track of the parameter in the place of its present one, if there is any."""
+    registry = store.stage.registry
+    _parameter(registry, path)
+    if fields.get("parameter", path) != path:
+        raise ProblemError(
+            422,
+            "parameter-fixed",
+            "The show cannot be used",
+            f"this is the track of {path}, and the body names {fields['parameter']!r}",
+        )
+    track = {**fields, "parameter": path}
+    if not track.get("keyframes") and "events" not in track:
+        raise ShowError("a track has one keyframe at least, or answers events; DELETE removes it", track=path)
+    kept = await ShowChange(session, store, if_match, path).edit(
+        lambda show: with_edits(show, [{"edit": "put_track", "track": track}], registry)
+    )
+    written = kept.text.tracks[path]
+    return conditional(written.text, written.etag, None)
+
+
+@router.delete(TRACK, status_code=204)
+async def remove_track(session: Controlled, path: TrackPath, store: Store, if_match: IfMatch = None) -> None:
+    """The show no longer moves the parameter, which goes back to its default. Unknown tracks go too."""
+    await ShowChange(session, store, if_match, path).edit(lambda show: show.without_track(path))
+
+
+def _parameter(registry: ParameterRegistry, path: str) -> Parameter:
+    parameter = registry.get(path)
+    if parameter is None:
+        raise ProblemError(
+            404,
+            "unknown-parameter",
+            "There is no such parameter",
+            f"no parameter has the path {path!r}; GET /api/v1/parameters lists all",
+        )
+    return parameter
+
+
+def _keyframes(show: Show, path: str) -> tuple[Keyframe[Any], ...]:
+    return next(
+        (track.keyframes for track in show.tracks if track.parameter == path and isinstance(track, Track)), ()
+    )

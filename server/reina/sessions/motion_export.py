@@ -1,0 +1,82 @@
+"""A skeleton's motion as the text of a BVH file, block by block."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.errors import InputError
+from reina.sessions.frames import FRAMES_PER_BLOCK
+from reina.skeleton import clip_of_motion, write_bvh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from reina.sessions.production import Production
+    from reina.skeleton import MotionClip
+
+
+class BvhExport:
+    """Frames `first` ... `end` - 1 of one skeleton; the same frames as the stream's, in metres and degrees.
+
+    Angles go on from block to block without turns of 360°.
+
+    Args:
+        production: What is played, at the export's rate.
+        skeleton: The skeleton's name in the frame: ``player``.
+        first: The first frame.
+        end: The frame before which it ends.
+
+    Raises:
+        InputError: There is no such skeleton.
+    """
+
+    def __init__(self, production: Production, skeleton: str, first: int, end: int) -> None:
+        layouts = production.performance.layout.skeletons
+        names = [layout.name for layout in layouts]
+        if skeleton not in names:
+            raise InputError(f"the skeletons are {', '.join(names)}, not {skeleton!r}", where="skeleton")
+        stage = production.stage
+        self._performance = production.performance
+        self._index = names.index(skeleton)
+        self._skeleton = (stage.player_rig, stage.instrument_rig)[self._index].skeleton
+        start = sum(len(layout.joints) for layout in layouts[: self._index])
+        self._joints = slice(start, start + len(layouts[self._index].joints))
+        self._first, self._end = first, end
+        self._last_angles: NDArray[np.float64] | None = None
+
+    @property
+    def blocks(self) -> range:
+        """The aligned blocks of frames that it takes in, for `text`."""
+        last = max(self._first, self._end - 1)
+        return range(self._first // FRAMES_PER_BLOCK, last // FRAMES_PER_BLOCK + 1)
+
+    def text(self, block: int) -> str:
+        """The lines of a block's frames, behind the head of the file for the first; to be called in order."""
+        clip = self._clip(block)
+        head, _, motion = write_bvh(clip).partition("MOTION\n")
+        rows = motion.split("\n", 2)[2]
+        if block != self.blocks.start:
+            return rows
+        seconds = f"Frame Time: {clip.frame_time_s:.8f}"
+        return f"{head}MOTION\nFrames: {self._end - self._first}\n{seconds}\n{rows}"
+
+    def _clip(self, block: int) -> MotionClip:
+        frames = self._performance.evaluate(block)
+        begin = block * FRAMES_PER_BLOCK
+        inside = slice(max(self._first - begin, 0), max(self._end - begin, 0))
+        clip = clip_of_motion(
+            self._skeleton,
+            frames.rotations[inside, self._joints].astype(np.float64),
+            frames.root_positions[inside, self._index].astype(np.float64),
+            1.0 / frames.fps,
+        )
+        if not len(clip):
+            return clip
+        values: NDArray[np.float64] = clip.values.copy()
+        if self._last_angles is not None:  # behind the root's position
+            values[:, 3:] += 360.0 * np.round((self._last_angles - values[0, 3:]) / 360.0)
+        self._last_angles = values[-1, 3:]
+        return replace(clip, values=values)

@@ -1,0 +1,86 @@
+"""A show as text: what is kept on disk, what is answered, and what its validators are made of."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from reina.keyframes import Show
+
+if TYPE_CHECKING:
+    from reina.keyframes import Track, UnknownTrack
+
+NO_TRACK_ETAG = '"none"'
+"""The validator of a track that is not there, so that its first keyframe can be added under a condition."""
+
+
+@dataclass(frozen=True)
+class TrackText:
+    """One track.
+
+    Attributes:
+        track: The track.
+        text: Its JSON.
+        etag: Its validator, in quotes (RFC 9110, 8.8.3).
+    """
+
+    track: Track | UnknownTrack
+    text: str
+    etag: str
+
+
+@dataclass(frozen=True)
+class ShowText:
+    """A show, written. Validators follow from what is written alone: they outlive the server.
+
+    Attributes:
+        show: The show.
+        head: The JSON of everything but its tracks.
+        tracks: Each track, by its parameter's path.
+        etag: The whole show's validator, in quotes.
+    """
+
+    show: Show
+    head: str
+    tracks: dict[str, TrackText]
+    etag: str
+
+    @classmethod
+    def of(cls, show: Show, earlier: ShowText | None = None) -> ShowText:
+        """Write a show; tracks that an earlier state shares are not written again."""
+        known: dict[int, TrackText] = {}
+        if earlier is not None and earlier.show.time == show.time:
+            known = {id(written.track): written for written in earlier.tracks.values()}
+        tracks = {track.parameter: known.get(id(track)) or _written(track, show) for track in show.tracks}
+        document = replace(show, tracks=()).to_document()
+        del document["tracks"]
+        head = _json(document)
+        etag = _etag(head, *(written.etag for written in tracks.values()))
+        return cls(show=show, head=head, tracks=tracks, etag=etag)
+
+    @property
+    def text(self) -> str:
+        """The whole show as JSON, a line a track."""
+        tracks = ",\n".join(written.text for written in self.tracks.values())
+        return f'{self.head[:-1]}, "tracks": [\n{tracks}\n]}}\n'
+
+    def track_etag(self, path: str) -> str:
+        """The validator of a parameter's track; `NO_TRACK_ETAG` where there is none."""
+        written = self.tracks.get(path)
+        return written.etag if written else NO_TRACK_ETAG
+
+
+def _written(track: Track | UnknownTrack, show: Show) -> TrackText:
+    text = _json(Show(tracks=(track,), time=show.time).to_document()["tracks"][0])
+    return TrackText(track, text, _etag(text))
+
+
+def _json(document: dict[str, Any]) -> str:
+    return json.dumps(document, ensure_ascii=False, allow_nan=False)
+
+
+def _etag(*texts: str) -> str:
+    digest = hashlib.sha256("\n".join(texts).encode()).hexdigest()
+    return f'"{digest[:24]}"'

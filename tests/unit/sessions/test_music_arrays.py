@@ -1,0 +1,59 @@
+"""What keyframes are told of the music."""
+
+from __future__ import annotations
+
+import numpy as np
+from tests.integration.scores import duet, scale
+
+from reina.instruments import INSTRUMENTS, PlayedPart
+from reina.keyframes import EventResponse, MusicForm, NoteFilter
+from reina.music import Score, read_score
+from reina.sessions.music_arrays import music_form, time_map, triggers
+
+
+def played(data: bytes, part: int = 0, transposition: int = 0) -> tuple[Score, PlayedPart]:
+    score = read_score(data)
+    return score, INSTRUMENTS["trumpet"].play(score, part, transposition)
+
+
+def onsets(score: Score, line: PlayedPart, where: NoteFilter) -> list[float]:
+    times, _ = EventResponse("notes", where).events(triggers(score, line), time_map(score), "seconds")
+    return times.tolist()
+
+
+def test_notes_of_every_part_are_events() -> None:
+    score, line = played(duet(), part=1)
+    found = triggers(score, line)
+    assert found.onset_s.tolist() == score.notes.onset_s.tolist()
+    assert found.end_s == score.duration_s
+    assert (
+        onsets(score, line, NoteFilter(part=0)) == onsets(score, line, NoteFilter(part=1)) == [0, 0.5, 1, 1.5]
+    )
+
+
+def test_the_players_notes_are_at_the_pitch_that_sounds() -> None:
+    score, line = played(duet(), part=1, transposition=-2)
+    found = triggers(score, line)
+    assert found.pitch[found.part == 1].tolist() == [63, 65, 67, 68]
+    assert found.pitch[found.part == 0].tolist() == [84, 86, 88, 89]
+
+
+def test_open_notes_are_those_that_are_fingered_open() -> None:
+    # B♭3, written C4, is open; the flute above is not fingered at all.
+    score, line = played(duet(), part=1)
+    fingered = [line.fingering.pressed(note) for note in range(len(line.line))]
+    open_onsets = [line.line.onset_s[note] for note, valves in enumerate(fingered) if valves == []]
+    assert onsets(score, line, NoteFilter(valves=())) == open_onsets
+    for valves in ((1,), (1, 2), (1, 3)):
+        expected = [line.line.onset_s[n] for n, pressed in enumerate(fingered) if pressed == list(valves)]
+        assert onsets(score, line, NoteFilter(valves=valves)) == expected
+
+
+def test_the_form_is_the_line_in_phrases() -> None:
+    score, line = played(scale(16))
+    form = music_form(score, line)
+    assert isinstance(form, MusicForm)
+    assert form.onset_s.tolist() == line.line.onset_s.tolist()
+    assert form.bar_lines_s.tolist() == [0.0, 2.0]
+    np.testing.assert_allclose(form.phrases_s, [[0.0, 4.0]])
+    assert len(music_form(score, INSTRUMENTS["trumpet"].play(score, 0, 48)).phrases_s) == 1

@@ -1,0 +1,250 @@
+"""Rendered songs of sessions: made anew when what is played changes, shared, pruned, and removed."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from tests.integration.scores import duet, scale, show, song
+from tests.unit.sessions.fakes import HandClock
+
+from reina.keyframes import Show
+from reina.sessions.production import Stage
+from reina.sessions.sound import SongRenderer, SongRequest
+from reina.sessions.store import Draft, SessionStore
+from reina.sessions.viewer import Viewer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+    from reina.music import Score
+    from reina.sessions.session import Session
+
+RIGS = Path(__file__).parents[3] / "rigs"
+SONG_BYTES = 1000
+
+
+@pytest.fixture(scope="module")
+def stage() -> Stage:
+    return Stage.load(RIGS)
+
+
+class HandRenderer(SongRenderer):
+    """Renders when it is let, a thousand zeros each time, and remembers what it was asked for."""
+
+    def __init__(self, data_dir: Path) -> None:
+        soundfont = data_dir / "font.sf2"
+        soundfont.write_bytes(b"a soundfont")
+        super().__init__(data_dir, soundfont=soundfont)
+        self.asked: list[tuple[int | None, int]] = []
+        self.let = asyncio.Event()
+        self.let.set()
+
+    async def request(
+        self, score: Score, *, trumpet_part: int | None = None, transposition: int = 0
+    ) -> SongRequest:
+        self.asked.append((trumpet_part, transposition))
+        return await super().request(score, trumpet_part=trumpet_part, transposition=transposition)
+
+    async def _run(self, rendering: object, plan: object, soundfont: Path, path: Path) -> None:
+        await self.let.wait()
+        await asyncio.to_thread(path.write_bytes, bytes(SONG_BYTES))
+
+
+class Page:
+    """A viewer's connection that keeps the texts."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+
+    async def send_bytes(self, data: bytes) -> None: ...
+
+    async def send_text(self, data: str) -> None:
+        self.texts.append(data)
+
+    async def close(self, code: int, reason: str) -> None: ...
+
+
+class Desk:
+    """A store with a renderer that is held in hand."""
+
+    def __init__(self, data_dir: Path, stage: Stage, **options: Any) -> None:
+        self.data_dir = data_dir
+        self.renderer = HandRenderer(data_dir)
+        self.store = SessionStore(data_dir, stage, self.renderer, now=HandClock(), **options)
+
+    async def create(self, score: bytes, *, with_song: bool = False, **options: Any) -> Session:
+        with self.store.staging() as folder:
+            (folder / "score").write_bytes(score)
+            if with_song:
+                (folder / "song").write_bytes(song(0.1))
+            if "show" in options:
+                (folder / "show").write_bytes(options.pop("show"))
+                options["show"] = "show"
+            draft = Draft(folder=folder, score="score", song="song" if with_song else None, **options)
+            session, _ = await self.store.create(draft)
+        return session
+
+    def songs(self) -> list[Path]:
+        return sorted((self.data_dir / "songs").glob("*.wav"))
+
+
+async def until(met: Callable[[], bool]) -> None:
+    for _ in range(5000):
+        if met():
+            return
+        await asyncio.sleep(0.001)
+    raise TimeoutError
+
+
+async def ready(session: Session) -> Path:
+    """The path of a session's song, once it is there."""
+    await until(lambda: session.song.path is not None)
+    assert session.song.path is not None
+    return session.song.path
+
+
+def run(scenario: Callable[[], Coroutine[Any, Any, None]]) -> None:
+    asyncio.run(scenario())
+
+
+def test_the_song_is_of_the_part_and_the_transposition(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(duet(), part=0, transposition=-12)
+        first = await ready(session)
+        assert desk.renderer.asked == [(0, -12)]
+        href = session.song_state().href
+        await desk.store.change(session, transposition=-10)
+        assert session.song_state().href != href
+        second = await ready(session)
+        await desk.store.change(session, part=1)
+        third = await ready(session)
+        assert desk.renderer.asked == [(0, -12), (0, -10), (1, -10)]
+        assert len({first, second, third}) == 3
+        await desk.store.change(session, part=0, transposition=-12)
+        assert (await ready(session), session.song_state().href) == (first, href)
+        await desk.store.change(session, title="Other", public=True)
+        assert len(desk.renderer.asked) == 4, "a name is not heard"
+        await desk.store.aclose()
+
+    run(scenario)
+
+
+def test_viewers_are_told_of_the_song_twice(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(duet())
+        await ready(session)
+        page = Page()
+        viewer = Viewer(page)
+        session.join(viewer)
+        sending = asyncio.create_task(viewer.run())
+        desk.renderer.let.clear()
+        await desk.store.change(session, transposition=2)
+        await until(lambda: any('"score_changed"' in text for text in page.texts))
+        told = next(text for text in page.texts if '"score_changed"' in text)
+        assert '"status":"rendering"' in told
+        assert '"transposition":2' in told
+        assert not any('"song_ready"' in text for text in page.texts)
+        desk.renderer.let.set()
+        await until(lambda: any('"song_ready"' in text for text in page.texts))
+        made = next(text for text in page.texts if '"song_ready"' in text)
+        assert '"status":"ready"' in made
+        assert session.song_state().href in made
+        session.leave(viewer)
+        sending.cancel()
+        await desk.store.aclose()
+
+    run(scenario)
+
+
+def test_a_rendering_that_is_overtaken_is_never_announced(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        desk.renderer.let.clear()
+        session = await desk.create(duet())
+        await until(lambda: len(desk.renderer.asked) == 1)
+        for transposition in (1, 2, 3):
+            await desk.store.change(session, transposition=transposition)
+            await until(lambda count=transposition: len(desk.renderer.asked) == count + 1)
+        desk.renderer.let.set()
+        await ready(session)
+        await until(lambda: len(desk.songs()) == 1)
+        assert session.song_state().href.endswith("transposition=3")
+        await desk.store.aclose()
+        assert len(desk.songs()) == 1, "what nobody waits for is not made"
+
+    run(scenario)
+
+
+def test_an_uploaded_song_stays_as_it_is(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(duet(), with_song=True)
+        before = session.song_state()
+        await desk.store.change(session, part=0, transposition=5)
+        assert session.song_state() == before
+        assert session.song.path is not None
+        assert session.song.path.read_bytes() == song(0.1)
+        assert desk.renderer.asked == []
+
+    run(scenario)
+
+
+def test_songs_beyond_the_bound_go_unless_a_session_needs_them(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, song_cache_bytes=2 * SONG_BYTES)
+        session = await desk.create(duet())
+        kept = await ready(session)
+        other = await desk.create(scale(4))
+        for transposition in range(1, 6):
+            await desk.store.change(other, transposition=transposition)
+            await ready(other)
+        await until(lambda: len(desk.songs()) == 2)
+        assert kept in desk.songs()
+        assert other.song.path in desk.songs()
+        await desk.store.aclose()
+        again = Desk(tmp_path, stage, song_cache_bytes=0)
+        await again.store.prune_songs()
+        assert again.songs() == [], "no session is loaded: none needs a song"
+
+    run(scenario)
+
+
+def test_ending_a_session_removes_its_song_unless_another_has_the_same(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        one, two = await desk.create(duet()), await desk.create(duet())
+        assert await ready(one) == await ready(two)
+        await desk.store.delete(one)
+        assert len(desk.songs()) == 1
+        await desk.store.delete(two)
+        await desk.store.aclose()
+
+    run(scenario)
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["font.sf2"]
+
+
+def test_a_session_without_a_show_gets_one_written_for_its_music(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        written = await desk.create(scale(64), with_song=True)
+        assert {"camera/position", "blocks/color"} <= {t.parameter for t in written.production.show.tracks}
+        assert (await desk.create(scale(64), with_song=True)).production.show == written.production.show
+        assert (
+            await desk.create(scale(32, beats=2.0), with_song=True)
+        ).production.show != written.production.show
+        own = await desk.create(scale(64), with_song=True, show=show(2.0))
+        assert [track.parameter for track in own.production.show.tracks] == ["lights/key/intensity"]
+        empty = await desk.create(scale(4), with_song=True, show=b'{"version": 1, "tracks": []}')
+        assert empty.production.show == Show()
+        await desk.store.aclose()
+        found = await Desk(tmp_path, stage).store.get(written.id)
+        assert found is not None
+        assert found.production.show == written.production.show
+        assert found.kept_show.text.etag == written.kept_show.text.etag
+
+    run(scenario)
