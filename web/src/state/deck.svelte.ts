@@ -4,7 +4,7 @@ import type { Reina } from "./reina.svelte";
 import { neighbouringBarLine } from "./score-time";
 import { keepsKey, shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
-import { remember, remembered } from "./storage";
+import { remember, remembered, type NoteNames } from "./storage";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -23,6 +23,7 @@ export class Deck {
   readonly reina: Reina;
   pieceOpen = $state(remembered().pieceOpen);
   showOpen = $state(remembered().showOpen);
+  noteNames = $state(remembered().noteNames);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** The window has room for one panel at a time. */
@@ -51,6 +52,7 @@ export class Deck {
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
     show: () => this.toggleShow(),
+    names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     keyframe: () => this.hands.addKeyframe?.(),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
@@ -95,6 +97,11 @@ export class Deck {
     if (open && this.narrow) this.togglePiece(false);
     this.showOpen = open;
     remember({ showOpen: open });
+  }
+
+  nameNotes(noteNames: NoteNames): void {
+    this.noteNames = noteNames;
+    remember({ noteNames });
   }
 
   #escape(): boolean {

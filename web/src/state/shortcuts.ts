@@ -19,6 +19,7 @@ export type Action =
   | "fullscreen"
   | "piece"
   | "show"
+  | "names"
   | "keyframe"
   | "open"
   | "help";
@@ -57,6 +58,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },
+  { action: "names", keys: ["n"], shown: "N", says: "Name notes as written, or as they sound" },
   { action: "keyframe", keys: ["Enter"], shown: "Enter", says: "Keyframe here, on the chosen track", controls: true },
   { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },
   { action: "help", keys: ["?"], shown: "?", says: "This list" },

@@ -1,3 +1,5 @@
+export type NoteNames = "written" | "sounding";
+
 /** What this browser remembers: the sessions that it may change, and how the person likes the page. */
 export interface Remembered {
   /** Session id to the token that changes it. */
@@ -8,6 +10,8 @@ export interface Remembered {
   readonly muted: boolean;
   readonly pieceOpen: boolean;
   readonly showOpen: boolean;
+  /** Notes are called as written for the trumpet, or as they sound. */
+  readonly noteNames: NoteNames;
   /** Somebody has pressed Play here before: the welcome has done its work. */
   readonly hasPlayed: boolean;
 }
@@ -22,6 +26,7 @@ const NOTHING: Remembered = {
   muted: false,
   pieceOpen: false,
   showOpen: false,
+  noteNames: "written",
   hasPlayed: false,
 };
 
