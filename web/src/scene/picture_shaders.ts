@@ -91,7 +91,7 @@ vec3 focused() {
     // What is behind does not spill over what is sharp before it.
     if (there > away) disc = min(disc, 2.0 * own);
     // Sparks would leave dots.
-    vec3 light = min(texture2D(picture, uv).rgb, vec3(2.5));
+    vec3 light = min(texture2D(picture, uv).rgb, vec3(1.3));
     sum += mix(sum / count, light, smoothstep(reach - edge, reach + edge, disc));
     count += 1.0;
   }

@@ -20,6 +20,9 @@ const LONGEST = 9;
 
 /** The hull stands off the light's own edge, which is soft. */
 const HULL = 1.25;
+
+/** And it goes on under the floor, so that its open end is never seen. */
+const BELOW = 1.7;
 const AROUND = 24;
 
 /** A cone's hull: `position` holds where around it (cosine, sine) and how far along its axis (0…1). */
@@ -33,7 +36,7 @@ function createHull(): BufferGeometry {
   for (let i = 0; i < AROUND; i++) {
     const a = 2 * i;
     const b = (a + 2) % (2 * AROUND);
-    index.push(a, a + 1, b, b, a + 1, b + 1);
+    index.push(a, b, a + 1, b, b + 1, a + 1);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(position, 3));
@@ -50,7 +53,7 @@ varying vec3 vPlace;
 void main() {
   vec3 side = normalize(cross(abs(axis.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), axis));
   vec3 other = cross(axis, side);
-  float along = position.z * reach;
+  float along = position.z * reach * ${BELOW.toFixed(2)};
   float radius = (0.05 + along * spread) * ${HULL.toFixed(2)};
   vPlace = apex + axis * along + (side * position.x + other * position.y) * radius;
   gl_Position = projectionMatrix * viewMatrix * vec4(vPlace, 1.0);
@@ -84,8 +87,8 @@ void main() {
   // Slow smoke.
   vec3 drift = place * vec3(2.1, 2.7, 2.3) + vec3(0.11, -0.17, 0.07) * songTime;
   float smoke = 0.8 + 0.2 * sin(drift.x + 1.7 * sin(drift.y)) * sin(drift.y + 1.3 * sin(drift.z + drift.x));
-  float fade = smoothstep(reach, 0.75 * reach, along) * smoothstep(0.2, 1.2, distance(vPlace, cameraPosition));
-  float light = beam * smoke * fade * 0.022 / ((0.16 + radius) * sqrt(crossing));
+  float fade = smoothstep(reach, 0.75 * reach, along) * smoothstep(0.6, 4.6, distance(place, cameraPosition));
+  float light = beam * smoke * fade * 0.02 / ((0.16 + radius) * sqrt(crossing));
   float grain = (rand(gl_FragCoord.xy) - 0.5) / 400.0;
   gl_FragColor = vec4(max(vec3(0.0), color * light + grain * step(0.0005, light)), 1.0);
 }`;

@@ -1,6 +1,6 @@
 /** The stage: loads the rigs, takes frames, draws pictures. */
 
-import { Color, FogExp2, type Object3D, Scene, Vector3, type WebGLRenderer } from "three";
+import { Color, FogExp2, Mesh, type Object3D, Scene, Vector3, type WebGLRenderer } from "three";
 
 import type { Hello } from "../generated/protocol";
 import { RigModel, loadRig } from "../rig";
@@ -18,7 +18,7 @@ import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show_binding";
 import { dressSurfaces } from "./surfaces";
-import { OUTLINE_LAYER } from "./toon";
+import { OUTLINE, OUTLINE_LAYER } from "./toon";
 import { TIERS, type Tier, type TierSettings } from "./tiers";
 
 export interface StageOptions {
@@ -58,6 +58,7 @@ export class Stage {
   #songTime = 0;
   /** Something else than the frame changed the picture. */
   #changed = true;
+  #onlyModels = false;
   #height = 1;
   #loads = 0;
   #redraw = 0;
@@ -150,10 +151,17 @@ export class Stage {
 
   /** Ready the shaders, so that the first picture does not wait for them. */
   async #compile(): Promise<void> {
+    if (!this.#renderer.extensions.has("KHR_parallel_shader_compile")) return;
     this.#renderer.setRenderTarget(this.#picture.target);
     const ready = this.#renderer.compileAsync(this.#scene, this.#camera.camera);
     this.#renderer.setRenderTarget(null);
     await ready;
+    // And those of a stage with its spots on, for when a show lights them.
+    this.#lights.lightSpots(true);
+    this.#renderer.setRenderTarget(this.#picture.target);
+    void this.#renderer.compileAsync(this.#scene, this.#camera.camera);
+    this.#renderer.setRenderTarget(null);
+    this.#lights.lightSpots(false);
   }
 
   /** Lay out the played part's notes. */
@@ -188,6 +196,7 @@ export class Stage {
       this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);
     }
     const { camera } = this.#camera;
+    if (this.#onlyModels) this.#blocks.object.visible = false;
     this.#look.follow(camera);
     this.#blocks.uniforms.pixelAngle.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / this.#height;
     const { shadowMap, info } = this.#renderer;
@@ -266,6 +275,18 @@ export class Stage {
   /** Give the camera back to the show. */
   giveBackCamera(): void {
     this.#camera.giveBack();
+  }
+
+  /** Show only the models' meshes whose names fit, without room and notes; null shows everything. For a look at one part. */
+  isolate(part: RegExp | null): void {
+    this.#room.object.visible = part === null;
+    this.#onlyModels = part !== null;
+    for (const { object } of this.#models) {
+      object.traverse((node) => {
+        if (node instanceof Mesh && node.name !== OUTLINE) node.visible = part?.test(node.name) ?? true;
+      });
+    }
+    this.#drawSoon();
   }
 
   /** The joints' local rotations as they stand in the scene, x y z w, by joint name. */

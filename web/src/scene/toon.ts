@@ -14,16 +14,22 @@ import {
 } from "three";
 
 /** Tones from shade to light, as shares of the light; the shade stays bright. */
-const TONES = [0.36, 0.36, 0.4, 0.86, 0.98, 1];
+const TONES = [0.2, 0.2, 0.24, 0.86, 0.98, 1];
 
 /** Light of its own that every drawn surface has, as a share of its colour. */
-const SHADE = 0.16;
+const SHADE = 0.24;
+
+/** The most light that it shows, as a share of its colour: no lamp washes it out. */
+const BRIGHTEST = 1.2;
 
 /** The mirror of the floor leaves this layer out. */
 export const OUTLINE_LAYER = 1;
 
+/** Name of the hulls that draw outlines. */
+export const OUTLINE = "outline";
+
 /** Width of an outline as a share of the picture's height, and its most on the player, metres. */
-const OUTLINE = { share: 0.0021, most: 0.0042 } as const;
+const WIDTH = { share: 0.0021, most: 0.0042 } as const;
 
 /** What is too fine for a line about it. */
 const NO_OUTLINE = /^(eyes|lashes|felt|pearl|button)/i;
@@ -64,6 +70,13 @@ export function drawSurface(material: MeshStandardMaterial, tones: DataTexture):
   drawn.emissive.copy(color).multiplyScalar(SHADE);
   drawn.emissiveMap = map;
   drawn.name = name;
+  drawn.onBeforeCompile = (program) => {
+    program.fragmentShader = program.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      `outgoingLight = min(outgoingLight, diffuseColor.rgb * ${BRIGHTEST.toFixed(2)} + 0.01);\n#include <opaque_fragment>`,
+    );
+  };
+  drawn.customProgramCacheKey = () => "drawn cloth";
   return drawn;
 }
 
@@ -91,7 +104,7 @@ function createLine(material: MeshStandardMaterial, uniforms: OutlineUniforms): 
         `#include <project_vertex>
         // Back faces have their normals turned over.
         vec2 outward = normalize(vec2(1e-6) - normalize(transformedNormal).xy);
-        float across = min(${OUTLINE.share.toFixed(5)}, ${OUTLINE.most.toFixed(5)} / max(-mvPosition.z * reach, 1e-3));
+        float across = min(${WIDTH.share.toFixed(5)}, ${WIDTH.most.toFixed(5)} / max(-mvPosition.z * reach, 1e-3));
         gl_Position.xy += outward * vec2(1.0 / aspect, 1.0) * (2.0 * across * gl_Position.w);`,
       );
   };
@@ -115,6 +128,6 @@ export function createOutline(mesh: Mesh, material: MeshStandardMaterial, unifor
   if (mesh.morphTargetInfluences !== undefined) hull.morphTargetInfluences = mesh.morphTargetInfluences;
   hull.frustumCulled = mesh.frustumCulled;
   hull.layers.set(OUTLINE_LAYER);
-  hull.name = "outline";
+  hull.name = OUTLINE;
   return hull;
 }

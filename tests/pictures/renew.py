@@ -1,0 +1,128 @@
+"""Draw the pictures of docs/images anew: `.venv/bin/python -m tests.pictures.renew [page] [sheet]`.
+
+Needs what `make test` sets up: the development packages, the built page and a Chromium.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import httpx
+from PIL import Image, ImageDraw, ImageFont
+from playwright.sync_api import sync_playwright
+from tests.e2e.find_browser import browser_path
+from tests.integration.server import serve, upload
+from tests.pictures.gallery import PATIENCE_MS, GalleryPage, vite
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+    from tests.integration.server import Running
+
+ROOT = Path(__file__).parents[2]
+IMAGES = ROOT / "docs/images"
+SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+PAGE_SIZE = (1280, 720)
+PAGE_MOMENT_S = 1.4
+"""In the first shot of the bundled show, with the player and the notes in it."""
+
+DRAWN = (640, 360)
+SHOWN = (400, 225)
+CAMERAS = ("whole_figure", "three_quarter", "valves", "face", "player", "hall")
+PIECES = {
+    "prince-of-denmarks-march.mid": (
+        {"time": 4.2, "light": "as the show has it", "style": "physical", "finish": "lacquer"},
+        {"time": 17.9, "light": "concert", "style": "physical", "finish": "lacquer"},
+        {"time": 26.3, "light": "as the show has it", "style": "toon", "finish": "lacquer"},
+        {"time": 58.0, "light": "last sun", "style": "physical", "finish": "lacquer"},
+    ),
+    "carnival-of-venice.mid": (
+        {"time": 3.1, "light": "as the show has it", "style": "physical", "finish": "silver"},
+        {"time": 11.6, "light": "one spot", "style": "physical", "finish": "lacquer"},
+        {"time": 21.2, "light": "concert", "style": "toon", "finish": "lacquer"},
+        {"time": 27.4, "light": "night", "style": "physical", "finish": "silver"},
+    ),
+}
+INK, PAPER = (20, 23, 31), (244, 239, 230)
+GAP, HEAD, SIDE = 6, 30, 150
+
+
+def draw_page(browser: Browser, server: Running) -> None:
+    """The readme's picture: the page as it plays, with its panels."""
+    page = browser.new_page(viewport={"width": PAGE_SIZE[0], "height": PAGE_SIZE[1]})
+    page.set_default_timeout(PATIENCE_MS)
+    page.goto(f"{server.address}/?tier=full")
+    page.wait_for_function("window.reina?.drawn")
+    page.keyboard.press("Space")
+    page.wait_for_function("window.reina.playing")
+    png = b""
+    for _ in range(8):
+        page.keyboard.press("Home")
+        page.wait_for_function("window.reina.songTime < 1")
+        page.wait_for_function("(until) => window.reina.drawnIndex >= until", arg=int(PAGE_MOMENT_S * 60))
+        page.mouse.move(PAGE_SIZE[0] / 2, 60)
+        page.mouse.move(PAGE_SIZE[0] / 2, 40)
+        png = page.screenshot(timeout=PATIENCE_MS)
+        if page.evaluate("window.reina.songTime") < 4 * PAGE_MOMENT_S + 4:
+            break
+    Image.open(io.BytesIO(png)).convert("RGB").save(IMAGES / "page.png", optimize=True)
+    page.close()
+
+
+def draw_sheet(browser: Browser, server: Running) -> None:
+    """Six cameras, four moments of two pieces: what a critic looks at."""
+    rows = sum(len(moments) for moments in PIECES.values())
+    width = SIDE + len(CAMERAS) * (SHOWN[0] + GAP)
+    sheet = Image.new("RGB", (width, HEAD + rows * (SHOWN[1] + GAP)), INK)
+    write = ImageDraw.Draw(sheet)
+    font = ImageFont.load_default(size=15)
+    for column, camera in enumerate(CAMERAS):
+        write.text((SIDE + column * (SHOWN[0] + GAP), 7), camera.replace("_", " "), fill=PAPER, font=font)
+    y = HEAD
+    with httpx.Client(base_url=server.address, timeout=60.0) as client, vite(server.address) as address:
+        for name, moments in PIECES.items():
+            session = upload(client, (ROOT / "examples/scores" / name).read_bytes(), name)
+            gallery = GalleryPage(browser, address, session.id, size=DRAWN, tier="full")
+            for moment in moments:
+                label = [Path(name).stem.replace("-", "\n", 1), f"{moment['time']} s"]
+                label += [str(moment[key]) for key in ("light", "style", "finish")]
+                write.multiline_text((8, y + 8), "\n".join(label), fill=PAPER, font=font, spacing=6)
+                for column, camera in enumerate(CAMERAS):
+                    png = gallery.picture({**moment, "camera": camera})
+                    picture = (
+                        Image.open(io.BytesIO(png)).convert("RGB").resize(SHOWN, Image.Resampling.LANCZOS)
+                    )
+                    sheet.paste(picture, (SIDE + column * (SHOWN[0] + GAP), y))
+                y += SHOWN[1] + GAP
+            gallery.page.close()
+    sheet.save(IMAGES / "contact-sheet.webp", quality=86, method=6)
+
+
+PICTURES = {"page": draw_page, "sheet": draw_sheet}
+
+
+def main() -> None:
+    """Draw the pictures that are named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pictures", nargs="*", choices=[*PICTURES, []], help="which to draw; all by default")
+    wanted: list[str] = parser.parse_args().pictures or list(PICTURES)
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    with (
+        tempfile.TemporaryDirectory() as data,
+        serve(Path(data)) as server,
+        sync_playwright() as playwright,
+    ):
+        browser = playwright.chromium.launch(executable_path=browser_path(), args=list(SOFTWARE_GL))
+        for name in wanted:
+            begun = time.monotonic()
+            PICTURES[name](browser, server)
+            print(f"{name}: {time.monotonic() - begun:.0f} s")
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
