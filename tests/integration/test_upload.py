@@ -93,18 +93,31 @@ def test_music_lasts_as_long_as_the_longer_of_score_and_song(client: httpx.Clien
         session.change("DELETE").raise_for_status()
 
 
-def test_a_score_without_a_song_is_rendered(client: httpx.Client) -> None:
-    session = upload(client, scale(4))
-    assert session.body["song"]["source"] == "rendered"
+def rendered(client: httpx.Client, href: str) -> httpx.Response:
+    """A song, once it is made."""
     deadline = time.monotonic() + 60
-    while (answer := client.get(f"{session.path}/song")).status_code == 202:
+    while (answer := client.get(href)).status_code == 202:
         assert answer.json()["status"] == "rendering"
         assert 0.0 <= answer.json()["progress"] < 1.0
         assert time.monotonic() < deadline
-        time.sleep(0.2)
+        time.sleep(0.05)
+    return answer
+
+
+def test_a_score_without_a_song_is_rendered_as_it_is_played(client: httpx.Client) -> None:
+    session = upload(client, scale(4))
+    assert session.body["song"]["source"] == "rendered"
+    href = session.body["song"]["href"]
+    answer = rendered(client, href)
     assert answer.status_code == 200
     assert answer.headers["content-type"] == "audio/wav"
     assert answer.content[:4] == b"RIFF"
+    moved = session.change("PATCH", json={"transposition": 3}).json()["song"]
+    assert moved["href"] != href
+    assert rendered(client, moved["href"]).content != answer.content
+    back = session.change("PATCH", json={"transposition": 0}).json()["song"]
+    assert back["href"] == href
+    assert rendered(client, href).content == answer.content
     session.change("DELETE").raise_for_status()
 
 

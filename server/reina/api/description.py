@@ -18,9 +18,10 @@ def describe(app: FastAPI) -> None:
         document = generate()
         for operations in document["paths"].values():
             for operation in operations.values():
-                content: dict[str, Any] = operation["responses"].get("4XX", {}).get("content", {})
-                if "application/json" in content:
-                    content[MEDIA_TYPE] = content.pop("application/json")
+                problem: dict[str, Any] = operation["responses"].get("4XX", {})
+                # FastAPI gives it the media type of the route's good answers.
+                if "content" in problem:
+                    problem["content"] = {MEDIA_TYPE: schema for schema in problem["content"].values()}
         return document
 
     app.openapi = openapi

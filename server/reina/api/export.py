@@ -37,8 +37,8 @@ async def export_bvh(
     first, end = frame_span(session, start_s, end_s, fps)
     production = await asyncio.to_thread(session.production.at_rate, fps)
     export = BvhExport(production, skeleton, first, end)
-    title = re.sub(r"[^\w .-]+", " ", session.record.title).strip() or "session"
-    filename = quote(f"{title} - {skeleton}.bvh".replace("/", " "), safe="")
+    words = re.sub(r"[^\w.-]+", " ", f"{session.record.title} - {skeleton}").split()
+    filename = quote(f"{' '.join(words)}.bvh", safe="")
     return StreamingResponse(
         _lines(export, request.app.state.computing),
         media_type="text/plain; charset=utf-8",

@@ -61,7 +61,7 @@ _COMMANDS: dict[str, Any] = {
     "seek": {"value": {"action": "seek", "song_time_s": 12.5}},
     "rate": {"value": {"action": "rate", "rate": 0.5}},
     "loop": {"value": {"action": "loop", "start_s": 4.0, "end_s": 8.0}},
-    "end the loop": {"value": {"action": "loop", "start_s": None, "end_s": None}},
+    "end the loop": {"value": {"action": "loop"}},
 }
 
 

@@ -59,11 +59,11 @@ class SetRate(WireModel):
 
 
 class SetLoop(WireModel):
-    """Loop over a span; both null end the loop."""
+    """Loop over a span; both null, or left out, end the loop."""
 
     action: Literal["loop"]
-    start_s: Annotated[float, Field(ge=0)] | None
-    end_s: Annotated[float, Field(gt=0)] | None
+    start_s: Annotated[float, Field(ge=0)] | None = None
+    end_s: Annotated[float, Field(gt=0)] | None = None
 
 
 TransportCommand = Annotated[Play | Pause | Seek | SetRate | SetLoop, Field(discriminator="action")]

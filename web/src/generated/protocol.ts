@@ -385,11 +385,11 @@ export interface SetRate {
   rate: number
 }
 
-/** Loop over a span; both null end the loop. */
+/** Loop over a span; both null, or left out, end the loop. */
 export interface SetLoop {
   action: "loop"
-  start_s: number | null
-  end_s: number | null
+  start_s?: number | null
+  end_s?: number | null
 }
 
 /** What PATCH may change of a session; a field left out stays. */

@@ -1,0 +1,119 @@
+"""The description of the HTTP interface, and its examples against the server itself."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from tests.integration.scores import scale, song
+from tests.integration.server import upload
+
+from reina.api.app import create_app
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import httpx
+    from tests.integration.server import Owned
+
+DOCUMENT: dict[str, Any] = create_app().openapi()
+METHODS = ("get", "put", "post", "patch", "delete")
+SESSION = "/api/v1/sessions/{session_id}"
+
+
+def operations() -> list[tuple[str, str, dict[str, Any]]]:
+    return [
+        (path, method, operation)
+        for path, item in DOCUMENT["paths"].items()
+        for method, operation in item.items()
+        if method in METHODS
+    ]
+
+
+def examples_of(content: dict[str, Any]) -> dict[str, Any]:
+    """A request body's examples by name, wherever the description may put them."""
+    named = {name: entry["value"] for name, entry in content.get("examples", {}).items()}
+    if "example" in content:
+        named["example"] = content["example"]
+    listed: list[Any] = content.get("schema", {}).get("examples", [])
+    return named | {f"example {number}": value for number, value in enumerate(listed, start=1)}
+
+
+BODIES = [
+    (path, method, name, value)
+    for path, method, operation in operations()
+    for name, value in examples_of(
+        operation.get("requestBody", {}).get("content", {}).get("application/json", {})
+    ).items()
+    if path.startswith(SESSION)
+]
+
+
+@pytest.fixture(scope="module")
+def shown(client: httpx.Client) -> Iterator[Owned]:
+    session = upload(client, scale(), song=("song.wav", song()))
+    yield session
+    session.change("DELETE")
+
+
+@pytest.mark.parametrize(
+    ("path", "method", "name", "value"), BODIES, ids=[f"{m} {p} {n}" for p, m, n, _ in BODIES]
+)
+def test_an_example_can_be_sent_as_it_stands(
+    shown: Owned, path: str, method: str, name: str, value: Any
+) -> None:
+    below = path.removeprefix(SESSION)
+    operation = DOCUMENT["paths"][path][method]
+    for parameter in operation["parameters"]:
+        if parameter["in"] == "path" and parameter["name"] != "session_id":
+            example = parameter.get("example", parameter["schema"].get("examples", [None])[0])
+            below = below.replace(f"{{{parameter['name']}}}", str(example))
+    if method == "patch" and "{key}" in path:
+        # What is changed has to be there: the example of adding it is sent first.
+        added = next(value for p, m, _, value in BODIES if m == "post" and f"{p}/{{key}}" == path)
+        shown.change("DELETE", below)
+        shown.change("POST", below.rsplit("/", 1)[0], json=added).raise_for_status()
+    elif method == "post" and below.endswith("/keyframes"):
+        shown.change("DELETE", below.removesuffix("/keyframes"))
+    elif below == "" and "part" in value:
+        value = {**value, "part": 0}  # this score has one
+    answer = shown.change(method.upper(), below, json=value)
+    expected = next(int(status) for status in operation["responses"] if status.startswith("2"))
+    assert answer.status_code == expected, answer.text
+
+
+def test_every_body_in_json_has_an_example() -> None:
+    without = [
+        f"{method} {path}"
+        for path, method, operation in operations()
+        if "application/json" in (content := operation.get("requestBody", {}).get("content", {}))
+        and path.startswith(SESSION)
+        and not examples_of(content["application/json"])
+    ]
+    assert without == []
+    assert {method for _, method, _, _ in BODIES} == {"post", "put", "patch"}
+
+
+def test_every_operation_says_what_it_does_and_how_it_fails() -> None:
+    for path, method, operation in operations():
+        assert operation.get("description"), f"{method} {path}"
+        assert "application/problem+json" in operation["responses"]["4XX"]["content"], f"{method} {path}"
+
+
+def test_what_changes_a_session_says_that_it_needs_the_token() -> None:
+    for path, method, operation in operations():
+        needs = "security" in operation
+        assert needs == (path.startswith(SESSION) and method != "get"), f"{method} {path}"
+
+
+def test_what_changes_a_show_takes_a_condition() -> None:
+    conditional = {
+        (path, method)
+        for path, method, operation in operations()
+        if any(parameter["name"] == "if-match" for parameter in operation.get("parameters", []))
+    }
+    assert conditional == {
+        (path, method)
+        for path, method, _ in operations()
+        if path.startswith(f"{SESSION}/show") and method != "get"
+    }
