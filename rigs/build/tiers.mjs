@@ -22,9 +22,11 @@ function triangles(document) {
   return parts.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
 }
 
-// Hair is built at each tier's own fineness: thin overlapping locks do not survive being reduced.
+// These are built at each tier's own fineness: thin overlapping pieces do not survive being reduced.
+const KEPT = new Set(["Hair", "Lapels", "Collar", "Ribbon", "Shirt"]);
+
 function reduce(document, wantedTriangles) {
-  const meshes = document.getRoot().listMeshes().filter((mesh) => mesh.getName() !== "Hair");
+  const meshes = document.getRoot().listMeshes().filter((mesh) => !KEPT.has(mesh.getName()));
   const parts = meshes.flatMap((mesh) => mesh.listPrimitives());
   const size = (primitives) => primitives.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
   const drawnMoreThanOnce = triangles(document) - size(document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives()));

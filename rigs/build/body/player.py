@@ -22,7 +22,7 @@ from common.rig_file import write_json
 from dress.hair import bob
 from dress.tailor import Tailor
 from dress.trimmings import trimming_parts
-from dress.uniform import blazer, uniform_parts
+from dress.uniform import blazer, coat, uniform_parts
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -44,7 +44,7 @@ MORPH_PARAMETERS = {
 
 @dataclass(frozen=True)
 class Tier:
-    """How finely a tier is built before it is reduced: cloth subdivisions, hair, skirt grid and eyes."""
+    """How finely a tier is built before it is reduced: cloth, hair, skirt grid, eyes, collars."""
 
     subdivisions: int
     lock_steps: int
@@ -52,12 +52,13 @@ class Tier:
     lock_share: float
     skirt_grid: tuple[int, int]
     eye_grid: tuple[int, int]
+    collar_detail: float
 
 
 TIERS = {
-    "full": Tier(1, 16, 10, 1.0, (26, 192), (24, 40)),
-    "medium": Tier(1, 12, 7, 0.9, (20, 144), (16, 28)),
-    "low": Tier(0, 7, 5, 0.5, (8, 96), (8, 14)),
+    "full": Tier(1, 16, 10, 1.0, (26, 192), (24, 40), 1.0),
+    "medium": Tier(1, 12, 7, 0.9, (20, 144), (16, 28), 0.7),
+    "low": Tier(0, 7, 5, 0.5, (8, 96), (8, 14), 0.36),
 }
 
 
@@ -72,14 +73,15 @@ def build_player(data: Path, raw: Path, rig_folder: Path) -> None:
     tailor = Tailor.measure(figure, skeleton, weights)
     hair = Surface("hair", 0.42, image=jpeg(hair_picture(), 92), both_sides=True)
     for name, tier in TIERS.items():
-        outer = blazer(tailor, tier.subdivisions)
+        cloth = coat(tailor, tier.subdivisions)
+        outer = blazer(tailor, cloth)
         locks, hair_normals = bob(tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
         parts = [
             skin,
             lashes(figure, weights),
             eyes(figure, skeleton, *tier.eye_grid),
             *uniform_parts(tailor, tier.subdivisions, tier.skirt_grid, outer),
-            *trimming_parts(tailor, outer),
+            *trimming_parts(tailor, cloth, outer, tier.collar_detail),
             Part("Hair", locks, hair, hair_normals),
         ]
         write_skinned(raw / f"{NAME}.{name}.glb", NAME, skeleton, parts)

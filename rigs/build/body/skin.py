@@ -132,10 +132,12 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
         elbow, wrist = skeleton.positions[f"{side}LowerArm"], skeleton.positions[f"{side}Hand"]
         along = (v - elbow) @ (wrist - elbow) / ((wrist - elbow) @ (wrist - elbow))
         arm = weights[:, [column[f"{side}LowerArm"], column[f"{side}LowerArmTwist1"]]].sum(axis=1)
-        keep |= (arm > 0.3) & (along > 0.80)
-    neck_y = skeleton.positions["neck"][1]
-    keep |= weights[:, [column["head"], column["neck"]]].sum(axis=1) > 0.12
-    keep |= (np.abs(v[:, 0]) < 0.11) & (v[:, 1] > neck_y - 0.085) & (v[:, 1] < neck_y + 0.3)
+        keep |= (arm > 0.3) & (along > 0.88)
+    rise = v[:, 1] - skeleton.positions["neck"][1]
+    from_axis = np.hypot(v[:, 0], v[:, 2] - 0.0205 - 0.37 * np.clip(rise, -0.03, 0.06))
+    above_collar = (rise > 0.05) | ((rise > -0.055) & (from_axis < 0.068))
+    head, neck = weights[:, column["head"]], weights[:, column["neck"]]
+    keep |= (head > 0.4) | ((head + neck > 0.12) & above_collar)
     faces = [face for face in figure.mesh.groups["body"] if keep[face[0]].all()]
     rows, uv_rows, triangles = _split_at_seams(faces)
     body_normals = normals(figure.vertices, figure.mesh.triangles(["body"]))

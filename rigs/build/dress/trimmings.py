@@ -1,31 +1,24 @@
-"""What is sewn on the uniform: lapels, buttons, collar and ribbon bow."""
+"""What is sewn on the uniform: buttons and ribbon bow, with the collars of their own module."""
 
 from __future__ import annotations
 
-from typing import Any, cast
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from common.meshes import Mesh, joined
 from common.parts import Part, Surface
 from common.shapes import grid_faces, tube
+from dress.collars import blazer_collar, lapels, shirt_collar
 from dress.tailor import Tailor, borrowed_weights
-from dress.uniform import SHIRT, opening, top_button_y
+from dress.uniform import SHIRT, top_button_y
 
 Array = NDArray[np.float64]
 
 LAPEL = Surface("lapel", 0.75, colour=(0.13, 0.155, 0.27), both_sides=True)
 BRASS = Surface("button", 0.3, 1.0, colour=(0.85, 0.68, 0.32))
+BOW_Z_M = 0.103  # depth of the bow's knot
 RIBBON = Surface("ribbon", 0.6, colour=(0.62, 0.10, 0.14), both_sides=True)
-
-
-def _eased(values: Array, width: float) -> Array:
-    """A row of values (N,), smoothed by a bell of this many steps."""
-    eased: Array = cast("Any", ndimage).gaussian_filter1d(values, width)
-    return eased
 
 
 def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
@@ -35,26 +28,6 @@ def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
     near = 1 / (distance + 0.004)
     depth: Array = (cloth[index, 2] * near).sum(axis=1) / near.sum(axis=1)
     return depth
-
-
-def lapels(tailor: Tailor, outer: Mesh, steps: int = 28) -> Mesh:
-    """Two strips turned over along the opening's edge, notched near the collar."""
-    low, high = top_button_y(tailor), tailor.neck_y + 0.007
-    t = np.linspace(0, 1, steps)
-    y = low + (high - low) * t
-    edge = opening(tailor, y)
-    notch = np.where(t < 0.80, 1, 1 - (t - 0.80) * 2.2)
-    width = 0.006 + 0.040 * np.sin(np.minimum(1, t * 1.25) * np.pi / 2) * notch
-    strips: list[Mesh] = []
-    for sign in (1, -1):
-        rows: list[Array] = []
-        for share, lift in ((-0.06, 0.0005), (0.08, 0.0062), (0.5, 0.0072), (0.92, 0.0066), (1.0, 0.0040)):
-            x, yy = edge + 0.001 + width * share, y + width * 0.15 * max(share, 0)
-            z = _eased(_front_z(tailor, outer, sign * np.maximum(x, edge + 0.008), yy), 3.5) + lift
-            rows.append(np.c_[sign * x, yy, z])
-        points = np.stack(rows, axis=1).reshape(-1, 3)
-        strips.append(Mesh(points, borrowed_weights(points, outer), grid_faces(steps, 5, flip=sign < 0)))
-    return joined(strips)
 
 
 def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
@@ -77,72 +50,9 @@ def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
     return joined(discs)
 
 
-def collar(tailor: Tailor, steps: int = 64) -> Mesh:
-    """The shirt's collar: a band round the neck, folded down, open in front."""
-    centre_z = _neck_centre_z(tailor)
-    angle = np.linspace(0.16, 2 * np.pi - 0.16, steps + 1)
-    front = (1 + np.cos(angle)) / 2
-    base = tailor.neck_y + 0.012 - 0.030 * front
-    inner = _eased(_neck_radius(tailor, centre_z, angle, base + 0.010), 5) + 0.010
-    upper = _eased(_neck_radius(tailor, centre_z, angle, base + 0.034), 5) + 0.007
-    top = base + 0.034
-    profile = (
-        (inner, base),
-        (upper, top),
-        (upper + 0.0035, top + 0.0022),
-        (upper + 0.0075, top + 0.0005),
-        (inner + 0.014 + 0.010 * front, base - 0.006 - 0.018 * front**6),
-    )
-    rows = [np.c_[np.sin(angle) * r, y, centre_z + np.cos(angle) * r] for r, y in profile]
-    points = np.stack(rows, axis=1).reshape(-1, 3)
-    return Mesh(
-        points, tailor.rigid(len(points), neck=0.45, upperChest=0.55), grid_faces(steps + 1, 5, flip=True)
-    )
-
-
-def blazer_collar(tailor: Tailor, outer: Mesh, steps: int = 48) -> Mesh:
-    """The blazer's own collar: a fold round the nape that runs into the lapels on both sides."""
-    centre_z = _neck_centre_z(tailor)
-    angle = np.linspace(1.30, 2 * np.pi - 1.30, steps + 1)
-    back = (1 - np.cos(angle)) / 2
-    stand = (
-        _eased(_neck_radius(tailor, centre_z, angle, np.full(steps + 1, tailor.neck_y + 0.012)), 6) + 0.0285
-    )
-    top = tailor.neck_y + 0.002 + 0.016 * back
-    shoulder = _outer_height(tailor, outer, centre_z, angle, stand + 0.026)
-    fall = np.maximum(_eased(shoulder, 3) + 0.0035, top - 0.040)
-    profile = (
-        (stand - 0.001, top - 0.016),
-        (stand, top),
-        (stand + 0.004, top + 0.0025),
-        (stand + 0.010, top * 0.8 + fall * 0.2 + 0.001),
-        (stand + 0.018, top * 0.4 + fall * 0.6 + 0.001),
-        (stand + 0.026, fall),
-    )
-    rows = [np.c_[np.sin(angle) * r, y, centre_z + np.cos(angle) * r] for r, y in profile]
-    points = np.stack(rows, axis=1).reshape(-1, 3)
-    weights = 0.5 * borrowed_weights(points, outer) + 0.5 * tailor.rigid(
-        len(points), upperChest=0.75, neck=0.25
-    )
-    return Mesh(points, weights, grid_faces(steps + 1, len(profile), flip=True))
-
-
-def _outer_height(tailor: Tailor, outer: Mesh, centre_z: float, angles: Array, radii: Array) -> Array:
-    """Height (N,) of the blazer's shoulders at places round the neck."""
-    cloth = outer.vertices[outer.vertices[:, 1] > tailor.neck_y - 0.14]
-    distance, index = cKDTree(cloth[:, [0, 2]]).query(
-        np.c_[np.sin(angles) * radii, centre_z + np.cos(angles) * radii], k=6
-    )
-    near = 1 / (distance + 0.003)
-    height: Array = (cloth[index, 1] * near).sum(axis=1) / near.sum(axis=1)
-    return height
-
-
 def bow(tailor: Tailor) -> Mesh:
     """A ribbon bow at the collar: two loops, two tails, a knot."""
-    centre_z = _neck_centre_z(tailor)
-    radius = float(_neck_radius(tailor, centre_z, np.zeros(1), np.array([tailor.neck_y]))[0])
-    knot = np.array([0.0, tailor.neck_y - 0.026, centre_z + radius + 0.034])
+    knot = np.array([0.0, tailor.neck_y - 0.036, BOW_Z_M])
     t = np.linspace(0, 1, 9)
     pieces: list[Mesh] = []
     for sign in (1, -1):
@@ -165,32 +75,19 @@ def bow(tailor: Tailor) -> Mesh:
     return joined(pieces)
 
 
-def _neck_centre_z(tailor: Tailor) -> float:
-    body, weights = tailor.figure.body, tailor.weights[: len(tailor.figure.body)]
-    ring = (np.abs(body[:, 1] - (tailor.neck_y + 0.035)) < 0.012) & (
-        tailor.weight_of(weights, "head", "neck") > 0.2
-    )
-    return float(body[ring, 2].mean())
+def trimming_parts(tailor: Tailor, cloth: Mesh, outer: Mesh, detail: float) -> list[Part]:
+    """All trimmings, made for the blazer `outer`, which is cut from the coat `cloth`.
 
-
-def _neck_radius(tailor: Tailor, centre_z: float, angles: Array, heights: Array) -> Array:
-    """The neck's radius (N,) about its axis toward each angle (0 is the front) at each height."""
-    body = tailor.figure.body
-    near_axis = np.hypot(body[:, 0], body[:, 2] - centre_z)
-    radii: list[float] = []
-    for angle, y in zip(angles, heights, strict=True):
-        rows = np.flatnonzero((np.abs(body[:, 1] - y) < 0.012) & (near_axis < 0.09))
-        turn = np.arctan2(body[rows, 0], body[rows, 2] - centre_z) - angle
-        nearest = np.argsort(np.abs((turn + np.pi) % (2 * np.pi) - np.pi), kind="stable")[:8]
-        radii.append(float(near_axis[rows[nearest]].mean()))
-    return np.array(radii)
-
-
-def trimming_parts(tailor: Tailor, outer: Mesh) -> list[Part]:
-    """All trimmings, made for the blazer `outer`."""
+    `detail` is the part of their rows that a lower tier keeps.
+    """
+    thick = 1 + 1.1 * (1 - detail)  # a coarser coat comes nearer to them
+    turned_over = [
+        lapels(tailor, cloth, round(40 * detail), thick),
+        blazer_collar(tailor, cloth, round(60 * detail) + 1),
+    ]
     return [
-        Part("Lapels", joined([lapels(tailor, outer), blazer_collar(tailor, outer)]), LAPEL),
+        Part("Lapels", joined(turned_over), LAPEL),
         Part("Buttons", buttons(tailor, outer), BRASS),
-        Part("Collar", collar(tailor), SHIRT),
+        Part("Collar", shirt_collar(tailor, round(72 * detail)), SHIRT),
         Part("Ribbon", bow(tailor), RIBBON),
     ]

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from body.joint_names import SIDES
-from common.meshes import Mesh, smoothstep
+from common.meshes import Mesh, joined, smoothstep
 from common.parts import Part, Surface
 from common.shapes import grid_faces
+from dress.sleeves import creased, cuffs, fitted, softened
 
 if TYPE_CHECKING:
     from dress.tailor import Tailor
@@ -25,9 +26,9 @@ TIGHTS = Surface("tights", 0.55, colour=(0.085, 0.085, 0.10))
 SHOES = Surface("shoes", 0.28, colour=(0.13, 0.075, 0.055), both_sides=True)
 
 NECKLINE_M = 0.066  # radius of the blazer's neck
+NECKLINE_HEIGHT_M = ((0.0, -0.060), (0.9, -0.045), (1.25, -0.012), (1.6, 0.003), (2.2, 0.006), (np.pi, 0.001))
 OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
-BLAZER_SLEEVE = 0.86  # sleeves end at these shares of the forearm
-SHIRT_SLEEVE = 0.93
+BLAZER_SLEEVE = 0.86  # the sleeve ends at this share of the forearm
 
 
 def top_button_y(tailor: Tailor) -> float:
@@ -46,10 +47,17 @@ def _above_hips(tailor: Tailor) -> NDArray[np.bool_]:
     return (tights.vertices[:, 1] > tailor.at("hips")[1] - 0.10) & (tailor.leg_weight(tights.weights) < 0.97)
 
 
-def blazer(tailor: Tailor, subdivisions: int) -> Mesh:
-    """The blazer's cloth: open in a V to the top button, flared over the hips, sleeves to the cuffs."""
-    mesh = tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions)
-    v, w = mesh.vertices, mesh.weights
+def coat(tailor: Tailor, subdivisions: int) -> Mesh:
+    """The blazer's cloth before it is cut: over trunk and arms, with its folds."""
+    mesh = fitted(tailor, tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions))
+    if subdivisions:
+        mesh = creased(tailor, mesh)
+    return softened(tailor, _flare(tailor, _waisted(tailor, mesh)))
+
+
+def blazer(tailor: Tailor, cloth: Mesh) -> Mesh:
+    """The coat cut: open in a V to the top button, with a neck, a hem and sleeves to the cuffs."""
+    v, w = cloth.vertices, cloth.weights
     hips, chest = tailor.at("hips"), tailor.at("upperChest")
     keep = v[:, 1] - (hips[1] - 0.035) - 0.012 * np.cos(np.arctan2(v[:, 0], v[:, 2]))
     for side, _ in SIDES:
@@ -61,12 +69,24 @@ def blazer(tailor: Tailor, subdivisions: int) -> Mesh:
     keep = np.where(
         front, np.minimum(keep, np.abs(v[:, 0]) - np.maximum(opening(tailor, v[:, 1]), parted) - 0.0005), keep
     )
-    around_neck = np.hypot(v[:, 0], (v[:, 2] - tailor.at("neck")[2]) / 1.1) - NECKLINE_M
-    behind = np.clip((tailor.at("neck")[2] + 0.01 - v[:, 2]) / 0.05, 0, 1)
-    below_neck = tailor.neck_y - 0.055 + 0.050 * behind - v[:, 1]
-    keep = np.minimum(keep, np.maximum(around_neck, below_neck))
-    mesh = mesh.clipped(keep)
-    return _flare(tailor, _waisted(tailor, mesh))
+    from_axis = v[:, 2] - neck_axis_z(tailor, v[:, 1])
+    around_neck = np.hypot(v[:, 0], from_axis) - NECKLINE_M
+    below_neck = tailor.neck_y + neckline_height(np.arctan2(v[:, 0], from_axis)) - v[:, 1]
+    return cloth.clipped(np.minimum(keep, np.maximum(around_neck, below_neck)))
+
+
+def neckline_height(angle: Array) -> Array:
+    """Height (N,) of the coat's neckline over the neck's joint toward each angle (0 is the front)."""
+    around: Array = np.abs(angle)
+    height: Array = np.interp(
+        around, [a for a, _ in NECKLINE_HEIGHT_M], [height for _, height in NECKLINE_HEIGHT_M]
+    )
+    return height
+
+
+def neck_axis_z(tailor: Tailor, y: Array) -> Array:
+    """Depth (N,) of the neck's middle at heights `y`; the neck leans forward."""
+    return 0.0205 + 0.37 * np.clip(y - tailor.neck_y, -0.03, 0.06)
 
 
 def _flare(tailor: Tailor, mesh: Mesh) -> Mesh:
@@ -74,34 +94,33 @@ def _flare(tailor: Tailor, mesh: Mesh) -> Mesh:
     v, hips = mesh.vertices, tailor.at("hips")
     outward = np.c_[v[:, 0], np.zeros(len(v)), v[:, 2] - hips[2]]
     torso = tailor.leg_weight(mesh.weights) + tailor.weight_of(mesh.weights, "hips", "spine")
-    amount = np.clip((hips[1] + 0.07 - v[:, 1]) / 0.10, 0, 1) * np.minimum(torso, 1) * 0.016 / 0.14
+    amount = np.clip((hips[1] + 0.07 - v[:, 1]) / 0.10, 0, 1) * np.minimum(torso, 1) * 0.006 / 0.14
     mesh.vertices = v + outward * amount[:, None]
     return mesh
 
 
 def _waisted(tailor: Tailor, mesh: Mesh) -> Mesh:
-    """Take the cloth in a little at the waist."""
+    """Let the cloth fall straighter than the waist under it."""
     v = mesh.vertices
     waist = float(tailor.at("chest")[1]) + 0.02
     arms = np.any([tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES], axis=0)
-    amount = 0.045 * np.exp(-(((v[:, 1] - waist) / 0.07) ** 2)) * ~arms * (np.abs(v[:, 0]) < 0.2)
+    amount = -0.075 * np.exp(-(((v[:, 1] - waist) / 0.085) ** 2)) * ~arms * (np.abs(v[:, 0]) < 0.2)
     centre = np.array([0.0, 0.0, tailor.at("chest")[2]])
-    mesh.vertices = v - (v - centre) * amount[:, None] * [1.0, 0.0, 0.25]
+    mesh.vertices = v - (v - centre) * amount[:, None] * [1.0, 0.0, 0.6]
     return mesh
 
 
 def shirt(tailor: Tailor, subdivisions: int) -> Mesh:
-    """Only the shirt that shows: the V at the chest, the neck and the cuffs."""
-    mesh = tailor.cloth(_above_hips(tailor), 0.006, 6, subdivisions)
-    v, w = mesh.vertices, mesh.weights
+    """Only the shirt that shows: the V at the chest and the neck."""
+    mesh = tailor.cloth(_above_hips(tailor), 0.0032, 4, subdivisions)
+    v = mesh.vertices
     keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), tailor.neck_y + 0.022 - v[:, 1])
     front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
     shown = np.where(front, opening(tailor, v[:, 1]) + 0.022 - np.abs(v[:, 0]), -1.0)
-    shown = np.maximum(shown, v[:, 1] - (tailor.neck_y - 0.028))
-    for side, _ in SIDES:
-        arm, along = tailor.forearm(v, w, side)
-        keep = np.where(arm, np.minimum(keep, (SHIRT_SLEEVE - along) * 0.2), keep)
-        shown = np.where(arm, np.maximum(shown, (along - 0.74) * 0.2), shown)
+    around_neck = 0.064 - np.hypot(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
+    shown = np.maximum(shown, np.minimum(v[:, 1] - (tailor.neck_y - 0.028), around_neck))
+    arms = np.any([tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES], axis=0)
+    shown = np.where(arms, -1.0, shown)
     return mesh.clipped(np.minimum(keep, shown))
 
 
@@ -164,7 +183,7 @@ def shoes(tailor: Tailor, subdivisions: int) -> Mesh:
 def uniform_parts(tailor: Tailor, subdivisions: int, skirt_grid: tuple[int, int], outer: Mesh) -> list[Part]:
     """All cloth but the trimmings; `outer` is the blazer, cut beforehand because trimmings lie on it."""
     return [
-        Part("Shirt", shirt(tailor, subdivisions), SHIRT),
+        Part("Shirt", joined([shirt(tailor, subdivisions), cuffs(tailor, 20 + 12 * subdivisions)]), SHIRT),
         Part("Blazer", outer, BLAZER),
         Part("Skirt", skirt(tailor, *skirt_grid), SKIRT),
         Part("Tights", tights(tailor, subdivisions), TIGHTS),

@@ -65,11 +65,11 @@ class Grip:
         return [
             np.array([arm.lacking * MM]),
             (arm.elbow - self.shoulder - ELBOW_FROM_SHOULDER_M[self.side]) / [0.03, 0.05, 0.05],
-            x[7:9] * DEG / 5,
+            x[7:9] * DEG / 3,
             np.array([twist / 60, flexion / 6, deviation / 6]),
             beyond(twist, -85, 85)[None] / 4,
-            beyond(flexion, -30, 13)[None] / 1,
-            beyond(deviation, -11, 11)[None] / 0.8,
+            beyond(flexion, -30, 12.5)[None] / 0.6,
+            beyond(deviation, -11, 11)[None] / 0.4,
         ]
 
     def palm_spheres(self) -> tuple[Array, Array]:
