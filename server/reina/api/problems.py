@@ -11,8 +11,9 @@ from starlette.exceptions import HTTPException
 
 from reina.errors import InputError
 from reina.keyframes.errors import KeyNotFoundError, ShowError
-from reina.music.errors import ScoreError, ScoreLimitError
+from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
+from reina.sessions.store import SessionEndedError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -79,7 +80,9 @@ def _sendable(text: str) -> str:
 
 
 INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
+    (SessionEndedError, 404, "unknown-session", "There is no such session"),
     (ScoreLimitError, 413, "score-too-large", "The score is larger than Reina reads"),
+    (NotInScoreError, 422, "not-in-score", "The score does not hold that"),
     (ScoreError, 422, "score-unreadable", "The score cannot be read"),
     (KeyNotFoundError, 404, "unknown-keyframe", "There is no such track or keyframe"),
     (ShowError, 422, "show-unusable", "The show cannot be used"),

@@ -81,11 +81,11 @@ class SessionFolders:
                 _log.warning("session %s cannot be read: %s", folder.name, error)
         return sorted(records, key=lambda record: record.created_at, reverse=True)
 
-    def delete(self, session_id: str) -> None:
-        """Remove a session and everything of it."""
+    def take_out(self, session_id: str) -> Path:
+        """Take a session out of the sessions, at once; what is returned is still to be removed."""
         doomed = self._staging / f"{session_id}-{secrets.token_hex(4)}"
         self.folder(session_id).rename(doomed)
-        shutil.rmtree(doomed, ignore_errors=True)
+        return doomed
 
 
 def write_atomically(path: Path, data: bytes) -> None:

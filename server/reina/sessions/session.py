@@ -72,8 +72,10 @@ class Session:
 
     @property
     def is_idle(self) -> bool:
-        """Whether nobody watches and nothing plays: it can be put away."""
-        return not len(self.audience) and not self.clock.state().playing
+        """Whether it can be put away: nobody watches or edits, and nothing plays but an endless loop."""
+        clock = self.clock.state()
+        plays_on = clock.playing and clock.loop is None
+        return not len(self.audience) and not self.editing.locked() and not plays_on
 
     def close(self) -> None:
         """End what is under way: viewers and the rendering of the song."""
@@ -88,7 +90,8 @@ class Session:
         if self.record.song is not None:
             href = session_links(self.id).song
         else:
-            href = rendering_href(self.id, production.part, production.transposition)
+            played = production.played
+            href = rendering_href(self.id, production.score.sequence, played.part, played.transposition)
         return song_state(self.song, href)
 
     def hello(self, state: ClockState | None = None) -> Hello:
@@ -120,6 +123,11 @@ class Session:
             instrument=self.record.instrument,
             part=self.record.part,
             transposition=self.record.transposition,
+            written=self.record.written,
+            octave_fit=self.record.octave_fit,
+            sounding_transposition=played.transposition,
+            sequence=score.sequence,
+            sequences=score.sequences,
             parts=part_summaries(score),
             choices=[
                 resources.PartChoice(part=choice.part, score=choice.score, reasons=list(choice.reasons))
@@ -182,13 +190,30 @@ class Session:
         self.audience.announce(ShowChanged(path=path, **dict(kept_show.state)))
 
     def change_part(self, record: SessionRecord, production: Production) -> None:
-        """Let the player play another part, or the same elsewhere; a song that was rendered is made anew."""
+        """Let the player play another part, or the same elsewhere; a song that was rendered is made anew.
+
+        Another sequence is another piece: it begins at its beginning.
+        """
+        another_piece = production.score.sequence != self.production.score.sequence
         self.record = record
+        self.production = production
+        if another_piece:
+            self.clock.set_loop(None)
+            self.clock.seek(0.0)
+            self.clock.set_duration(self._duration_s())
         self._replace(production, notes=_note_messages(production))
         if record.song is None:
             self.renew_song()
         self.audience.announce(
-            ScoreChanged(part=record.part, transposition=record.transposition, song=self.song_state())
+            ScoreChanged(
+                sequence=production.score.sequence,
+                part=record.part,
+                transposition=record.transposition,
+                written=record.written,
+                octave_fit=record.octave_fit,
+                duration_s=self.clock.duration_s,
+                song=self.song_state(),
+            )
         )
 
     def renew_song(self) -> None:

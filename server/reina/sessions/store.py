@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import shutil
 from collections import OrderedDict
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from reina.errors import InputError
 from reina.music import read_score
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
 from reina.sessions.kept_show import KeptShow
@@ -18,11 +21,12 @@ from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.sound import SongRenderer, probe_audio
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import AsyncGenerator, Callable
     from contextlib import AbstractContextManager
     from pathlib import Path
 
-    from reina.keyframes import ShowHistory
+    from reina.keyframes import Show, ShowHistory
+    from reina.music import Score
     from reina.sessions.production import Stage
 
 SONG_CACHE_BYTES = 2_000_000_000
@@ -33,7 +37,14 @@ LOADED = 32
 away."""
 
 
+DECIDES_WHAT_IS_PLAYED = frozenset({"part", "transposition", "written", "octave_fit", "sequence"})
+"""Fields of a record."""
+
 _log = logging.getLogger(__name__)
+
+
+class SessionEndedError(InputError):
+    """A session was to be changed that has been ended meanwhile."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +61,9 @@ class Draft:
         public: Whether the list of sessions shows it.
         part: The part that the player plays; the best when None.
         transposition: Semitones by which it is moved.
+        written: Whether it is notated for the instrument.
+        octave_fit: Whether it is moved into range by octaves.
+        sequence: Which of the score's sequences; the first when None.
     """
 
     folder: Path
@@ -61,6 +75,9 @@ class Draft:
     public: bool = False
     part: int | None = None
     transposition: int = 0
+    written: bool = False
+    octave_fit: bool = False
+    sequence: int | None = None
 
 
 class SessionStore:
@@ -95,7 +112,7 @@ class SessionStore:
         self._song_cache_bytes = song_cache_bytes
         self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
-        self._loading: dict[str, asyncio.Task[Session]] = {}
+        self._loading: dict[str, asyncio.Task[Session | None]] = {}
 
     @property
     def loaded(self) -> int:
@@ -130,7 +147,10 @@ class SessionStore:
                 loading = asyncio.create_task(self._load(session_id))
                 self._loading[session_id] = loading
                 loading.add_done_callback(lambda _: self._loading.pop(session_id, None))
-            session = await asyncio.shield(loading)
+            if await asyncio.shield(loading) is None:
+                return None
+            # It may have been ended or put away again before it was this one's turn.
+            return await self.get(session_id)
         self._sessions.move_to_end(session_id)
         return session
 
@@ -147,28 +167,41 @@ class SessionStore:
         public: bool | None = None,
         part: int | None = None,
         transposition: int | None = None,
+        written: bool | None = None,
+        octave_fit: bool | None = None,
+        sequence: int | None = None,
     ) -> None:
-        """Rename a session, list it or not, or let the player play another part; None leaves as it is.
+        """Rename a session, list it or not, or let the player play something else; None leaves as it is.
+
+        Of another sequence the part that suits best is played, unless one is named with it. A show that is
+        still the one written for the sequence before is written anew.
 
         Raises:
-            InputError: There is no such part.
+            InputError: There is no such part or sequence; nothing is changed then.
         """
-        asked = {"title": title, "public": public, "part": part, "transposition": transposition}
+        asked = {
+            "title": title,
+            "public": public,
+            "part": part,
+            "transposition": transposition,
+            "written": written,
+            "octave_fit": octave_fit,
+            "sequence": sequence,
+        }
         changes = {field: value for field, value in asked.items() if value is not None}
-        async with session.editing:
-            record = session.record.model_copy(update=changes)
-            production = session.production
-            plays_other = (record.part, record.transposition) != (production.part, production.transposition)
-            if plays_other:
-                production = await asyncio.to_thread(
-                    Production.plan,
-                    self.stage,
-                    production.score,
-                    production.show,
-                    part=record.part,
-                    transposition=record.transposition,
+        async with self._edit(session):
+            record, kept = session.record.model_copy(update=changes), session.kept_show
+            if record.model_dump(include=DECIDES_WHAT_IS_PLAYED) != session.record.model_dump(
+                include=DECIDES_WHAT_IS_PLAYED
+            ):
+                production, kept = await asyncio.to_thread(
+                    self._plan_other, session, record, names_part=part is not None
                 )
+                record = record.model_copy(update={"part": production.part})
                 session.change_part(record, production)
+                if kept is not session.kept_show:
+                    session.change_show(production, kept)
+                    await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
 
@@ -180,7 +213,7 @@ class SessionStore:
             step: The history as it is -> as it is to be; runs on a thread. What it raises is raised on, and
                 nothing is changed then.
         """
-        async with session.editing:
+        async with self._edit(session):
             kept = await asyncio.to_thread(session.kept_show.then, step)
             if kept is not session.kept_show:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
@@ -195,9 +228,11 @@ class SessionStore:
         The song that was rendered for it goes too, unless a session that is loaded has the same; one that is
         not will have it rendered anew.
         """
-        self._sessions.pop(session.id, None)
-        session.close()
-        await asyncio.to_thread(self._folders.delete, session.id)
+        async with self._edit(session):
+            del self._sessions[session.id]
+            doomed = self._folders.take_out(session.id)
+            session.close()
+        await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
         if session.record.song is None and session.song.path not in self._songs_in_use():
             await asyncio.to_thread(self._renderer.discard, session.song.path)
 
@@ -218,7 +253,9 @@ class SessionStore:
             await asyncio.wait(self._pruning)
 
     def _make(self, draft: Draft, token_sha256: str) -> tuple[SessionRecord, Production, KeptShow]:
-        score = read_score((draft.folder / draft.score).read_bytes(), filename=draft.score_filename)
+        score = read_score(
+            (draft.folder / draft.score).read_bytes(), filename=draft.score_filename, sequence=draft.sequence
+        )
         song: SongRecord | None = None
         if draft.song is not None:
             info = probe_audio(draft.folder / draft.song)
@@ -229,9 +266,7 @@ class SessionStore:
         if draft.show is not None:
             show = read_show((draft.folder / draft.show).read_bytes(), self.stage.registry)
             (draft.folder / draft.show).unlink()
-        production = Production.plan(
-            self.stage, score, show, part=draft.part, transposition=draft.transposition
-        )
+        production = self._plan(score, show, draft, part=draft.part)
         (draft.folder / draft.score).rename(draft.folder / SCORE)
         kept = KeptShow.begin(production.show)
         _write_show(draft.folder, kept)
@@ -244,24 +279,73 @@ class SessionStore:
             instrument=self.stage.instrument.name,
             part=production.part,
             transposition=production.transposition,
+            written=production.written,
+            octave_fit=production.octave_fit,
+            sequence=draft.sequence,
             score_filename=draft.score_filename,
             song=song,
         )
         self._folders.adopt(draft.folder, record)
         return record, production, kept
 
-    async def _load(self, session_id: str) -> Session:
-        return self._admit(*await asyncio.to_thread(self._read, session_id))
+    @asynccontextmanager
+    async def _edit(self, session: Session) -> AsyncGenerator[None]:
+        """Hold a session while it is changed, so that edits neither overtake one another nor outlive it.
+
+        Raises:
+            SessionEndedError: It was ended while this waited.
+        """
+        async with session.editing:
+            if self._sessions.get(session.id) is not session:
+                raise SessionEndedError(f"the session {session.id!r} was ended meanwhile")
+            yield
+
+    async def _load(self, session_id: str) -> Session | None:
+        try:
+            read = await asyncio.to_thread(self._read, session_id)
+        except FileNotFoundError:
+            if session_id in self._folders:
+                raise
+            return None
+        # Ended while it was read: it must not come back.
+        return self._admit(*read) if session_id in self._folders else None
 
     def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow]:
         record = self._folders.record(session_id)
-        folder = self._folders.folder(session_id)
-        score = read_score((folder / SCORE).read_bytes(), filename=record.score_filename)
-        show = read_show((folder / SHOW).read_bytes(), self.stage.registry)
-        production = Production.plan(
-            self.stage, score, show, part=record.part, transposition=record.transposition
+        score = self._score(record)
+        show = read_show((self._folders.folder(session_id) / SHOW).read_bytes(), self.stage.registry)
+        return record, self._plan(score, show, record, part=record.part), KeptShow.begin(show)
+
+    def _score(self, record: SessionRecord) -> Score:
+        data = (self._folders.folder(record.id) / SCORE).read_bytes()
+        return read_score(data, filename=record.score_filename, sequence=record.sequence)
+
+    def _plan(
+        self, score: Score, show: Show | None, wanted: Draft | SessionRecord, *, part: int | None
+    ) -> Production:
+        return Production.plan(
+            self.stage,
+            score,
+            show,
+            part=part,
+            transposition=wanted.transposition,
+            written=wanted.written,
+            octave_fit=wanted.octave_fit,
         )
-        return record, production, KeptShow.begin(show)
+
+    def _plan_other(
+        self, session: Session, record: SessionRecord, *, names_part: bool
+    ) -> tuple[Production, KeptShow]:
+        """Plan what `record` asks for in place of what the session plays."""
+        before, kept = session.production, session.kept_show
+        if record.sequence == session.record.sequence:
+            return self._plan(before.score, before.show, record, part=record.part), kept
+        score = self._score(record)
+        another = score.sequence != before.score.sequence
+        show = None if another and before.has_default_show else before.show
+        part = None if another and not names_part else record.part
+        production = self._plan(score, show, record, part=part)
+        return production, kept.then(lambda history: history.then(production.show)) if show is None else kept
 
     def _admit(self, record: SessionRecord, production: Production, kept: KeptShow) -> Session:
         session = Session(record, production, kept, self._song, now=self._now)

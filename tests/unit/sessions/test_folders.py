@@ -67,13 +67,14 @@ def test_what_a_crash_left_half_made_is_removed_at_the_next_start(tmp_path: Path
     assert files(tmp_path) == []
 
 
-def test_deleting_leaves_nothing(tmp_path: Path) -> None:
+def test_what_is_taken_out_is_gone_at_once_and_swept_up_at_the_next_start(tmp_path: Path) -> None:
     folders = SessionFolders(tmp_path)
     kept = record()
     with folders.staging() as staged:
         folders.adopt(staged, kept)
-    folders.delete(kept.id)
+    folders.take_out(kept.id)
     assert kept.id not in folders
+    SessionFolders(tmp_path)
     assert files(tmp_path) == []
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ from reina.keyframes import Show
 from reina.protocol.transport import Pause, Play, Seek
 from reina.sessions.production import Stage
 from reina.sessions.sound import SongRenderer
-from reina.sessions.store import Draft, SessionStore
+from reina.sessions.store import Draft, SessionEndedError, SessionStore
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -139,6 +140,49 @@ def test_an_ended_session_is_gone_from_disk(tmp_path: Path, stage: Stage) -> Non
 
     run(scenario)
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+
+
+def test_whoever_comes_too_late_to_end_or_change_a_session_is_told_so(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(duet())
+        outcomes = await asyncio.gather(
+            desk.store.delete(session),
+            desk.store.delete(session),
+            desk.store.change(session, part=0),
+            desk.store.change_show(session, lambda history: history.then(Show(title="Late"))),
+            return_exceptions=True,
+        )
+        assert outcomes[0] is None
+        assert [type(outcome) for outcome in outcomes[1:]] == [SessionEndedError] * 3
+        assert await desk.store.get(session.id) is None
+
+    run(scenario)
+
+
+def test_a_session_ended_while_it_is_read_does_not_come_back(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        made = await Desk(tmp_path, stage).create(scale(4))
+        desk = Desk(tmp_path, stage)
+        asked = asyncio.create_task(desk.store.get(made.id))
+        await asyncio.sleep(0)
+        shutil.rmtree(tmp_path / "sessions" / made.id)
+        assert await asked is None
+        assert desk.store.loaded == 0
+
+    run(scenario)
+
+
+def test_an_endless_loop_that_nobody_watches_is_put_away(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, loaded=1)
+        looping = await desk.create(scale(4))
+        looping.clock.set_loop(0.0, 1.0)
+        looping.clock.play()
+        await desk.create(scale(4))
+        assert desk.store.loaded == 1
+
+    run(scenario)
 
 
 def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage) -> None:
