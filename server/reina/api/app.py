@@ -26,6 +26,7 @@ from reina.api import (
     stream,
     tracks,
 )
+from reina.api.body_limit import BodyLimit
 from reina.api.compression import Compression
 from reina.api.description import describe
 from reina.api.guard import Guard
@@ -101,5 +102,6 @@ def create_app(
     problems.install(app)
     describe(app)
     app.add_middleware(Compression)
+    app.add_middleware(BodyLimit)
     app.add_middleware(Guard, settings=chosen)
     return app

@@ -21,7 +21,8 @@ def describe(app: FastAPI) -> None:
                 problem: dict[str, Any] = operation["responses"].get("4XX", {})
                 # FastAPI gives it the media type of the route's good answers.
                 if "content" in problem:
-                    problem["content"] = {MEDIA_TYPE: schema for schema in problem["content"].values()}
+                    (body,) = problem["content"].values()
+                    problem["content"] = {MEDIA_TYPE: body}
         return document
 
     app.openapi = openapi

@@ -1,8 +1,8 @@
 """The transport: what a viewer hears of the music clock, and what a controller may ask of it."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from reina.protocol.model import WireModel
 
@@ -64,6 +64,12 @@ class SetLoop(WireModel):
     action: Literal["loop"]
     start_s: Annotated[float, Field(ge=0)] | None = None
     end_s: Annotated[float, Field(gt=0)] | None = None
+
+    @model_validator(mode="after")
+    def _both_or_neither(self) -> Self:
+        if (self.start_s is None) != (self.end_s is None):
+            raise ValueError("a loop has a start and an end; null both, or leave both out, to end it")
+        return self
 
 
 TransportCommand = Annotated[Play | Pause | Seek | SetRate | SetLoop, Field(discriminator="action")]

@@ -71,10 +71,11 @@ COMMANDS: TypeAdapter[TransportCommand] = TypeAdapter(TransportCommand)
         {"action": "rate", "rate": 0.25},
         {"action": "loop", "start_s": 1.0, "end_s": 2.0},
         {"action": "loop", "start_s": None, "end_s": None},
+        {"action": "loop"},
     ],
 )
 def test_commands_of_the_transport(command: dict[str, object]) -> None:
-    assert COMMANDS.validate_python(command).model_dump() == command
+    assert COMMANDS.validate_python(command).model_dump(exclude_unset=True) == command
 
 
 @pytest.mark.parametrize(
