@@ -1,6 +1,6 @@
 """Edits of a show as JSON: several at once, all or none, and a history that can be walked back."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -33,8 +33,11 @@ def with_edits(show: Show, edits: object, registry: ParameterRegistry) -> Show:
         KeyNotFoundError: A track or keyframe is not there.
     """
     place = Place()
+    named = _named(place.items(edits, "edits"))
     tracks: Tracks = {
-        track.parameter: track_document(track, show.time) for track in show.tracks if isinstance(track, Track)
+        track.parameter: track_document(track, show.time)
+        for track in show.tracks
+        if isinstance(track, Track) and track.parameter in named
     }
     touched: dict[str, None] = {}
     for index, entry in enumerate(place.items(edits, "edits")):
@@ -57,6 +60,17 @@ def with_edits(show: Show, edits: object, registry: ParameterRegistry) -> Show:
             continue
         show = show.with_track(read_track(document, _parameter(path, registry), show.time))
     return show
+
+
+def _named(edits: Iterable[object]) -> set[str]:
+    """The parameters that edits name, so that no other track has to be written out and read again."""
+    found: set[str] = set()
+    for entry in edits:
+        given: Json = cast("Json", entry) if isinstance(entry, Mapping) else {}
+        track = given.get("track")
+        inner: Json = cast("Json", track) if isinstance(track, Mapping) else {}
+        found |= {path for path in (given.get("parameter"), inner.get("parameter")) if isinstance(path, str)}
+    return found
 
 
 def _parameter(path: object, registry: ParameterRegistry) -> Parameter:
