@@ -111,6 +111,19 @@ export class StageCamera {
     this.#controls.update();
   }
 
+  /** Take the camera around what it looks at: to its own right and up for positive angles, radians. */
+  orbitBy(azimuth: number, elevation: number): void {
+    this.take();
+    this.#controls.rotateLeft(-azimuth);
+    this.#controls.rotateUp(elevation);
+  }
+
+  /** Take the camera to so many times its distance from what it looks at. */
+  dollyBy(factor: number): void {
+    this.take();
+    this.#controls.dollyIn(factor);
+  }
+
   /** Take the camera to a view; from there it can be orbited. */
   view({ position, target, fov }: CameraPreset): void {
     this.#leave(this.#taken ? this.#held.fov : this.show.fov);

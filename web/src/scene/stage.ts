@@ -54,6 +54,7 @@ export class Stage {
   #models: RigModel[] = [];
   #bell: Bell | null = null;
   #drawnIndex = -1;
+  readonly #drawnFrom = new Vector3();
   #epoch = -1;
   #songTime = 0;
   /** Something else than the frame changed the picture. */
@@ -210,6 +211,7 @@ export class Stage {
     this.#renderer.setRenderTarget(this.#picture.target);
     this.#renderer.render(scene, camera);
     this.#picture.finish(camera, this.#camera.targetDistance);
+    this.#drawnFrom.copy(camera.position);
     this.#changed = false;
     if (this.#camera.moving) this.#drawSoon();
     return true;
@@ -265,6 +267,21 @@ export class Stage {
   /** The view that is seen, as a show's camera keys hold it: metres and radians, the field of view for 16:9. */
   currentView(): CameraView {
     return this.#camera.current();
+  }
+
+  /** Where the camera stood in the picture that was drawn last, in the world, metres. */
+  get drawnFrom(): [number, number, number] {
+    return this.#drawnFrom.toArray();
+  }
+
+  /** Take the camera around what it looks at: to its own right and up for positive angles, radians. */
+  orbitBy(azimuth: number, elevation: number): void {
+    this.#camera.orbitBy(azimuth, elevation);
+  }
+
+  /** Take the camera to so many times its distance from what it looks at, as near and as far as it may go. */
+  dollyBy(factor: number): void {
+    this.#camera.dollyBy(factor);
   }
 
   /** Leave the camera where it is, free to be orbited. */

@@ -9,10 +9,17 @@ import { remember, remembered, type NoteNames } from "./storage";
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
 const SHORTEST_LOOP_S = 0.25;
+/** How far one key press takes the camera: an angle, radians, and a share of its distance. */
+const ORBIT_STEP = Math.PI / 36;
+const DOLLY_STEP = 0.92;
 
 /** What the deck asks of the stage and the page around it. */
 export interface DeckHands {
   giveBackCamera(): void;
+  /** Around what the camera looks at, to its right and up, radians. */
+  orbitCamera(azimuth: number, elevation: number): void;
+  /** To so many times the camera's distance. */
+  dollyCamera(factor: number): void;
   toggleFullscreen(): void;
   openFilePicker(): void;
   addKeyframe(): void;
@@ -49,6 +56,12 @@ export class Deck {
     quieter: () => this.#changeVolume(-VOLUME_STEP),
     mute: () => this.reina.setVolume(this.reina.volume, !this.reina.muted),
     camera: () => this.hands.giveBackCamera?.(),
+    orbitLeft: () => this.hands.orbitCamera?.(-ORBIT_STEP, 0),
+    orbitRight: () => this.hands.orbitCamera?.(ORBIT_STEP, 0),
+    orbitUp: () => this.hands.orbitCamera?.(0, ORBIT_STEP),
+    orbitDown: () => this.hands.orbitCamera?.(0, -ORBIT_STEP),
+    closer: () => this.hands.dollyCamera?.(DOLLY_STEP),
+    further: () => this.hands.dollyCamera?.(1 / DOLLY_STEP),
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
     show: () => this.toggleShow(),
@@ -76,7 +89,7 @@ export class Deck {
     if (event.key === "Escape") return this.#escape();
     if ((event.key === "Enter" || event.key === " ") && isPressable(event.target)) return false;
     if (event.target instanceof HTMLInputElement && keepsKey(event.target.type, event.key)) return false;
-    const shortcut = shortcutOf(event);
+    const shortcut = shortcutOf(event, event.target instanceof HTMLCanvasElement);
     if (shortcut === null) return false;
     const { view } = this.reina;
     if (shortcut.controls === true && view?.canControl === false) {

@@ -1,3 +1,4 @@
+import { HEADER_SIZE } from "../generated/protocol";
 import type { Stage } from "../scene";
 import type { SessionView } from "./session-view.svelte";
 
@@ -27,8 +28,12 @@ export interface PageMeasures {
   readonly sync: { readonly readings: number; readonly mean: number; readonly p95: number };
   /** Seconds by which what is heard is ahead of the server's song time; null while nothing is. */
   readonly soundAhead: number | null;
+  /** Where the camera stood in the picture that was drawn last, in the world, metres. */
+  readonly drawnFrom: readonly [number, number, number];
   /** Local joint rotations as three.js has them, x y z w. */
   boneQuaternions(): Record<string, [number, number, number, number]>;
+  /** A parameter's floats in the frame that was drawn last; null where the session streams none of that path. */
+  parameter(path: string): readonly number[] | null;
 }
 
 declare global {
@@ -77,7 +82,19 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     get soundAhead() {
       return view()?.soundAhead ?? null;
     },
+    get drawnFrom() {
+      return stage.drawnFrom;
+    },
     boneQuaternions: () => stage.boneQuaternions(),
+    parameter: (path) => parameterOf(view(), path),
   };
   return () => delete window.reina;
+}
+
+function parameterOf(view: SessionView | null, path: string): readonly number[] | null {
+  const layout = view?.hello?.parameters.find((parameter) => parameter.path === path);
+  const floats = view?.drawn?.floats;
+  if (layout === undefined || floats === undefined) return null;
+  const first = (layout.offset - HEADER_SIZE) / Float32Array.BYTES_PER_ELEMENT;
+  return [...floats.subarray(first, first + layout.length)];
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { ariaKeys, hint, keepsKey, SHORTCUTS, shortcutOf, type KeyPress } from "./shortcuts";
+import { ariaKeys, hint, keepsKey, SHORTCUTS, shortcutOf, STAGE_SHORTCUTS, type KeyPress } from "./shortcuts";
 
 function press(key: string, change: Partial<KeyPress> = {}): KeyPress {
   return { key, shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, repeat: false, ...change };
@@ -32,10 +32,18 @@ describe("shortcuts", () => {
     expect(shortcutOf(press("ArrowRight", { repeat: true }))?.action).toBe("forward");
   });
 
-  it("gives every key press one meaning, and every action a hint", () => {
-    const presses = SHORTCUTS.flatMap(({ keys, shift }) => keys.map((key) => `${shift === true ? "Shift " : ""}${key}`));
+  it("gives the stage its arrows and signs while it has the focus, and the page the rest", () => {
+    expect(shortcutOf(press("ArrowLeft"), true)?.action).toBe("orbitLeft");
+    expect(shortcutOf(press("ArrowUp", { repeat: true }), true)?.action).toBe("orbitUp");
+    expect(shortcutOf(press("-"), true)?.action).toBe("further");
+    expect(shortcutOf(press("ArrowLeft", { shiftKey: true }), true)?.action).toBe("barBack");
+    expect(shortcutOf(press(" "), true)?.action).toBe("toggle");
+  });
+
+  it.each([SHORTCUTS, STAGE_SHORTCUTS])("gives every key press one meaning, and every action a hint", (...shortcuts) => {
+    const presses = shortcuts.flatMap(({ keys, shift }) => keys.map((key) => `${shift === true ? "Shift " : ""}${key}`));
     expect(new Set(presses).size).toBe(presses.length);
-    for (const { action, says } of SHORTCUTS) expect(hint(action)).toContain(says);
+    for (const { action, says } of shortcuts) expect(hint(action)).toContain(says);
     expect(hint("mute", "Sound off")).toBe("Sound off (M)");
     expect([ariaKeys("toggle"), ariaKeys("barBack"), ariaKeys("faster")]).toEqual(["Space", "Shift+ArrowLeft", "Plus"]);
   });

@@ -16,6 +16,12 @@ export type Action =
   | "quieter"
   | "mute"
   | "camera"
+  | "orbitLeft"
+  | "orbitRight"
+  | "orbitUp"
+  | "orbitDown"
+  | "closer"
+  | "further"
   | "fullscreen"
   | "piece"
   | "show"
@@ -64,7 +70,17 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "help", keys: ["?"], shown: "?", says: "This list" },
 ];
 
-const BY_ACTION = new Map(SHORTCUTS.map((shortcut) => [shortcut.action, shortcut]));
+/** What keys do while the stage has the keyboard's focus; its arrows and signs go before the page's. */
+export const STAGE_SHORTCUTS: readonly Shortcut[] = [
+  { action: "orbitLeft", keys: ["ArrowLeft"], shown: "←", says: "Around the player to the left", repeats: true },
+  { action: "orbitRight", keys: ["ArrowRight"], shown: "→", says: "Around the player to the right", repeats: true },
+  { action: "orbitUp", keys: ["ArrowUp"], shown: "↑", says: "Look from higher up", repeats: true },
+  { action: "orbitDown", keys: ["ArrowDown"], shown: "↓", says: "Look from lower down", repeats: true },
+  { action: "closer", keys: ["+", "="], shown: "+", says: "Closer", repeats: true },
+  { action: "further", keys: ["-"], shown: "−", says: "Further away", repeats: true },
+];
+
+const BY_ACTION = new Map([...SHORTCUTS, ...STAGE_SHORTCUTS].map((shortcut) => [shortcut.action, shortcut]));
 
 /** What `title` says of a control: what it does, and its key. */
 export function hint(action: Action, says?: string): string {
@@ -88,13 +104,17 @@ export function keepsKey(inputType: string, key: string): boolean {
   return inputType === "radio" && key.startsWith("Arrow");
 }
 
-/** What a key press asks for; null for what is no shortcut, or a shortcut of the browser's own. */
-export function shortcutOf(press: KeyPress): Shortcut | null {
+/**
+ * What a key press asks for; null for what is no shortcut, or a shortcut of the browser's own.
+ *
+ * @param onStage whether the stage has the keyboard's focus.
+ */
+export function shortcutOf(press: KeyPress, onStage = false): Shortcut | null {
   if (press.ctrlKey || press.metaKey || press.altKey) return null;
   const key = press.key.length === 1 ? press.key.toLowerCase() : press.key;
-  const found = SHORTCUTS.find(({ keys, shift }) => {
-    // Shift only tells arrows apart; what it makes of a letter key is a key of its own already.
-    return keys.includes(key) && (press.key.length === 1 || (shift ?? false) === press.shiftKey);
-  });
+  // Shift only tells arrows apart; what it makes of a letter key is a key of its own already.
+  const fits = ({ keys, shift }: Shortcut) =>
+    keys.includes(key) && (press.key.length === 1 || (shift ?? false) === press.shiftKey);
+  const found = (onStage ? STAGE_SHORTCUTS.find(fits) : undefined) ?? SHORTCUTS.find(fits);
   return found === undefined || (press.repeat && found.repeats !== true) ? null : found;
 }
