@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.keyframes import Parameter
+from reina.performance.stances import STANCES
 
 if TYPE_CHECKING:
     from reina.keyframes import ParameterRegistry
@@ -25,18 +26,34 @@ def _amount(name: str, documentation: str, *, maximum: float = 2.0) -> Parameter
 
 
 PLAYER_PARAMETERS: tuple[Parameter, ...] = (
-    _amount("breath", "How deeply the player is seen to breathe: chest, shoulders, mouth."),
+    _amount(
+        "breath", "How deeply the player is seen to breathe: chest, shoulders, horn, corners of the mouth."
+    ),
     _amount("sway", "How far the player sways with the metre."),
-    _amount("lean", "How far the player leans into phrases and turns with them."),
+    _amount("lean", "How far the player leans back with the breath and into phrases."),
+    _amount("turn", "How far the player turns to one side in a phrase."),
     _amount("lift", "How far head, shoulders and bell rise on high notes."),
     _amount("vibrato", "How far the right hand rocks on long notes."),
     _amount("finger_lift", "How far idle fingers lift off their valve caps."),
-    _amount("face", "How much cheeks, lips and brows work.", maximum=1.5),
+    _amount("face", "How much lips, brows and smile work.", maximum=1.5),
+    _amount(
+        "cheeks", "How far the cheeks fill as air is blown; trained players keep them firm.", maximum=6.0
+    ),
+    _amount("tongue", "How much each tongued note is seen at the lips."),
     _amount("blink", "How far the eyes close in a blink.", maximum=1.0),
     _amount("gaze", "How far the eyes wander."),
     _amount("lower", "How far the instrument is taken down in long rests.", maximum=1.0),
+    Parameter(
+        path="player/stance",
+        type="choice",
+        default="shifting",
+        choices=STANCES,
+        blend=False,
+        documentation="How the player stands under all playing; going to another takes a second and a half.",
+    ),
+    _amount("stance/amount", "How far the player moves in that stance.", maximum=1.5),
 )
-"""Amounts of gestures: 1 as played by default, 0 none."""
+"""Amounts of gestures, 1 as played by default and 0 none; and which stance is played in."""
 
 
 class Amounts:
@@ -48,11 +65,12 @@ class Amounts:
 
     def __init__(self, registry: ParameterRegistry) -> None:
         layout = registry.layout()
-        self._names = [parameter.path.removeprefix("player/") for parameter in PLAYER_PARAMETERS]
+        amounts = [parameter for parameter in PLAYER_PARAMETERS if parameter.type == "number"]
+        self._names = [parameter.path.removeprefix("player/") for parameter in amounts]
         self._columns = [
-            layout[parameter.path][0] if parameter.path in layout else None for parameter in PLAYER_PARAMETERS
+            layout[parameter.path][0] if parameter.path in layout else None for parameter in amounts
         ]
-        self._defaults = [float(parameter.floats(parameter.default)[0]) for parameter in PLAYER_PARAMETERS]
+        self._defaults = [float(parameter.floats(parameter.default)[0]) for parameter in amounts]
 
     def read(self, values: FloatArray) -> dict[str, FloatArray]:
         """Amounts by name, ``(F,)`` each, from values ``(F, P)``; none is below 0."""

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
 
-SIGNALS: tuple[str, ...] = ("raised", "air", "inhale", "tongue", "effort", "content", "blink")
-"""The rows of the table. ``content`` is 1 when the horn is down after playing."""
+SIGNALS: tuple[str, ...] = ("raised", "air", "effort", "inhale", "tongue", "cheeks", "content", "blink")
+"""The rows of the table. ``cheeks`` is the air behind them; ``content`` is 1 when the horn is down."""
 
 WEIGHTS: dict[str, dict[str, float]] = {
     "face/blink_left": {"blink": 1.0},
     "face/blink_right": {"blink": 1.0},
-    "face/cheek_puff": {"air": 0.34, "effort": 0.06, "tongue": -0.05},
+    "face/cheek_puff": {"cheeks": 0.12},
     "face/mouth_pucker": {"raised": 0.30, "air": 0.08, "inhale": -0.25},
     "face/mouth_press": {"raised": 0.20, "air": 0.30, "effort": 0.20, "inhale": -0.20, "tongue": 0.12},
     "face/jaw_open": {"inhale": 0.14},

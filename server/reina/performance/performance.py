@@ -16,6 +16,8 @@ from reina.performance.gesture_planners import GESTURE_PLANNERS
 from reina.performance.idle_motion import IdleMotion
 from reina.performance.player_body import PlayerBody
 from reina.performance.slide_finger import SLIDE_FINGERS
+from reina.performance.stance_choice import StanceChoice
+from reina.performance.stances import Stances
 
 if TYPE_CHECKING:
     from reina.instruments import Instrument, PlayedPart
@@ -69,6 +71,8 @@ class Performance:
         self.played = played
         """The part as it is played."""
         self._show_plan = show_plan
+        self._stance_choice = StanceChoice(show_plan)
+        self._stances = Stances(player_rig)
         self._amounts = Amounts(registry)
         self._idle = IdleMotion(score, seed)
         self._body = PlayerBody(player_rig, instrument_rig, hold)
@@ -111,6 +115,7 @@ class Performance:
         """The same performance under another show over the same registry; everything else is shared."""
         other = copy.copy(self)
         other._show_plan = show_plan
+        other._stance_choice = StanceChoice(show_plan)
         return other
 
     def evaluate(self, block: int) -> FrameBlock:
@@ -139,7 +144,10 @@ class Performance:
         lifts = (curves[self._lift_rows] * amounts["finger_lift"]).T
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
         slides = {name: curves[row] for name, row in self._slide_rows.items()}
-        pose = self._body.solve(self._body_signals(times, gestures, amounts), lowered, valves, lifts, slides)
+        stood = self._stance_choice.weights(times) * amounts["stance/amount"][:, None]
+        stance = self._stances.evaluate(times, stood)
+        signals = self._body_signals(times, gestures, amounts)
+        pose = self._body.solve(signals, lowered, valves, lifts, slides, stance)
 
         rotations = np.empty((len(times), *self._still.shape), dtype=np.float32)
         rotations[:] = self._still
@@ -168,7 +176,7 @@ class Performance:
             "sway_fore": sway[1],
             "sway_turn": sway[2],
             "lean": gestures["lean"] * amounts["lean"],
-            "turn": gestures["turn"] * amounts["lean"],
+            "turn": gestures["turn"] * amounts["turn"],
             "effort": gestures["effort"] * amounts["lift"],
             "gaze_left": gaze[0],
             "gaze_up": gaze[1],
@@ -185,12 +193,14 @@ class Performance:
     ) -> FloatArray:
         """Rows in the order of `face.SIGNALS`."""
         amount = amounts["face"]
+        effort = gestures["effort"] * gestures["playing"]
         rows = {
             "raised": gestures["raised"] * amount,
             "air": gestures["air"] * amount,
-            "inhale": gestures["inhale"] * amounts["breath"] * amount,
-            "tongue": gestures["tongue"] * amount,
-            "effort": gestures["effort"] * gestures["playing"] * amount,
+            "effort": effort * amount,
+            "inhale": gestures["inhale"] * amounts["breath"],
+            "tongue": gestures["tongue"] * amounts["tongue"],
+            "cheeks": gestures["air"] * (1.0 + 0.2 * effort) * amounts["cheeks"],
             "content": lowered * amount,
             "blink": self._idle.blink(times) * np.minimum(amounts["blink"], 1.0),
         }

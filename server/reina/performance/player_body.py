@@ -30,8 +30,14 @@ if TYPE_CHECKING:
     from reina.skeleton import Hold, Rig
 
 LIMBS: tuple[str, ...] = ("leftArm", "rightArm", "leftLeg", "rightLeg")
+SOFT_KNEE_M = 0.001
+"""No leg comes nearer to being straight than this; the hips sink instead, beginning twice as far before."""
+
 LOWERED_RAD = 0.85
 """How far arms and instrument are turned down about the line of the shoulders in long rests."""
+
+ELBOWS_OUT_RAD = np.array([0.2, -0.2])
+"""How far the elbows then swing out about the line from shoulder to wrist, left and right."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +105,7 @@ class PlayerBody:
         self._hand_rotations = multiply(conjugate(I_world), world[hands])
         hand_positions = rotate(conjugate(I_world), positions[hands] - X_world)
         self._held_places = np.stack([mouthpiece, *hand_positions])
+        self._leg_reach: FloatArray = self._limbs.reach[2:] - SOFT_KNEE_M
         self._feet_rotations, self._feet_positions = world[feet], positions[feet]
         self._limb_parents = [
             self._carrier(rig, int(skeleton.parents[upper])) for upper in joints[:, 0].tolist()
@@ -142,6 +149,20 @@ class PlayerBody:
         )
         self._moving_rest: FloatArray = skeleton.rest_rotations[self.moving]
 
+    def _drop(self, legs: FloatArray) -> FloatArray:
+        """How far the hips must sink for both legs to reach their feet, ``(F,)``, metres.
+
+        Args:
+            legs: Where the legs begin, ``(F, 2, 3)``.
+        """
+        apart = legs - self._feet_positions
+        across = apart[..., 0] * apart[..., 0] + apart[..., 2] * apart[..., 2]
+        needed = apart[..., 1] - np.sqrt(np.maximum(self._leg_reach * self._leg_reach - across, 0.0))
+        needed = np.maximum(needed[:, 0], needed[:, 1])
+        # max(needed, 0), its corner rounded by a parabola so that nothing starts with a jolt.
+        corner = np.minimum(np.maximum(needed, -SOFT_KNEE_M), SOFT_KNEE_M) + SOFT_KNEE_M
+        return corner * corner * (0.25 / SOFT_KNEE_M) + np.maximum(needed - SOFT_KNEE_M, 0.0)
+
     def _carrier(self, rig: Rig, joint: int) -> int:
         found = np.flatnonzero(self._trunk.joints == joint)
         if len(found) == 0:
@@ -155,6 +176,7 @@ class PlayerBody:
         valves: FloatArray,
         lifts: FloatArray,
         slides: Mapping[str, FloatArray],
+        stance: FloatArray | None = None,
     ) -> Pose:
         """Poses for a block.
 
@@ -164,15 +186,28 @@ class PlayerBody:
             valves: How far down each valve is, ``(F, V)``.
             lifts: How far each valve's finger is off its cap, ``(F, V)``.
             slides: How far out each slide of `SLIDE_FINGERS` is, 0..1, ``(F,)``; one that is missing is in.
+            stance: What a way of standing turns the trunk by, under everything else, and shifts the hips,
+                ``(F, trunk joints + 1, 3)``, as `Stances.evaluate` gives it.
         """
         moved = (signals.T @ self._matrix).reshape(signals.shape[1], -1, 3)
         turns = exp(moved[:, :-2])
         if self._eyes is not None:
             turns[:, self._eyes] = _glance(moved[:, self._eyes.start])[:, None]
-        local = multiply(self._held, turns[:, :-1])
         hips = self._root + moved[:, -2]
+        if stance is None:
+            local = multiply(self._held, turns[:, :-1])
+        else:
+            trunk = stance.shape[1] - 1
+            stood = np.empty((len(stance), *self._held.shape))
+            stood[:] = self._held
+            stood[:, :trunk] = multiply(self._held[:trunk], exp(stance[:, :-1]))
+            local = multiply(stood, turns[:, :-1])
+            hips = hips + stance[:, -1]
         shifts = moved[:, -1]
         world, points = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
+        drop = self._drop(points[:, 2:4])
+        hips[:, 1] -= drop
+        points[..., 1] -= drop[:, None]
 
         instrument = multiply(multiply(world[:, self._head], self._instrument_in_head), turns[:, -1])
         # In the instrument's frame: its mouthpiece, and the hands that hold it.
@@ -247,8 +282,8 @@ def _lower(
     axis = axis / np.sqrt(dot(axis, axis))[:, None]
     down = from_axis_angle(axis, LOWERED_RAD * lowered)
     pivot = (0.5 * (left + right))[:, None]
-    return (
-        multiply(down, instrument),
-        pivot + rotate(down[:, None], held - pivot),
-        rotate(down[:, None], elbows),
-    )
+    held = pivot + rotate(down[:, None], held - pivot)
+    arms = held[:, 1:] - points[:, :2]
+    arms = arms / np.sqrt(dot(arms, arms))[..., None]
+    out = from_axis_angle(arms, ELBOWS_OUT_RAD * lowered[:, None])
+    return multiply(down, instrument), held, rotate(multiply(out, down[:, None]), elbows)

@@ -1,15 +1,17 @@
-"""A rig from its folder: ``rig.json`` as docs/conventions.md describes it."""
+"""A rig from its folder: ``rig.json`` as docs/conventions.md describes it, and its motion clips."""
 
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reina.rotations import ORDERS
 from reina.skeleton.document import Node, read_document
-from reina.skeleton.errors import RigError
+from reina.skeleton.errors import BvhError, RigError
+from reina.skeleton.read_bvh import read_bvh
 from reina.skeleton.rig import (
     SOLVERS,
     Button,
@@ -27,6 +29,8 @@ from reina.skeleton.skeleton import Skeleton
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from reina.skeleton.motion_clip import MotionClip
+
 _CHAIN_LENGTHS = {"planar_three_bone": 3, "coupled_three_bone": 3, "two_bone": 3}
 
 
@@ -34,9 +38,18 @@ def load_rig(folder: Path) -> Rig:
     """The rig in a folder.
 
     Raises:
-        RigError: The document lacks something or contradicts itself; ``where`` is the path in ``rig.json``.
+        RigError: The document lacks something or contradicts itself, ``where`` is the path in ``rig.json``;
+            or a clip is no BVH file.
     """
-    return read_rig(read_document(folder / "rig.json"))
+    rig = read_rig(read_document(folder / "rig.json"))
+    return replace(rig, clips={path.stem: _read_clip(path) for path in sorted(folder.glob("clips/*.bvh"))})
+
+
+def _read_clip(path: Path) -> MotionClip:
+    try:
+        return read_bvh(path.read_bytes())
+    except BvhError as error:
+        raise RigError(f"this clip is no motion: {error}", where=f"clips/{path.name}") from error
 
 
 def read_rig(document: Node) -> Rig:

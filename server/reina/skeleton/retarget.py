@@ -101,7 +101,8 @@ def retarget(
 
     Both rest poses are taken to be the same stance. Each joint of the skeleton that has a partner turns
     from its rest as the partner does from its own, in the world; one that has none goes with its parent.
-    The root's way is scaled by the height of the hips.
+    The root's way is scaled by the length of the legs, by the height of the hips where the clip has none.
+    The clip's floor is at 0 where its hips are about as high as they stand; else under its rest pose.
 
     Args:
         clip: The motion.
@@ -134,12 +135,7 @@ def retarget(
     way = translations[:, 0]
     for joint in _path(clip, root)[1:]:
         way = way + rotate(turned[:, clip.parents[joint]], translations[:, joint])
-    at_rest = sum((clip.offsets[joint] for joint in _path(clip, root)), np.zeros(3))
-    height = _hip_height(clip, root)
-    scale = skeleton.rest_translations[0, 1] / height if height > 0.0 else 1.0
-    ground = np.array([0.0, skeleton.rest_translations[0, 1] - scale * height, 0.0])
-    lowest = at_rest - np.array([0.0, height, 0.0])
-    return local, (way - lowest) * scale + ground
+    return local, (way - [0.0, _floor(clip, root, way), 0.0]) * _scale(clip, skeleton, partner, root)
 
 
 def _path(clip: MotionClip, joint: int) -> list[int]:
@@ -147,6 +143,27 @@ def _path(clip: MotionClip, joint: int) -> list[int]:
     while clip.parents[path[-1]] >= 0:
         path.append(int(clip.parents[path[-1]]))
     return path[::-1]
+
+
+def _floor(clip: MotionClip, root: int, way: FloatArray) -> float:
+    """The height of the floor in a clip: some files move the hips from the floor, some from their rest."""
+    height = _hip_height(clip, root)
+    if len(way) == 0 or float(np.median(way[:, 1])) > 0.5 * height:
+        return 0.0
+    return float(sum(clip.offsets[joint, 1] for joint in _path(clip, root))) - height
+
+
+def _scale(clip: MotionClip, skeleton: Skeleton, partner: Mapping[str, int], root: int) -> float:
+    """How much longer the skeleton's legs are than the clip's."""
+    legs = [f"{side}{bone}" for side in ("left", "right") for bone in ("LowerLeg", "Foot")]
+    if all(name in partner and name in skeleton for name in legs):
+        own = [skeleton.rest_translations[skeleton.index(name)] for name in legs]
+        theirs = [clip.offsets[partner[name]] for name in legs]
+        length = float(np.linalg.norm(theirs, axis=1).sum())
+        if length > 0.0:
+            return float(np.linalg.norm(own, axis=1).sum()) / length
+    height = _hip_height(clip, root)
+    return float(skeleton.rest_translations[0, 1]) / height if height > 0.0 else 1.0
 
 
 def _hip_height(clip: MotionClip, root: int) -> float:

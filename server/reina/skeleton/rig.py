@@ -9,6 +9,7 @@ from reina.skeleton.errors import RigError
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
+    from reina.skeleton.motion_clip import MotionClip
     from reina.skeleton.skeleton import Skeleton
 
 
@@ -160,6 +161,7 @@ class Rig:
         capsules: In the document's order.
         parts: What an instrument's parameters move.
         buttons: What the player's fingers press.
+        clips: Motion of its own, ``clips/<name>.bvh`` in its folder, by name.
     """
 
     name: str
@@ -174,6 +176,7 @@ class Rig:
     capsules: tuple[Capsule, ...]
     parts: tuple[MovingPart, ...]
     buttons: tuple[Button, ...]
+    clips: dict[str, MotionClip] = field(default_factory=dict[str, "MotionClip"])
 
     def effector(self, name: str) -> Point:
         """An effector by name; RigError lists them where there is none of that name."""

@@ -57,8 +57,8 @@ def most(
     perform: Perform, tune: list[NoteBeats], registry: ParameterRegistry, player_rig: Rig, trumpet_rig: Rig
 ) -> Frames:
     """Every amount at its greatest."""
-    values = {p.path: float(p.maximum or 0.0) for p in registry if p.path.startswith("player/")}
-    assert values
+    values = {p.path: p.maximum for p in registry if p.path.startswith("player/") and p.type == "number"}
+    assert len(values) == 14
     return Frames(perform(tune, values=values), player_rig, trumpet_rig)
 
 
@@ -220,16 +220,16 @@ def test_the_body_is_alive(played: Frames) -> None:
         assert weights.max() > 0.05, path
         assert weights.min() >= 0.0
         assert weights.max() <= 1.0
-    # The cheeks fill while a note sounds and are empty in the long rest.
+    # The cheeks fill a little while a note sounds and are empty in the long rest.
     cheeks = played.value("face/cheek_puff")
-    assert cheeks[int(1.2 * 60)] > 0.2
+    assert 0.04 < cheeks[int(1.2 * 60)] < 0.15
     assert cheeks[int(13.0 * 60)] == 0.0
 
 
 def test_amounts_of_zero_give_the_bare_hold(
     perform: Perform, registry: ParameterRegistry, hold: Hold, player_rig: Rig
 ) -> None:
-    values = {p.path: 0.0 for p in registry if p.path.startswith("player/")}
+    values = {p.path: 0.0 for p in registry if p.path.startswith("player/") and p.type == "number"}
     performance = perform([(8.0, 1.0, 70)], values=values)
     block = performance.evaluate(1)
     assert np.ptp(block.rotations, axis=0).max() == 0.0

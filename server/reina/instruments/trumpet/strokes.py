@@ -32,8 +32,8 @@ LONGEST_STROKE_S = 0.040
 LARGEST_SHARE = 0.4
 """Part of the time between two onsets that a stroke may take, at most."""
 
-LEAD_S = (0.001, 0.002, 0.003)
-"""How long before the onset each finger is done: fingers of one hand do not land at one instant."""
+LEAD_S = (0.0005, 0.0045)
+"""How long before the onset a finger is done, at least and at most: fingers do not land at one instant."""
 
 AFTER_PHRASE_S = 0.02
 """How long after the end of a phrase its valves begin to come up."""
@@ -43,6 +43,14 @@ LIFT_AFTER_S = 0.35
 
 LIFT_UP_S = 0.14
 LIFT_DOWN_S = 0.11
+LIFT_LATE_S = (0.02, 0.06)
+"""How long after its valve a finger begins to lift."""
+
+LIFT_EARLY_S = (0.01, 0.04)
+"""How long before it is needed a finger is back on its cap."""
+
+LIFT_HEIGHT = (0.5, 1.0)
+"""How high it lifts."""
 
 
 def plan_strokes(played: PlayedPart) -> dict[str, FloatArray]:
@@ -59,11 +67,12 @@ def plan_strokes(played: PlayedPart) -> dict[str, FloatArray]:
     down = played.fingering.valves & played.fingering.playable[:, None]
     curves: dict[str, FloatArray] = {}
     for valve in range(down.shape[1]):
-        strokes = _strokes(
-            line.onset_s, line.end_s, line.velocity, down[:, valve], LEAD_S[valve % len(LEAD_S)]
-        )
+        # Each finger has its own small unevenness, the same whenever the part is played.
+        chance = np.random.default_rng([valve])
+        lead_s = chance.uniform(*LEAD_S, size=len(line.onset_s))
+        strokes = _strokes(line.onset_s, line.end_s, line.velocity, down[:, valve], lead_s)
         curves[f"valve/{valve + 1}"] = strokes
-        curves[f"lift/{valve + 1}"] = _lifts(strokes, line.onset_s, line.end_s)
+        curves[f"lift/{valve + 1}"] = _lifts(strokes, line.onset_s, line.end_s, chance)
     return curves
 
 
@@ -84,7 +93,7 @@ class ValveStrokes:
 
 
 def _strokes(
-    onset_s: FloatArray, end_s: FloatArray, velocity: FloatArray, down: BoolArray, lead_s: float
+    onset_s: FloatArray, end_s: FloatArray, velocity: FloatArray, down: BoolArray, lead_s: FloatArray
 ) -> FloatArray:
     """Movements of one valve, ``(S, 3)``."""
     if not down.any():
@@ -116,7 +125,9 @@ def _strokes(
     return movements[np.argsort(movements[:, 0], kind="stable")]
 
 
-def _lifts(strokes: FloatArray, onset_s: FloatArray, end_s: FloatArray) -> FloatArray:
+def _lifts(
+    strokes: FloatArray, onset_s: FloatArray, end_s: FloatArray, chance: np.random.Generator
+) -> FloatArray:
     """Movements of one idle finger off and back onto its cap, ``(L, 3)``."""
     if len(onset_s) == 0:
         return np.zeros((0, 3))
@@ -127,7 +138,10 @@ def _lifts(strokes: FloatArray, onset_s: FloatArray, end_s: FloatArray) -> Float
         ends = ends[:-1]  # still down after the last note
     idle = ends - begins > LIFT_AFTER_S
     begins, ends = begins[idle], ends[idle]
+    begins = begins + chance.uniform(*LIFT_LATE_S, size=len(begins))
+    ends = ends - chance.uniform(*LIFT_EARLY_S, size=len(ends))
+    height = chance.uniform(*LIFT_HEIGHT, size=len(begins))
     lifts = np.empty((2 * len(begins), 3))
-    lifts[::2] = np.column_stack([begins + 0.02, begins + 0.02 + LIFT_UP_S, np.ones(len(begins))])
-    lifts[1::2] = np.column_stack([ends - LIFT_DOWN_S - 0.01, ends - 0.01, np.zeros(len(ends))])
+    lifts[::2] = np.column_stack([begins, begins + LIFT_UP_S, height])
+    lifts[1::2] = np.column_stack([ends - LIFT_DOWN_S, ends, np.zeros(len(ends))])
     return lifts

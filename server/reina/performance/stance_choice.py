@@ -1,0 +1,64 @@
+"""Which stance is stood in when: what a show chooses, with a smooth passage from one to the next."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.keyframes import ShowPlan
+from reina.kinematics import minimum_jerk
+from reina.performance.stances import STANCES
+
+if TYPE_CHECKING:
+    from reina.rotations.arrays import FloatArray, IntArray
+
+PATH = "player/stance"
+PASSAGE_S = 1.5
+"""From one stance to another a player takes so long, beginning when the show says."""
+
+GRID_FPS = 60
+"""Choices are read on this grid, whatever the frame rate."""
+
+_IN_A_ROW = 1000
+"""Times no further apart than so many ticks are read as one row."""
+
+
+class StanceChoice:
+    """Weights of `STANCES` at any times, a pure function of the show.
+
+    A choice steps, a body does not: the weights follow it with minimum jerk over the time before each frame.
+
+    Args:
+        show_plan: The show; where it has no `PATH` the first of `STANCES` is chosen.
+    """
+
+    def __init__(self, show_plan: ShowPlan) -> None:
+        registry = show_plan.registry
+        track = show_plan.tracks.get(PATH)
+        self._column = registry.layout()[PATH][0] if PATH in registry else None
+        self._steady = 0 if self._column is None else int(registry.defaults()[self._column])
+        self._plan = (
+            None
+            if track is None
+            else ShowPlan((track,), registry, show_plan.time_map, triggers=show_plan.triggers, fps=GRID_FPS)
+        )
+        done = minimum_jerk(np.arange(int(PASSAGE_S * GRID_FPS) + 1) / (PASSAGE_S * GRID_FPS))
+        self._steps: FloatArray = np.diff(done)
+
+    def weights(self, times_s: FloatArray) -> FloatArray:
+        """``(F, len(STANCES))``, each row's sum 1."""
+        if self._plan is None or self._column is None:
+            chosen = np.zeros((len(times_s), len(STANCES)))
+            chosen[:, self._steady] = 1.0
+            return chosen
+        tick = np.floor(times_s * GRID_FPS + 1e-6).astype(np.int64)[:, None]
+        asked = tick - np.arange(len(self._steps))
+        first, last = int(asked.min()), int(asked.max())
+        read: IntArray = np.arange(first, last + 1) if last - first <= _IN_A_ROW else np.unique(asked)
+        place = asked - first if len(read) > last - first else np.searchsorted(read, asked)
+        values, _ = self._plan.evaluate(np.maximum(read, 0) / GRID_FPS)
+        chosen = values[:, self._column].astype(np.int64)
+        if np.all(chosen == chosen[0]):
+            return np.broadcast_to(np.eye(len(STANCES))[chosen[0]], (len(times_s), len(STANCES)))
+        return np.einsum("t,ftc->fc", self._steps, np.eye(len(STANCES))[chosen[place].reshape(asked.shape)])
