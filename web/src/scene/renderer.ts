@@ -13,7 +13,8 @@ import type { TierSettings } from "./tiers";
 export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings): WebGLRenderer {
   const attributes: WebGLContextAttributes = {
     alpha: false,
-    antialias: tier.antialias,
+    // What is drawn into the canvas has its edges smoothed before (picture.ts), or not at all.
+    antialias: false,
     powerPreference: "high-performance",
   };
   const context = canvas.getContext("webgl2", attributes);

@@ -3,7 +3,6 @@
 export type Tier = "full" | "medium" | "low";
 
 export interface TierSettings {
-  readonly antialias: boolean;
   readonly largestPixelRatio: number;
   /** Texels along a side of the key's shadow map; 0 casts no shadow. */
   readonly shadowMapSize: number;
@@ -23,7 +22,6 @@ export interface TierSettings {
 
 export const TIERS: Readonly<Record<Tier, TierSettings>> = {
   full: {
-    antialias: true,
     largestPixelRatio: 2,
     shadowMapSize: 2048,
     mirrorScale: 0.5,
@@ -34,7 +32,6 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     depthOfField: true,
   },
   medium: {
-    antialias: true,
     largestPixelRatio: 1.5,
     shadowMapSize: 1024,
     mirrorScale: 0,
@@ -45,7 +42,6 @@ export const TIERS: Readonly<Record<Tier, TierSettings>> = {
     depthOfField: false,
   },
   low: {
-    antialias: false,
     largestPixelRatio: 1,
     shadowMapSize: 0,
     mirrorScale: 0,
