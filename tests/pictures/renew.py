@@ -28,7 +28,8 @@ IMAGES = ROOT / "docs/images"
 SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PAGE_SIZE = (1280, 720)
 PAGE_MOMENT_S = 1.4
-"""In the first shot of the bundled show, with the player and the notes in it."""
+PAGE_LATEST_S = 6.0
+"""Within the first shot of the bundled show, with the player and the notes in it."""
 
 DRAWN = (640, 360)
 SHOWN = (400, 225)
@@ -59,15 +60,14 @@ def draw_page(browser: Browser, server: Running) -> None:
     page.wait_for_function("window.reina?.drawn")
     page.keyboard.press("Space")
     page.wait_for_function("window.reina.playing")
+    # The panels stay while the pointer is on one.
+    page.mouse.move(PAGE_SIZE[0] / 2, PAGE_SIZE[1] - 22)
     png = b""
-    for _ in range(8):
+    for _ in range(6):
         page.keyboard.press("Home")
-        page.wait_for_function("window.reina.songTime < 1")
-        page.wait_for_function("(until) => window.reina.drawnIndex >= until", arg=int(PAGE_MOMENT_S * 60))
-        page.mouse.move(PAGE_SIZE[0] / 2, 60)
-        page.mouse.move(PAGE_SIZE[0] / 2, 40)
+        page.wait_for_timeout(1000 * PAGE_MOMENT_S)
         png = page.screenshot(timeout=PATIENCE_MS)
-        if page.evaluate("window.reina.songTime") < 4 * PAGE_MOMENT_S + 4:
+        if 0.5 < page.evaluate("window.reina.drawnIndex / 60") < PAGE_LATEST_S:
             break
     Image.open(io.BytesIO(png)).convert("RGB").save(IMAGES / "page.png", optimize=True)
     page.close()
