@@ -49,7 +49,7 @@ def test_a_stance_goes_round_and_round_without_a_jump(stances: Stances, player_r
 
 def test_it_begins_with_nothing_and_passes_through_its_frames(stances: Stances, player_rig: Rig) -> None:
     clip = player_rig.clips["swaying"]
-    times = np.arange(len(clip)) * clip.frame_time_s
+    times: np.ndarray = np.arange(len(clip)) * clip.frame_time_s
     moved = stances.evaluate(times, only("swaying", len(clip)))
     assert moved is not None
     assert np.abs(moved[[0, -1]]).max() < 1e-9
