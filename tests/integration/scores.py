@@ -48,6 +48,45 @@ def duet() -> bytes:
     return file.getvalue()
 
 
+def collection() -> bytes:
+    """A file of format 2: three pieces, of four, eight and two trumpet notes; each track is a piece."""
+    midi = mido.MidiFile(type=2, ticks_per_beat=TICKS)
+    for name, pitches in (("Call", (58, 62, 65, 70)), ("Walk", range(60, 68)), ("End", (63, 58))):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        track.append(mido.MetaMessage("track_name", name=name))
+        track.append(mido.Message("program_change", program=56))
+        for pitch in pitches:
+            track.append(mido.Message("note_on", note=pitch, velocity=90))
+            track.append(mido.Message("note_off", note=pitch, time=TICKS))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
+def chords() -> bytes:
+    """A trumpet part that no trumpet can play as it stands: a third, then a note that is still held."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    track = mido.MidiTrack()
+    midi.tracks.append(track)
+    track.append(mido.MetaMessage("track_name", name="Trumpet"))
+    track.append(mido.Message("program_change", program=56))
+    for kind, pitch, time in (
+        ("note_on", 60, 0),
+        ("note_on", 64, 0),
+        ("note_off", 60, TICKS),
+        ("note_off", 64, 0),
+        ("note_on", 62, 0),
+        ("note_on", 65, TICKS),
+        ("note_off", 62, TICKS // 2),
+        ("note_off", 65, TICKS),
+    ):
+        track.append(mido.Message(kind, note=pitch, time=time))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
 def song(seconds: float = 1.0, rate: int = 8000) -> bytes:
     """A sine as WAV."""
     file = io.BytesIO()

@@ -150,7 +150,7 @@ def test_a_field_that_does_not_fit_is_named(own: httpx.Client, data_dir: Path) -
     body = problem(answer, 422, "request-invalid")
     assert body["errors"][0]["location"] == "transposition"
     answer = own.post("/api/v1/sessions", files={"score": ("a.mid", MIDI)}, data={"part": "7"})
-    problem(answer, 422, "score-unreadable")
+    problem(answer, 422, "not-in-score")
     assert [path for path in data_dir.rglob("*") if path.is_file()] == []
 
 

@@ -47,7 +47,30 @@ _FORM: dict[str, Any] = {
                         "title": {"type": "string", "maxLength": 200},
                         "public": {"type": "boolean", "default": False},
                         "part": {"type": "integer", "minimum": 0},
-                        "transposition": {"type": "integer", "default": 0},
+                        "transposition": {
+                            "type": "integer",
+                            "minimum": -48,
+                            "maximum": 48,
+                            "default": 0,
+                            "description": "semitones to move the part by",
+                        },
+                        "written": {
+                            "type": "boolean",
+                            "default": False,
+                            "description": "the part is notated for the B♭ trumpet: "
+                            "it sounds a tone lower than its pitches say",
+                        },
+                        "octave_fit": {
+                            "type": "boolean",
+                            "default": False,
+                            "description": "move the part by the octaves that bring most of it into range",
+                        },
+                        "sequence": {
+                            "type": "integer",
+                            "minimum": 0,
+                            "description": "which sequence of a MIDI file of format 2; "
+                            "the first when left out",
+                        },
                     },
                 }
             }
@@ -97,6 +120,9 @@ def _draft(folder: Path, upload: Upload) -> Draft:
         public=fields.public,
         part=fields.part,
         transposition=fields.transposition,
+        written=fields.written,
+        octave_fit=fields.octave_fit,
+        sequence=fields.sequence,
     )
 
 
@@ -128,7 +154,7 @@ async def change_session(
     change: Annotated[resources.SessionChange, Body(examples=[{"title": "Taps, slower", "part": 1}])],
     store: Store,
 ) -> resources.Session:
-    """Rename it, list it or not, or have the player play another part or elsewhere."""
+    """Rename it, list it or not, or have the player play another part or sequence, or the same elsewhere."""
     await store.change(session, **change.model_dump())
     return session.resource()
 

@@ -20,7 +20,15 @@ MEGABYTE = 1_000_000
 
 FILE_LIMITS = {"score": 20 * MEGABYTE, "song": 200 * MEGABYTE, "show": 5 * MEGABYTE}
 """Bytes, by the part's name."""
-FIELD_LIMITS = {"title": 1000, "public": 5, "part": 10, "transposition": 10}
+FIELD_LIMITS = {
+    "title": 1000,
+    "public": 5,
+    "part": 10,
+    "transposition": 10,
+    "written": 5,
+    "octave_fit": 5,
+    "sequence": 10,
+}
 LIMITS = FILE_LIMITS | FIELD_LIMITS
 READ_ON = 32 * MEGABYTE
 """How much of an upload that is refused is still read, so that its sender comes to hear why."""

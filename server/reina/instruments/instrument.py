@@ -58,6 +58,6 @@ class Instrument(Protocol):
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
 
         Raises:
-            ScoreError: If the score has no such part.
+            NotInScoreError: If the score has no such part.
         """
         ...

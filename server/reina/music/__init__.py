@@ -6,7 +6,7 @@ Usable without a server: ``read_score(path.read_bytes(), filename=path.name)``.
 from reina.music.clock import ClockError, ClockState, MusicClock, Span
 from reina.music.controls import Control, ControlKind
 from reina.music.document.schema import score_schema
-from reina.music.errors import ScoreError, ScoreLimitError
+from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.music.events import Listener, NoteEvent, NoteEventEmitter
 from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.metre import BarPosition, MetreMap, TimeSignature
@@ -27,6 +27,7 @@ __all__ = [
     "Listener",
     "MetreMap",
     "MusicClock",
+    "NotInScoreError",
     "Note",
     "NoteEvent",
     "NoteEventEmitter",

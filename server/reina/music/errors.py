@@ -20,5 +20,9 @@ class ScoreError(InputError):
         self.problems: tuple[tuple[str, str], ...] = tuple(problems) or ((where or "", detail),)
 
 
+class NotInScoreError(ScoreError):
+    """A part or a sequence was asked for that a score, which is sound itself, does not hold."""
+
+
 class ScoreLimitError(ScoreError):
     """A score that is larger, longer or deeper than Reina reads (`reina.music.limits`)."""

@@ -3,7 +3,7 @@
 from pathlib import PurePath
 
 from reina.music.document.reader import read_json
-from reina.music.errors import ScoreError
+from reina.music.errors import NotInScoreError, ScoreError
 from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.midi import read_midi
 from reina.music.score import Score
@@ -30,6 +30,7 @@ def read_score(
 
     Raises:
         ScoreError: If there is no score in it, with the reason and the place.
+        NotInScoreError: If it holds no such sequence.
         ScoreLimitError: If it is beyond `limits`.
     """
     if not data:
@@ -38,8 +39,8 @@ def read_score(
     title = PurePath(filename).stem if filename else ""
     if data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS):
         if sequence not in {None, 0}:
-            raise ScoreError(
-                f"a JSON score is one sequence, so there is no sequence {sequence}", where="sequence"
+            raise NotInScoreError(
+                f"a JSON score holds one sequence, 0; there is no sequence {sequence}", where="sequence"
             )
         return read_json(data, title=title or "Untitled", limits=limits)
     return read_midi(data, title=title or "Untitled", sequence=sequence, limits=limits)

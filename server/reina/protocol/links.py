@@ -39,12 +39,18 @@ def session_links(session_id: str) -> SessionLinks:
     )
 
 
-def rendering_href(session_id: str, part: int, transposition: int) -> str:
+def rendering_href(session_id: str, sequence: int, part: int, transposition: int) -> str:
     """A song that the server makes from the score: another address for each of a session's renderings.
 
     The query only tells them apart; what is sent is always the song of the part that is played now.
+
+    Args:
+        session_id: Whose.
+        sequence: Which of the file's sequences.
+        part: The part that the player plays.
+        transposition: Semitones by which it sounds moved, whatever moved it.
     """
-    return f"{session_href(session_id)}/song?part={part}&transposition={transposition}"
+    return f"{session_href(session_id)}/song?sequence={sequence}&part={part}&transposition={transposition}"
 
 
 def stream_links(session_id: str, rigs: Iterable[str]) -> StreamLinks:

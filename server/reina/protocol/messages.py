@@ -75,11 +75,19 @@ class ShowChanged(ShowState):
 
 
 class ScoreChanged(WireModel):
-    """Another part or transposition was chosen; read the score anew, and the song if its `href` changed."""
+    """What is played was chosen anew; read the score again, and the song if its `href` changed."""
 
     type: Literal["score_changed"] = "score_changed"
+    sequence: int
+    """Which of the file's sequences is played, counted from 0."""
     part: int
     transposition: int
+    written: bool
+    """Whether the part is taken as notated for the instrument."""
+    octave_fit: bool
+    """Whether the part is moved into range by octaves."""
+    duration_s: float
+    """How long the music now lasts."""
     song: SongState
 
 

@@ -87,7 +87,17 @@ class Session(WireModel):
     part: int
     """The part that the player plays."""
     transposition: int
-    """Semitones by which the player's part is moved."""
+    """Semitones by which the player's part was asked to be moved."""
+    written: bool
+    """Whether the part is taken as notated for the instrument: a B♭ trumpet then sounds a tone lower."""
+    octave_fit: bool
+    """Whether the part is moved by the octaves that bring most of its notes into range."""
+    sounding_transposition: int
+    """Semitones by which the part is played away from the file's pitches: all three together."""
+    sequence: int
+    """Which of the file's sequences is played, counted from 0."""
+    sequences: int
+    """How many the file holds: several only in MIDI files of format 2."""
     parts: list[PartSummary]
     choices: list[PartChoice]
     """The parts that the instrument could play, best first."""
@@ -120,12 +130,18 @@ class SessionList(WireModel):
 
 
 class SessionChange(WireModel):
-    """What PATCH may change of a session; a field left out stays."""
+    """What PATCH may change of a session; a field left out stays.
+
+    Of another sequence the best part is played, unless one is named with it.
+    """
 
     title: Title | None = None
     public: bool | None = None
     part: Annotated[int, Field(ge=0)] | None = None
     transposition: Annotated[int, Field(ge=-48, le=48)] | None = None
+    written: bool | None = None
+    octave_fit: bool | None = None
+    sequence: Annotated[int, Field(ge=0)] | None = None
 
 
 class SessionFields(WireModel):
@@ -135,6 +151,9 @@ class SessionFields(WireModel):
     public: bool = False
     part: Annotated[int, Field(ge=0)] | None = None
     transposition: Annotated[int, Field(ge=-48, le=48)] = 0
+    written: bool = False
+    octave_fit: bool = False
+    sequence: Annotated[int, Field(ge=0)] | None = None
 
 
 class Tempo(WireModel):
@@ -160,8 +179,11 @@ class Score(WireModel):
 
     title: str
     duration_s: float
+    sequence: int
     part: int
     transposition: int
+    written: bool
+    octave_fit: bool
     parts: list[PartSummary]
     tempi: list[Tempo]
     metres: list[Metre]

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 NOT_PLAYED = "another part than the player's"
 NOT_IN_LINE = "the player plays one note at a time, and another one sounds here"
+NO_PITCH = "the part is moved so far that this note is no pitch"
 
 
 def transport_state(state: ClockState) -> TransportState:
@@ -80,7 +81,9 @@ class NoteTable:
             pitch = int(production.played.line.sounding_pitch[number])
             valves, reason = fingering.pressed(number), fingering.reasons[number]
         elif note.part == production.part:
-            reason = NOT_IN_LINE
+            # What the player leaves out stands, and is heard, where the rest of the part does.
+            moved = pitch + production.played.transposition
+            pitch, reason = (moved, NOT_IN_LINE) if 0 <= moved <= 127 else (pitch, NO_PITCH)
         return WireNote(
             index=index,
             part=note.part,
@@ -110,8 +113,11 @@ def score_resource(production: Production, title: str, part: int | None = None) 
     return resources.Score(
         title=title,
         duration_s=score.duration_s,
+        sequence=score.sequence,
         part=production.part,
         transposition=production.transposition,
+        written=production.written,
+        octave_fit=production.octave_fit,
         parts=part_summaries(score),
         tempi=[
             resources.Tempo(onset_beats=tempo.onset_beats, onset_s=tempo.onset_s, bpm=tempo.beats_per_minute)

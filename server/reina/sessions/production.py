@@ -84,8 +84,10 @@ class Production:
         score: What is played.
         ranking: The parts that suit the instrument, best first.
         part: The part that the player plays.
-        transposition: Semitones by which it is moved.
-        played: The playable line and its fingering.
+        transposition: Semitones by which it was asked to be moved.
+        written: Whether it is taken as notated for the instrument.
+        octave_fit: Whether it is moved into range by octaves.
+        played: The playable line and its fingering; `played.transposition` is how far all this moves it.
         show: The show around it.
         show_plan: The show, made ready.
         performance: All of it as a function of time.
@@ -97,6 +99,8 @@ class Production:
     ranking: tuple[PartRanking, ...]
     part: int
     transposition: int
+    written: bool
+    octave_fit: bool
     played: PlayedPart
     show: Show
     show_plan: ShowPlan
@@ -112,6 +116,8 @@ class Production:
         *,
         part: int | None = None,
         transposition: int = 0,
+        written: bool = False,
+        octave_fit: bool = False,
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -121,14 +127,22 @@ class Production:
             show: The show around it; when None, one is written from the form of the music.
             part: The part that the player plays; the one that suits the instrument best when None.
             transposition: Semitones by which it is moved.
+            written: Whether it is notated for the instrument and sounds as the instrument transposes.
+            octave_fit: Whether to move it by the octaves that bring most of it into range.
 
         Raises:
-            ScoreError: The score has no such part.
+            NotInScoreError: The score has no such part.
         """
         ranking = stage.instrument.rank_parts(score)
-        played = stage.instrument.play(score, ranking[0].part if part is None else part, transposition)
+        played = stage.instrument.play(
+            score,
+            ranking[0].part if part is None else part,
+            transposition,
+            written=written,
+            octave_fit=octave_fit,
+        )
         if show is None:
-            show = write_default_show(music_form(score, played), title=score.title)
+            show = _show_for(score, played)
         show_plan = show.plan(stage.registry, time_map(score), triggers=triggers(score, played))
         performance = _performance(stage, score, played, show_plan)
         return cls(
@@ -137,6 +151,8 @@ class Production:
             ranking=ranking,
             part=played.part,
             transposition=transposition,
+            written=written,
+            octave_fit=octave_fit,
             played=played,
             show=show,
             show_plan=show_plan,
@@ -148,6 +164,11 @@ class Production:
     def instrument(self) -> Instrument:
         """How the instrument is played."""
         return self.stage.instrument
+
+    @property
+    def has_default_show(self) -> bool:
+        """Whether the show is still the one that was written from the form of this music."""
+        return self.show == _show_for(self.score, self.played)
 
     def with_show(self, show: Show) -> Production:
         """The same with another show; what was planned of the player is kept."""
@@ -165,6 +186,10 @@ class Production:
         return replace(
             self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)
         )
+
+
+def _show_for(score: Score, played: PlayedPart) -> Show:
+    return write_default_show(music_form(score, played), title=score.title)
 
 
 def _performance(

@@ -38,6 +38,12 @@ class SessionRecord(BaseModel):
     instrument: str
     part: int
     transposition: int
+    written: bool = False
+    """Whether the part is notated for the instrument."""
+    octave_fit: bool = False
+    """Whether the part is moved into range by octaves."""
+    sequence: int | None = None
+    """Which of the score's sequences; None: nobody chose, and the first is played."""
     score_filename: str | None
     """The name that the score was uploaded under."""
     song: SongRecord | None

@@ -144,7 +144,7 @@ class SongRenderer:
         Args:
             score: The score; time 0 of the song is its time 0.
             trumpet_part: Index of the part that the trumpeter plays.
-            transposition: Semitones by which that part is moved.
+            transposition: Semitones by which that part sounds moved, octave fit and written pitch included.
 
         Raises:
             InputError: The score is longer than an hour.

@@ -36,6 +36,8 @@ HEARD_CONTROLLERS = frozenset({1, 33, 7, 39, 10, 42, 11, 43, 64, 91, 93, 6, 38, 
 parameters, reset. All Sound Off and All Notes Off are left out, since the score's notes already end where
 they end."""
 BANK_SELECT = 0
+KEYS = 128
+"""MIDI's pitches."""
 
 
 def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: int = 0) -> SoundPlan:
@@ -49,10 +51,11 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
         score: The score.
         trumpet_part: Index of the part that the trumpeter plays; it is a trumpet unless the file says
             otherwise.
-        transposition: Semitones by which that part sounds higher than written in the score.
+        transposition: Semitones by which that part sounds higher than the score says, as it is played: octave
+            fit and written pitch included. What is no pitch then is not heard, as it is not played.
 
     Raises:
-        InputError: The score is longer than an hour.
+        InputError: The score is longer than an hour, or nothing of it is a pitch.
     """
     if score.duration_s > LONGEST_S:
         minutes = score.duration_s / 60
@@ -62,9 +65,16 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
         )
     seats = _seats(score.parts, trumpet_part)
     moved = np.where(score.notes.part == trumpet_part, transposition, 0)
+    keys = score.notes.sounding_pitch.astype(np.int64) + moved
+    if not np.any(_is_key(keys)):
+        raise InputError(f"moved by {transposition} semitones, no note of the score is a pitch: move it less")
     return SoundPlan(
-        notes=_plan_notes(score, seats, moved), controls=_plan_controls(score, seats, trumpet_part)
+        notes=_plan_notes(score, seats, keys), controls=_plan_controls(score, seats, trumpet_part)
     )
+
+
+def _is_key(keys: NDArray[np.int64]) -> NDArray[np.bool_]:
+    return (keys >= 0) & (keys < KEYS)
 
 
 def _seats(parts: tuple[Part, ...], trumpet_part: int | None) -> NDArray[np.uint16]:
@@ -94,21 +104,21 @@ def _seats(parts: tuple[Part, ...], trumpet_part: int | None) -> NDArray[np.uint
     return np.array([seats[key] for key in keys], dtype=np.uint16)
 
 
-def _plan_notes(score: Score, seats: NDArray[np.uint16], semitones: NDArray[np.int64]) -> NDArray[np.void]:
+def _plan_notes(score: Score, seats: NDArray[np.uint16], keys: NDArray[np.int64]) -> NDArray[np.void]:
     notes = np.zeros(len(score.notes), dtype=NOTE_DTYPE)
     on = np.rint(score.notes.onset_s * SAMPLE_RATE).astype(np.int64)
     end = np.rint(score.notes.end_s * SAMPLE_RATE).astype(np.int64)
     notes["on"] = on
     notes["off"] = np.maximum(end, on + SHORTEST_NOTE)
     notes["port"], notes["channel"] = seats[score.notes.part].T
-    notes["key"] = np.clip(score.notes.sounding_pitch + semitones, 0, 127)
+    notes["key"] = np.clip(keys, 0, KEYS - 1)
     notes["velocity"] = np.clip(np.rint(score.notes.velocity * 127), 1, 127)
-    return _without_overlaps(notes)
+    return _without_overlaps(notes[_is_key(keys)])
 
 
 def _without_overlaps(notes: NDArray[np.void]) -> NDArray[np.void]:
     """Let each new stroke of a sounding key end the one before, and last as long as that would have."""
-    strings = (notes["port"].astype(np.int64) * CHANNELS_OF_PORT + notes["channel"]) * 128 + notes["key"]
+    strings = (notes["port"].astype(np.int64) * CHANNELS_OF_PORT + notes["channel"]) * KEYS + notes["key"]
     order = np.lexsort((-notes["velocity"].astype(np.int64), notes["on"], strings))
     notes, strings = notes[order], strings[order]
     same_string = np.diff(strings, prepend=-1) == 0

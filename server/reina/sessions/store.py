@@ -37,7 +37,7 @@ LOADED = 32
 away."""
 
 
-DECIDES_WHAT_IS_PLAYED = frozenset({"part", "transposition", "written", "octave_fit", "sequence"})
+DECIDES_WHAT_IS_PLAYED = ("sequence", "part", "transposition", "written", "octave_fit")
 """Fields of a record."""
 
 _log = logging.getLogger(__name__)
@@ -191,8 +191,8 @@ class SessionStore:
         changes = {field: value for field, value in asked.items() if value is not None}
         async with self._edit(session):
             record, kept = session.record.model_copy(update=changes), session.kept_show
-            if record.model_dump(include=DECIDES_WHAT_IS_PLAYED) != session.record.model_dump(
-                include=DECIDES_WHAT_IS_PLAYED
+            if any(
+                getattr(record, field) != getattr(session.record, field) for field in DECIDES_WHAT_IS_PLAYED
             ):
                 production, kept = await asyncio.to_thread(
                     self._plan_other, session, record, names_part=part is not None

@@ -204,8 +204,18 @@ export interface Session {
   instrument: string
   /** The part that the player plays. */
   part: number
-  /** Semitones by which the player's part is moved. */
+  /** Semitones by which the player's part was asked to be moved. */
   transposition: number
+  /** Whether the part is taken as notated for the instrument: a B♭ trumpet then sounds a tone lower. */
+  written: boolean
+  /** Whether the part is moved by the octaves that bring most of its notes into range. */
+  octave_fit: boolean
+  /** Semitones by which the part is played away from the file's pitches: all three together. */
+  sounding_transposition: number
+  /** Which of the file's sequences is played, counted from 0. */
+  sequence: number
+  /** How many the file holds: several only in MIDI files of format 2. */
+  sequences: number
   parts: PartSummary[]
   /** The parts that the instrument could play, best first. */
   choices: PartChoice[]
@@ -239,11 +249,19 @@ export interface ShowChanged extends ShowState {
   path: string | null
 }
 
-/** Another part or transposition was chosen; read the score anew, and the song if its href changed. */
+/** What is played was chosen anew; read the score again, and the song if its href changed. */
 export interface ScoreChanged {
   type: "score_changed"
+  /** Which of the file's sequences is played, counted from 0. */
+  sequence: number
   part: number
   transposition: number
+  /** Whether the part is taken as notated for the instrument. */
+  written: boolean
+  /** Whether the part is moved into range by octaves. */
+  octave_fit: boolean
+  /** How long the music now lasts. */
+  duration_s: number
   song: SongState
 }
 
@@ -296,8 +314,11 @@ export interface SessionList {
 export interface Score {
   title: string
   duration_s: number
+  sequence: number
   part: number
   transposition: number
+  written: boolean
+  octave_fit: boolean
   parts: PartSummary[]
   tempi: Tempo[]
   metres: Metre[]
@@ -392,12 +413,19 @@ export interface SetLoop {
   end_s?: number | null
 }
 
-/** What PATCH may change of a session; a field left out stays. */
+/**
+ * What PATCH may change of a session; a field left out stays.
+ *
+ * Of another sequence the best part is played, unless one is named with it.
+ */
 export interface SessionChange {
   title?: string | null
   public?: boolean | null
   part?: number | null
   transposition?: number | null
+  written?: boolean | null
+  octave_fit?: boolean | null
+  sequence?: number | null
 }
 
 /** A bundled piece: its files, to be posted as a session of one's own. */

@@ -48,7 +48,8 @@ export class SessionView {
   /** Raised by every change of the show that the server tells of. */
   showRevision = $state(0);
 
-  readonly duration = $derived.by(() => this.hello?.duration_s ?? this.session.duration_s);
+  /** How long the music lasts, seconds. */
+  duration = $state(0);
   /** Whether the music runs; at its end it has stopped by itself. */
   readonly playing = $derived.by(
     () => this.transport.playing && (this.transport.loop !== null || this.songTime < this.duration - END_TOLERANCE_S),
@@ -87,6 +88,7 @@ export class SessionView {
     this.session = $state.raw(session);
     this.score = $state.raw(score);
     this.transport = $state.raw(transport);
+    this.duration = session.duration_s;
     this.songTime = transport.song_time_s;
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
@@ -202,6 +204,7 @@ export class SessionView {
       case "hello":
         this.#queue = new FrameQueue(message, message.transport.epoch);
         this.hello = message;
+        this.duration = message.duration_s;
         this.#setTransport(message.transport, true);
         this.#loadSong(message.song.href);
         break;
@@ -209,6 +212,7 @@ export class SessionView {
         this.#setTransport(message);
         break;
       case "score_changed":
+        this.duration = message.duration_s;
         void this.#attempt(() => this.#readAnew());
         this.#loadSong(message.song.href);
         break;

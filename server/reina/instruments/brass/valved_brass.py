@@ -15,7 +15,7 @@ from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking, rank_parts
 from reina.keyframes.parameter import Parameter
 from reina.music.arrays import read_only
-from reina.music.errors import ScoreError
+from reina.music.errors import NotInScoreError
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
 
@@ -92,10 +92,12 @@ class ValvedBrass:
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
 
         Raises:
-            ScoreError: If the score has no such part.
+            NotInScoreError: If the score has no such part.
         """
         if not 0 <= part < len(score.parts):
-            raise ScoreError(f"there is no part {part}; there are 0 to {len(score.parts) - 1}", where="part")
+            raise NotInScoreError(
+                f"there is no part {part}; there are 0 to {len(score.parts) - 1}", where="part"
+            )
         log = WarningLog(MOST_TOLD)
         place = f"part {part}"
         if written:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reina.music.arrays import FloatArray, IntArray
-from reina.music.errors import ScoreError
+from reina.music.errors import NotInScoreError, ScoreError
 from reina.music.limits import Limits
 from reina.music.midi.chunks import read_header, unwrap
 from reina.music.midi.control_messages import read_controls
@@ -44,7 +44,9 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     if header.format == 2:
         tracks, sequence, sequences = _choose_sequence(tracks, sequence, log)
     elif sequence not in {None, 0}:
-        raise ScoreError(f"the file has one sequence, so there is no sequence {sequence}", where="sequence")
+        raise NotInScoreError(
+            f"the file holds one sequence, 0; there is no sequence {sequence}", where="sequence"
+        )
 
     messages = Messages.of(tracks)
     sounding = (messages.command == NOTE_ON) | (messages.command == NOTE_OFF)
@@ -96,9 +98,9 @@ def _choose_sequence(
     if not with_notes:
         return tracks, 0, 1
     if sequence is not None and not 0 <= sequence < len(with_notes):
-        raise ScoreError(
-            f"there is no sequence {sequence}; there are 0 to {len(with_notes) - 1}", where="sequence"
-        )
+        last = len(with_notes) - 1
+        held = f"{last + 1} sequences, 0 to {last}" if last else "one sequence, 0"
+        raise NotInScoreError(f"the file holds {held}; there is no sequence {sequence}", where="sequence")
     if len(with_notes) > 1 and sequence is None:
         count = len(with_notes)
         log.add(
