@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import socket
 import struct
@@ -20,20 +21,30 @@ from reina.protocol import SUBPROTOCOL, FrameFlag, decode
 
 if TYPE_CHECKING:
     import httpx
+    from numpy.typing import NDArray
     from tests.integration.server import Owned, Running
 
-    from reina.protocol import Frames
-
-SEEKS_TO_FILL = 300
-"""Each sends twelve frames, 18 kB, to a viewer that does not read: together twice what sockets hold here."""
+BACKLOG_BYTES = 200_000
+"""What a viewer that does not read is sent at most: its socket's, the system's and the server's buffers."""
+SEEKS_TO_FILL = 30
+"""Each sends twelve frames, 18 kB: together more than `BACKLOG_BYTES`."""
 BODY = 24
 """Where a frame's header ends: what stands there is the same for everybody at any time."""
 
 
-def bodies(frames: Frames) -> dict[int, bytes]:
-    """Frame index to the bytes from 24 on."""
-    rows = np.frombuffer(frames.tobytes(), np.uint8).reshape(len(frames), -1)
-    return {int(index): row[BODY:].tobytes() for index, row in zip(frames["index"], rows, strict=True)}
+def whole(watcher: Watcher, chosen: NDArray[np.bool_]) -> dict[int, bytes]:
+    """Frame index to all its bytes as they came, of the frames that are chosen, the padding too."""
+    # By bytes: where NumPy picks rows of a structured array it leaves the padding as it finds it.
+    rows = np.frombuffer(b"".join(watcher.messages), np.uint8).reshape(-1, watcher.manifest.frame_size)
+    return {
+        int(index): row.tobytes()
+        for index, row in zip(watcher.frames["index"][chosen], rows[chosen], strict=True)
+    }
+
+
+def bodies(frames: dict[int, bytes]) -> dict[int, bytes]:
+    """The bytes from 24 on."""
+    return {index: frame[BODY:] for index, frame in frames.items()}
 
 
 async def control(owned: Owned, action: str, **fields: Any) -> dict[str, Any]:
@@ -94,27 +105,32 @@ def test_playing_streams_sixty_frames_a_second_ahead_of_their_time(server: Runni
 
 
 def test_seeking_shows_what_playing_to_there_shows(server: Running, owned: Owned) -> None:
-    async def scenario() -> tuple[Frames, Frames]:
+    async def scenario() -> tuple[Watcher, list[int], list[int]]:
         async with watch(server, owned.id) as watcher:
             played = await control(owned, "play")
             await watcher.frame(75, epoch=played["epoch"])
             await control(owned, "pause")
             paused = await control(owned, "seek", song_time_s=0.0)
             await watcher.frame(0, epoch=paused["epoch"])
-            playing = decode(watcher.manifest, b"".join(watcher.messages))
+            frames = watcher.frames
             sought: list[int] = []
-            for index in (70, 3, 59, 60, 0, 61):
+            # On a machine that is busy some frames may have been lost: those next to them do as well.
+            seen = frames["index"][frames["flags"] & FrameFlag.PLAYING != 0]
+            wanted = [int(seen[np.abs(seen - index).argmin()]) for index in (70, 3, 59, 60, 0, 61)]
+            for index in wanted:
                 state = await control(owned, "seek", song_time_s=index / 60)
                 await watcher.frame(index, epoch=state["epoch"])
                 sought.append(state["epoch"] % 256)
-            frames = watcher.frames
-            return playing, frames[np.isin(frames["epoch"], sought)]
+            return watcher, sought, wanted
 
-    playing, sought = asyncio.run(scenario())
-    assert sought["index"].tolist() == [70, 3, 59, 60, 0, 61], "while paused, one frame a change"
-    assert (sought["flags"] == FrameFlag.FIRST).all()
-    expected, got = bodies(playing), bodies(sought)
-    assert all(got[index] == expected[index] for index in got)
+    watcher, epochs, wanted = asyncio.run(scenario())
+    frames = watcher.frames
+    sought = np.isin(frames["epoch"], epochs)
+    assert frames["index"][sought].tolist() == wanted, "while paused, one frame a change"
+    assert (frames["flags"][sought] == FrameFlag.FIRST).all()
+    expected = bodies(whole(watcher, frames["flags"] & FrameFlag.PLAYING != 0))
+    got = bodies(whole(watcher, sought))
+    assert got == {index: expected[index] for index in set(wanted)}
 
 
 def test_frames_over_http_are_those_of_the_stream(server: Running, owned: Owned) -> None:
@@ -133,8 +149,12 @@ def test_frames_over_http_are_those_of_the_stream(server: Running, owned: Owned)
     assert over_http["index"].tolist() == list(range(70))
     assert not over_http["epoch"].any()
     assert not over_http["due_time_s"].any()
-    streamed, fetched = bodies(watcher.frames), bodies(over_http)
-    assert all(fetched[index] == streamed[index] for index in range(70))
+    size = watcher.manifest.frame_size
+    fetched = {index: answer.content[index * size : (index + 1) * size] for index in range(70)}
+    playing = watcher.frames["flags"] & FrameFlag.PLAYING != 0
+    streamed = {index: body for index, body in bodies(whole(watcher, playing)).items() if index < 70}
+    assert len(streamed) >= 50
+    assert streamed == {index: bodies(fetched)[index] for index in streamed}
 
 
 def test_two_viewers_see_the_same_bytes(server: Running, owned: Owned) -> None:
@@ -152,13 +172,14 @@ def test_two_viewers_see_the_same_bytes(server: Running, owned: Owned) -> None:
 
     one, two, by_six = asyncio.run(scenario())
 
-    def playing(watcher: Watcher) -> list[bytes]:
-        frames = watcher.frames
-        size = watcher.manifest.frame_size
-        data = frames[(frames["flags"] & FrameFlag.PLAYING) != 0].tobytes()
-        return [data[at : at + size] for at in range(0, len(data), size)][:40]
-
-    assert playing(one) == playing(two) == playing(by_six)
+    seen = [
+        whole(watcher, watcher.frames["flags"] & FrameFlag.PLAYING != 0) for watcher in (one, two, by_six)
+    ]
+    # Whoever was held up on a busy machine has lost frames, each its own.
+    common = sorted(set(seen[0]) & set(seen[1]) & set(seen[2]))
+    assert len(common) >= 20
+    for index in common:
+        assert seen[0][index] == seen[1][index] == seen[2][index]
     sizes = {len(message) // by_six.manifest.frame_size for message in by_six.messages[1:-1]}
     assert 6 in sizes
     assert {len(message) for message in one.messages} == {one.manifest.frame_size}
@@ -340,6 +361,16 @@ def stalled(server: Running, session: str, query: str = "") -> socket.socket:
     return connection
 
 
+def backlog(line: socket.socket) -> int:
+    """How many bytes are still on their way to a viewer."""
+    line.settimeout(0.3)
+    received = 0
+    with contextlib.suppress(TimeoutError):
+        while chunk := line.recv(65536):
+            received += len(chunk)
+    return received
+
+
 def test_a_viewer_that_stops_reading_costs_nobody_anything(server: Running, owned: Owned) -> None:
     async def scenario(seconds: float) -> tuple[Watcher, int]:
         async with watch(server, owned.id) as watcher:
@@ -355,7 +386,8 @@ def test_a_viewer_that_stops_reading_costs_nobody_anything(server: Running, owne
 
     lines = [stalled(server, owned.id) for _ in range(4)]
     try:
-        watcher, grown = asyncio.run(scenario(4.0))
+        watcher, grown = asyncio.run(scenario(3.0))
+        behind = [backlog(line) for line in lines]
     finally:
         for line in lines:
             line.close()
@@ -363,9 +395,11 @@ def test_a_viewer_that_stops_reading_costs_nobody_anything(server: Running, owne
     played = frames[(frames["flags"] & FrameFlag.PLAYING) != 0]
     steps = np.diff(played["index"].astype(int))
     assert set(steps.tolist()) <= {1, -179}, "the others get every frame"
-    assert len(played) >= 4 * 60
-    # Each stalled viewer may fill its socket's buffers and its outbox, and no more.
+    assert len(played) >= 3 * 60
+    # Each stalled viewer may fill its socket's buffers and its outbox, and no more; the rest it has lost.
     assert grown < 4_000_000
+    assert len(played) * watcher.manifest.frame_size > BACKLOG_BYTES
+    assert max(behind) < BACKLOG_BYTES
 
 
 def test_too_many_control_messages_close_with_try_again_later(server: Running, owned: Owned) -> None:

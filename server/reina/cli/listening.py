@@ -8,6 +8,9 @@ import socket
 from reina.errors import InputError
 
 BACKLOG = 2048
+UNSENT_BYTES = 64 * 1024
+"""What the system takes over of a connection's data before it can be sent. Without this bound it grows to
+megabytes, half a minute of frames that a slow viewer would have to read before it came to the present."""
 
 
 def listen(host: str, port: int) -> list[socket.socket]:
@@ -47,6 +50,9 @@ def _bound(family: int, kind: int, protocol: int, address: tuple[str | int, ...]
     listening = socket.socket(family, kind, protocol)
     try:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        if hasattr(socket, "TCP_NOTSENT_LOWAT"):
+            # Those who are accepted inherit it.
+            listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
         if family == socket.AF_INET6:
             listening.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
         listening.bind(address)
