@@ -84,11 +84,11 @@ void main() {
   float radius = 0.05 + along * spread;
   float off = distance(place, onAxis) / radius;
   float beam = exp(-mix(3.4, 1.9, softness) * off * off) * smoothstep(${HULL.toFixed(2)}, 0.7, off);
-  // Slow smoke.
+  // Light thins as the cone widens, so that whom it shines at is not veiled. And slow smoke.
   vec3 drift = place * vec3(2.1, 2.7, 2.3) + vec3(0.11, -0.17, 0.07) * songTime;
   float smoke = 0.8 + 0.2 * sin(drift.x + 1.7 * sin(drift.y)) * sin(drift.y + 1.3 * sin(drift.z + drift.x));
   float fade = smoothstep(reach, 0.75 * reach, along) * smoothstep(0.6, 4.6, distance(place, cameraPosition));
-  float light = beam * smoke * fade * 0.02 / ((0.16 + radius) * sqrt(crossing));
+  float light = beam * smoke * fade * min(0.0075 / ((0.1 + radius) * (0.1 + radius)), 0.14) / sqrt(crossing);
   float grain = (rand(gl_FragCoord.xy) - 0.5) / 400.0;
   gl_FragColor = vec4(max(vec3(0.0), color * light + grain * step(0.0005, light)), 1.0);
 }`;
