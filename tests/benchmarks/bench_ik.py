@@ -2,16 +2,20 @@
 
 Run as ``python tests/benchmarks/bench_ik.py``. Targets are the ends of random poses within the rig's
 limits; the iterative solvers begin at rest, stop within 0.1 mm and have 100 rounds. Also says what the
-paper's projection costs on this rig, and what its φ of -115° reaches.
+paper's projection costs on this rig, what its φ of -115° reaches, and how other libraries do with the same
+finger and the same targets, as far as they are installed (requirements/bench.txt).
 """
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from other_solvers import OTHERS, Measured, finger_of
 
 from reina.kinematics import (
     CoupledFinger,
@@ -26,8 +30,8 @@ from reina.kinematics import (
     solve_fabrik,
     solve_planar,
 )
-from reina.rotations import conjugate, rotate
-from reina.skeleton import forward_kinematics, load_hold, load_rig
+from reina.rotations import about_axis, conjugate, multiply, rotate
+from reina.skeleton import forward_kinematics, load_hold, load_rig, read_bvh
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -134,6 +138,67 @@ def python_loop() -> None:
     row("finger, tip alone, one call each", 1.0, 0.0, took)
 
 
+def beside_others() -> None:
+    """The same finger and targets for other libraries, as times of Reina's."""
+    chain = JointChain.from_rig(PLAYER, "rightIndex")
+    finger = finger_of(chain)
+    single = FingerChains(PLAYER, ["rightIndex"])
+    rng = np.random.default_rng(0)
+    angles = rng.uniform([h.low for h in finger.hinges], [h.high for h in finger.hinges], size=(COUNT, 4))
+    # Tendons couple the last joint: targets are such as a finger takes.
+    rests = [2.0 * np.arctan2(hinge.rest[2], hinge.rest[3]) for hinge in finger.hinges[2:]]
+    coupled = (angles[:, 2] + rests[0]) / 3.0 - rests[1]
+    angles[:, 3] = np.clip(coupled, finger.hinges[3].low, finger.hinges[3].high)
+    targets = single.tips(_rotations(chain, angles)[:, None])[:, 0]
+    solved, _ = single.solve(targets[:, None])
+    error = np.linalg.norm(single.tips(solved)[:, 0] - targets, axis=-1)
+    own = Measured(error, best_us(lambda: single.solve(targets[:, None]), 30) / COUNT)
+    print()
+    print(f"the same finger and targets {'':18s} reached   median, mm  µs each     ratio")
+    beside("Reina, closed form, one block", own, own)
+    start = time.process_time()
+    found = solve_damped_least_squares(chain, targets)
+    took = (time.process_time() - start) / COUNT * 1e6
+    beside("Reina, damped least squares, one block", Measured(found.error, took), own)
+    for other in OTHERS:
+        missing = other.missing()
+        if missing:
+            print(f"{other.name:45s} {missing}")
+        else:
+            beside(other.name, other.run(finger, targets[: other.targets]), own)
+
+
+def _rotations(chain: JointChain, angles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A finger's local rotations ``(B, 3, 4)`` from its four hinges' angles."""
+    local = np.tile(chain.rest, (len(angles), 1, 1))
+    for number, (joint, place) in enumerate(chain.hinges):
+        axis = "xyz".index(chain.limits[joint].order[place])
+        local[:, joint] = multiply(local[:, joint], about_axis(axis, angles[:, number]))
+    return local
+
+
+def beside(name: str, measured: Measured, own: Measured) -> None:
+    """Print one line of the comparison."""
+    middle = float(np.median(measured.error_m)) * 1e3
+    ratio = measured.took_us / own.took_us
+    print(f"{name:45s} {measured.reached:8.1%} {middle:12.1e} {measured.took_us:8.1f} {ratio:9.0f}")
+
+
+def motion_files() -> None:
+    """A shipped clip read by Reina and by bvhio."""
+    path = RIGS / "trumpeter" / "clips" / "shifting.bvh"
+    data = path.read_bytes()
+    own = best_us(lambda: read_bvh(data), 3) / 1e3
+    print()
+    print(f"{path.name}, {len(data) // 1024} KiB: Reina reads it in {own:.1f} ms", end="")
+    if importlib.util.find_spec("bvhio") is None:
+        print("; bvhio not installed: pip install -r requirements/bench.txt")
+        return
+    bvhio: Any = importlib.import_module("bvhio")
+    other = best_us(lambda: bvhio.readAsBvh(str(path)), 2) / 1e3
+    print(f", bvhio in {other:.0f} ms: {other / own:.0f} times as long")
+
+
 def finger_lengths(finger: CoupledFinger) -> list[float]:
     """The bones of a finger."""
     return [float(finger.l1), float(finger.l2), float(finger.l3)]
@@ -152,6 +217,8 @@ def main() -> None:
     for name in ("rightIndex", "rightArm", "leftLeg"):
         iterative(name)
     projection()
+    beside_others()
+    motion_files()
 
 
 if __name__ == "__main__":

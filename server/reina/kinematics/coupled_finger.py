@@ -34,8 +34,9 @@ class CoupledFinger:
 
     Args:
         lengths: Bone lengths, ``(..., 3)``, metres; leading axes are fingers and broadcast against the
-        targets. kappa: θ3 / θ2, one number, positive. limits_rad: Least and greatest angle of each joint,
-        ``(..., 3, 2)``. θ2 is used within -135°..0.
+            targets.
+        kappa: θ3 / θ2, one number, positive.
+        limits_rad: Least and greatest angle of each joint, ``(..., 3, 2)``. θ2 is used within -135°..0.
 
     Raises:
         ValueError: κ or a length is not positive, or θ2 has no room below 0.

@@ -39,8 +39,7 @@ class JointChain:
 
     Args:
         links: Each joint in its parent's frame, then the end in the last joint's, metres, ``(N + 1, 3)``;
-            the first
-            is the chain's base in the frame in which targets are given.
+            the first is the chain's base in the frame in which targets are given.
         rest: Local rest rotations, ``(N, 4)``.
         limits: Of each joint, None where it turns freely.
 

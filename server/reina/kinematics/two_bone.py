@@ -45,9 +45,8 @@ class TwoBoneLimbs:
         rig: The player's rig.
         names: K chains of three joints: upper, lower, end.
         softness: Length of the zone before full reach in which the limb straightens ever more slowly
-        instead of
-            snapping straight, as a part of the reach; the end stays behind the target there. 0 is a hard
-            stop.
+            instead of snapping straight, as a part of the reach; the end stays behind the target there. 0
+            is a hard stop.
 
     Raises:
         RigError: A chain has not three joints, or its middle joint's limits name no single axis.
@@ -99,9 +98,8 @@ class TwoBoneLimbs:
             roots: World positions of the upper joints, ``(..., K, 3)``, metres.
             targets: World positions for the end joints, ``(..., K, 3)``, metres.
             hinge_directions: Which way the hinge axes should point in the world, ``(..., K, 3)``; only what
-            lies across
-                root-to-target counts, and it must not vanish. `hinge_directions_from_poles` makes them of
-                poles.
+                lies across root-to-target counts, and it must not vanish. `hinge_directions_from_poles`
+                makes them of poles.
         """
         offset = np.asarray(targets, dtype=np.float64) - np.asarray(roots, dtype=np.float64)
         wanted = np.sqrt(np.einsum("...i,...i->...", offset, offset))
