@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
+import numpy as np
+from PIL import Image
+
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from playwright.sync_api import ConsoleMessage, Page
 
+FPS = 60
 PATIENCE_S = 60.0
 """Software GL on a busy machine draws a few pictures a second."""
 
@@ -33,12 +39,14 @@ class Opened:
         """Load an address of the server, drawn with the least effort."""
         self.page.goto(f"{self._address}{path}?tier=low")
 
-    def until_at_rest(self, index: int, epoch: int) -> None:
-        """Wait until the frame of a paused clock's epoch is drawn, unblended."""
+    def until_at_rest(self, transport: dict[str, Any]) -> int:
+        """Wait until the frame of a paused clock's state is drawn, unblended; returns its index."""
+        index = int(transport["song_time_s"] * FPS + 1e-6)
         self.until(
             "([index, epoch]) => window.reina.drawnIndex === index && window.reina.drawnEpoch === epoch",
-            [index, epoch % 256],
+            [index, transport["epoch"] % 256],
         )
+        return index
 
     @property
     def session(self) -> str:
@@ -53,9 +61,36 @@ class Opened:
         """Wait for the page's own sign that it has drawn a picture of its session."""
         self.until("window.reina?.drawn === true")
 
+    def until_another_session(self, first: str) -> None:
+        """Wait for a picture of another session than the first."""
+        self.until(
+            "(first) => window.reina?.session && window.reina.session !== first && window.reina.drawn", first
+        )
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What controls the page's session over HTTP."""
+        tokens = self.page.evaluate("JSON.parse(localStorage.reina).tokens")
+        return {"Authorization": f"Bearer {tokens[self.session]}"}
+
+    def picture(self) -> NDArray[np.int16]:
+        """The page's pixels, (height, width, 3)."""
+        image = Image.open(io.BytesIO(self.page.screenshot(timeout=PATIENCE_S * 1000))).convert("RGB")
+        return np.asarray(image).astype(np.int16)
+
+    def hide_panels(self) -> None:
+        """Leave nothing in the window but the stage."""
+        self.page.add_style_tag(content=".chrome { display: none }")
+
     def measure(self, name: str) -> Any:
         """A figure of `window.reina`."""
         return self.page.evaluate("(name) => window.reina[name]", name)
+
+    def parameter(self, path: str) -> list[float]:
+        """A parameter's floats in the frame that was drawn last."""
+        value = self.page.evaluate("(path) => window.reina.parameter(path)", path)
+        assert value is not None, f"the session streams no {path}"
+        return value
 
     def bone_quaternions(self) -> dict[str, list[float]]:
         """Local joint rotations as three.js has them, x y z w."""
@@ -66,3 +101,11 @@ class Opened:
         self.page.set_input_files(
             "#files", [{"name": name, "mimeType": media, "buffer": data} for name, media, data in files]
         )
+
+    def open_files(self, *files: tuple[str, str, bytes]) -> Opened:
+        """Choose files of a score, and wait for the picture of the session that they make."""
+        self.until_drawn()
+        first = self.session
+        self.choose_files(*files)
+        self.until_another_session(first)
+        return self

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
 import statistics
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from PIL import Image
+from tests.e2e.opened import FPS
 from tests.integration.scores import scale, song
 
 from reina.protocol import Manifest, decode
@@ -24,21 +23,13 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
-FPS = 60
 MIDI = ("scale.mid", "audio/midi", scale(32))
 WAV = ("scale.wav", "audio/wav", song(12.0))
 
 
 def open_scale(visit: Visit) -> Opened:
     """A page with a session of its own: a scale and its recording, uploaded through the file input."""
-    opened = visit()
-    opened.until_drawn()
-    first = opened.session
-    opened.choose_files(MIDI, WAV)
-    opened.until(
-        "(first) => window.reina?.session && window.reina.session !== first && window.reina.drawn", first
-    )
-    return opened
+    return visit().open_files(MIDI, WAV)
 
 
 def streamed_rotations(client: httpx.Client, session: str, index: int) -> dict[str, NDArray[np.float32]]:
@@ -62,22 +53,27 @@ def sampled(opened: Opened, name: str, count: int = 9) -> list[float | None]:
     return values
 
 
-def picture(opened: Opened) -> NDArray[np.int16]:
-    """The page's pixels, (height, width, 3)."""
-    image = Image.open(io.BytesIO(opened.page.screenshot(timeout=60_000))).convert("RGB")
-    return np.asarray(image).astype(np.int16)
-
-
-def test_first_visit_opens_the_bundled_piece_and_comes_back_to_it(visit: Visit) -> None:
+def test_first_visit_opens_the_bundled_piece_and_comes_back_to_where_it_was(
+    visit: Visit, client: httpx.Client
+) -> None:
     opened = visit()
     opened.until_drawn()
     session = opened.session
     assert len(session) >= 22, "the session has an address of its own"
     assert opened.page.get_by_role("button", name="Drop your MIDI").is_visible()
     assert opened.page.get_by_role("region", name="Transport").is_visible()
-    opened.go("/")
-    opened.until_drawn()
-    assert opened.session == session
+    opened.page.keyboard.press("Shift+ArrowRight")
+    opened.until("window.reina.drawnIndex > 0")
+    left = client.get(f"/api/v1/sessions/{session}/transport").json()
+    index = opened.until_at_rest(left)
+    assert index > FPS, "the second bar"
+    bones = opened.bone_quaternions()
+    for come_back in (lambda: opened.go("/"), opened.page.reload):
+        come_back()
+        opened.until_drawn()
+        assert opened.session == session
+        assert opened.until_at_rest(left) == index
+        assert opened.bone_quaternions() == bones
 
 
 def test_an_uploaded_score_plays_with_its_song_and_the_streamed_bones(
@@ -94,8 +90,7 @@ def test_an_uploaded_score_plays_with_its_song_and_the_streamed_bones(
     page.keyboard.press("Space")
     opened.until("!window.reina.playing")
     paused = client.get(f"/api/v1/sessions/{opened.session}/transport").json()
-    index = int(paused["song_time_s"] * FPS + 1e-6)
-    opened.until_at_rest(index, paused["epoch"])
+    index = opened.until_at_rest(paused)
     drawn = opened.bone_quaternions()
     streamed = streamed_rotations(client, opened.session, index)
     assert set(drawn) == set(streamed)
@@ -105,7 +100,7 @@ def test_an_uploaded_score_plays_with_its_song_and_the_streamed_bones(
     assert len(turned) > 10, "the player stands in a pose, not at rest"
 
 
-def test_a_seek_in_one_tab_moves_the_other(visit: Visit, client: httpx.Client) -> None:
+def test_two_tabs_of_a_session_move_play_and_stop_together(visit: Visit, client: httpx.Client) -> None:
     first = open_scale(visit)
     second = visit(f"/s/{first.session}", beside=first)
     second.until_drawn()
@@ -114,10 +109,18 @@ def test_a_seek_in_one_tab_moves_the_other(visit: Visit, client: httpx.Client) -
     for one in opened:
         one.until("window.reina.drawnIndex > 0 && !window.reina.playing")
     state = client.get(f"/api/v1/sessions/{first.session}/transport").json()
-    index = int(state["song_time_s"] * FPS + 1e-6)
-    assert index == 2 * FPS, "the second bar of the scale"
     for one in opened:
-        one.until_at_rest(index, state["epoch"])
+        assert one.until_at_rest(state) == 2 * FPS, "the second bar of the scale"
+    assert first.bone_quaternions() == second.bone_quaternions()
+    first.page.keyboard.press("Space")
+    for one in opened:
+        one.until("(left) => window.reina.playing && window.reina.drawnIndex > left", 2 * FPS)
+    second.page.keyboard.press("Space")
+    for one in opened:
+        one.until("!window.reina.playing")
+    state = client.get(f"/api/v1/sessions/{first.session}/transport").json()
+    for one in opened:
+        assert one.until_at_rest(state) > 2 * FPS
     assert first.bone_quaternions() == second.bone_quaternions()
 
 
@@ -162,8 +165,8 @@ def test_the_picture_shows_a_player_with_brass_in_her_hands(visit: Visit) -> Non
     opened = visit()
     opened.until_drawn()
     opened.page.wait_for_timeout(1000)
-    opened.page.add_style_tag(content=".chrome { display: none }")
-    whole = picture(opened)
+    opened.hide_panels()
+    whole = opened.picture()
     assert whole.std() > 30, "the picture is not blank"
     height, width = whole.shape[:2]
     middle = whole[height // 6 : -height // 6, width // 4 : -width // 4]

@@ -25,30 +25,13 @@ DUET = (("duet.mid", "audio/midi", duet()), ("duet.wav", "audio/wav", song(4.0))
 LOST = ("ERR_CONNECTION_REFUSED", "WebSocket connection to")
 
 
-def open_duet(opened: Opened) -> Opened:
-    """Upload a duet into a page that has just been opened."""
-    opened.until_drawn()
-    first = opened.session
-    opened.choose_files(*DUET)
-    opened.until(
-        "(first) => window.reina?.session && window.reina.session !== first && window.reina.drawn", first
-    )
-    return opened
-
-
-def token(opened: Opened) -> dict[str, str]:
-    """The header that controls the page's session."""
-    tokens = opened.page.evaluate("JSON.parse(localStorage.reina).tokens")
-    return {"Authorization": f"Bearer {tokens[opened.session]}"}
-
-
 def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> None:
     with serve(tmp_path) as before:
         port = urlsplit(before.address).port
         context = browser.new_context(viewport={"width": 760, "height": 430})
         opened = Opened(context.new_page(), before.address, LOST)
         opened.go("/")
-        open_duet(opened)
+        opened.open_files(*DUET)
         assert before.stop() == 0
         opened.page.get_by_text("The connection is lost").wait_for()
     with serve(tmp_path, "--port", str(port)):
@@ -60,21 +43,22 @@ def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> 
 
 
 def test_a_session_that_ends_says_so_and_offers_a_way_on(visit: Visit, client: httpx.Client) -> None:
-    opened = open_duet(visit(refusals=("404", *LOST)))
-    assert client.delete(f"/api/v1/sessions/{opened.session}", headers=token(opened)).status_code == 204
+    opened = visit(refusals=("404", *LOST)).open_files(*DUET)
+    assert client.delete(f"/api/v1/sessions/{opened.session}", headers=opened.headers).status_code == 204
     opened.page.get_by_role("heading", name="This session is not here").wait_for()
     opened.page.get_by_role("link", name="Open Reina's piece").click()
     opened.until_drawn()
 
 
 def test_the_keyboard_chooses_a_part(visit: Visit, client: httpx.Client) -> None:
-    opened = open_duet(visit(size=(1100, 620)))
+    opened = visit(size=(1100, 620)).open_files(*DUET)
     opened.page.keyboard.press("p")
     chosen = opened.page.get_by_role("radio", checked=True)
     chosen.focus()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 1
     opened.page.keyboard.press("ArrowDown")
     opened.page.get_by_role("radio", name="Flute", checked=True).wait_for()
-    opened.page.wait_for_function("document.querySelector('fieldset').ariaBusy === 'false'")
+    parts = opened.page.get_by_role("group", name="Part the trumpet plays")
+    parts.and_(opened.page.locator("[aria-busy=false]")).wait_for()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 0
     assert opened.page.evaluate("document.activeElement.type") == "radio", "the keyboard keeps its place"
