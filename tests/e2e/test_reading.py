@@ -1,0 +1,71 @@
+"""What the page tells of a score: the next notes and their fingerings, what was repaired, why a part."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from tests.integration.scores import duet
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import httpx
+    from tests.e2e.opened import Opened
+
+    Visit = Callable[..., Opened]
+
+pytestmark = pytest.mark.browser
+
+NARROW = (420, 500)
+"""The strip of next notes has its own line in a narrow window."""
+REPAIRED = ("repaired.mid", "audio/midi", b"junk" + duet()[:-3])
+WRITTEN = [("G4", "open"), ("A4", "1 and 2"), ("B4", "2"), ("C5", "open")]
+SOUNDING = ["F4", "G4", "A4", "B♭4"]
+STRIP = """() => [...document.querySelectorAll("ol.notes li")].map((note) => [
+  note.querySelector(".name").textContent,
+  note.querySelector(".valves").ariaLabel.replace("valves: ", ""),
+  note.classList.contains("sounding"),
+])"""
+
+
+def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(size=NARROW).open_files(REPAIRED)
+    page = opened.page
+    path = f"/api/v1/sessions/{opened.session}"
+
+    def strip() -> list[tuple[str, str, bool]]:
+        return [tuple(note) for note in page.evaluate(STRIP)]
+
+    def seek(song_time_s: float) -> None:
+        body = {"action": "seek", "song_time_s": song_time_s}
+        opened.until_at_rest(client.post(f"{path}/transport", json=body, headers=opened.headers).json())
+
+    assert strip() == [(*note, place == 0) for place, note in enumerate(WRITTEN)]
+    seek(1.2)
+    assert strip() == [(*WRITTEN[2], True), (*WRITTEN[3], False)]
+    page.keyboard.press("n")
+    page.get_by_role("list", name="as they sound").wait_for()
+    assert [name for name, _, _ in strip()] == SOUNDING[2:]
+    assert [valves for _, valves, _ in strip()] == ["2", "open"], "the fingering stays"
+    page.keyboard.press("End")
+    page.get_by_role("listitem").filter(has_text="The end").wait_for()
+    page.keyboard.press("n")
+    page.get_by_role("list", name="as written for the trumpet").wait_for()
+
+    page.keyboard.press("p")
+    warnings = client.get(f"{path}/score").json()["warnings"]
+    assert {warning["kind"] for warning in warnings} >= {"leading_bytes", "truncated_track"}
+    page.get_by_text(f"{len(warnings)} things to know").wait_for()
+    listed = page.locator(".warnings li").all_inner_texts()
+    assert [text.split("\n") for text in listed] == [
+        [warning["place"], warning["message"]] for warning in warnings
+    ]
+    session = client.get(path).json()
+    rows = page.get_by_role("group", name="Part the trumpet plays").locator("label")
+    assert rows.count() == len(session["choices"]) == 2
+    assert [row.locator(".name").inner_text() for row in rows.all()] == ["Trumpet", "Flute"], "the best first"
+    for row, choice in zip(rows.all(), session["choices"], strict=True):
+        said = row.locator(".why").inner_text().split("; ")
+        assert len(said) == len(choice["reasons"]) > 0
+        assert all(reason.startswith(text) for text, reason in zip(said, choice["reasons"], strict=True))
