@@ -173,8 +173,8 @@ class SessionStore:
     ) -> None:
         """Rename a session, list it or not, or let the player play something else; None leaves as it is.
 
-        Of another sequence the part that suits best is played, unless one is named with it. A show that is
-        still the one written for the sequence before is written anew.
+        Of another sequence the part that suits best is played, unless one is named with it. A title and a
+        show that are still those of the sequence before give way to its own.
 
         Raises:
             InputError: There is no such part or sequence; nothing is changed then.
@@ -197,7 +197,9 @@ class SessionStore:
                 production, kept = await asyncio.to_thread(
                     self._plan_other, session, record, names_part=part is not None
                 )
-                record = record.model_copy(update={"part": production.part})
+                before, after = session.production.score.title, production.score.title
+                titled = {"title": after} if title is None and record.title == before else {}
+                record = record.model_copy(update={"part": production.part, **titled})
                 session.change_part(record, production)
                 if kept is not session.kept_show:
                     session.change_show(production, kept)

@@ -136,6 +136,10 @@ def test_a_show_written_for_one_sequence_is_written_anew_for_another(tmp_path: P
         await store.change(session, sequence=1)
         assert session.production.show == session.kept_show.show == fresh.production.show != before
         assert session.kept_show.history.past == (before,)
+        assert session.record.title == fresh.record.title == "Walk"
+        await store.change(session, sequence=2, title="Mine")
+        await store.change(session, sequence=1)
+        assert session.record.title == "Mine"
         found = await a_store(tmp_path, stage).get(session.id)
         assert found is not None
         assert found.production.show == fresh.production.show
