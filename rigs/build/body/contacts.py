@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 RIM_RADIUS_M = 0.0118
+PLAYING_MOUTH = {"mouthPucker": 0.36, "mouthPress": 0.45}  # morphs while a note sounds
 RIM_PRESS_M = 0.0012  # how far the rim sinks into the lips' softness
 THICKEST_DIGIT_M = 0.0120
 PITCH_DOWN_RAD = float(np.radians(10.0))  # of the mouthpiece from the head, as it is held
@@ -31,13 +32,14 @@ def lips_contact(figure: Figure, lip_centre: Array) -> Array:
     A circle laid against the mouth, pressed in a little.
     """
     faces = figure.mesh.triangles(["body"])
+    playing = figure.vertices + sum(weight * figure.morphs[name] for name, weight in PLAYING_MOUTH.items())
     forward = np.array([0.0, -np.sin(PITCH_DOWN_RAD), np.cos(PITCH_DOWN_RAD)])
     up = np.cross(forward, [1.0, 0.0, 0.0])
     start = lip_centre + 0.05 * forward
     depths: list[float] = []
     for angle in np.linspace(0, 2 * np.pi, 24, endpoint=False):
         point = start + RIM_RADIUS_M * (np.cos(angle) * np.array([1.0, 0, 0]) + np.sin(angle) * up)
-        depths.append(0.05 - ray_distances(point, -forward, figure.vertices, faces)[0])
+        depths.append(0.05 - ray_distances(point, -forward, playing, faces)[0])
     rest = float(np.percentile(depths, 70)) - RIM_PRESS_M
     return np.array([0.0, lip_centre[1], lip_centre[2]]) + rest * forward
 

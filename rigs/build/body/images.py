@@ -35,7 +35,7 @@ def mixed(picture: Picture, colour: tuple[float, float, float], amount: Picture)
 
 
 def hair_picture(width: int = 256, height: int = 512) -> Picture:
-    """Strands along v, lighter in a band where the crown catches the light."""
+    """Strands along v, lighter in a band where the crown catches the light; the last rows dark."""
     rng = np.random.default_rng(11)
     strands = np.zeros(width)
     for size, amount in ((1, 0.5), (3, 0.35), (7, 0.25)):
@@ -44,7 +44,7 @@ def hair_picture(width: int = 256, height: int = 512) -> Picture:
     strands = (strands - strands.mean()) / strands.std()
     t = np.linspace(0, 1, height)[:, None]
     shade = 0.80 + 0.38 * np.exp(-(((t - 0.40) / 0.12) ** 2)) + 0.10 * t
-    grey = shade * (1 + 0.16 * strands[None])
+    grey = shade * (1 + 0.16 * strands[None]) * np.where(t > 0.98, 0.12, 1.0)
     return (grey[..., None] * np.array([0.252, 0.162, 0.1352])).astype(np.float32)
 
 
@@ -56,7 +56,7 @@ def eye_picture(size: int = 512) -> Picture:
     half = size / 2
     r = np.hypot(x - half + 0.5, y - half + 0.5) / half
     angle = np.arctan2(y - half, x - half)
-    iris, pupil = 0.46, 0.19
+    iris, pupil = 0.49, 0.20
     spokes: Picture = np.interp(
         angle, np.linspace(-np.pi, np.pi, 181), np.convolve(rng.random(181), np.ones(3) / 3, "same")
     )
@@ -64,7 +64,7 @@ def eye_picture(size: int = 512) -> Picture:
     picture *= 1 - 0.18 * np.clip(r - 0.55, 0, 1)[..., None] * np.array([0.6, 1, 1])
     t = np.clip((r - pupil) / (iris - pupil), 0, 1)
     brown: Picture = (
-        np.array([0.216, 0.12, 0.06]) * (1 - t)[..., None] + np.array([0.50, 0.30, 0.14]) * t[..., None]
+        np.array([0.17, 0.09, 0.05]) * (1 - t)[..., None] + np.array([0.40, 0.24, 0.13]) * t[..., None]
     )
     brown *= (0.75 + 0.5 * spokes[..., None]) * (1.15 - 0.55 * np.clip((half - y) / (size * 0.23), -1, 1))[
         ..., None
@@ -74,6 +74,8 @@ def eye_picture(size: int = 512) -> Picture:
     for edge, colour, soft in ((iris, brown, 1.5), (pupil, black, 2.0)):
         inside = np.clip((edge - r) * half / soft, 0, 1)[..., None]
         picture = picture * (1 - inside) + colour * inside
+    lid = np.clip((half * 0.80 - y) / (half * 0.42), 0, 1)  # the upper lid's shadow
+    picture = picture * (1 - 0.42 * lid[..., None] * np.array([0.8, 0.95, 1.0]))
     for cx, cy, radius, amount in ((-0.15, -0.17, 0.085, 1.0), (0.14, 0.15, 0.04, 0.7)):
         light = np.clip((radius - np.hypot((x - half) / half - cx, (y - half) / half - cy)) * half / 2, 0, 1)[
             ..., None

@@ -71,7 +71,7 @@ def build_player(data: Path, raw: Path, rig_folder: Path) -> None:
     mouth = lip_centre(figure, positions, covered)
     skin = bare_skin(figure, skeleton, weights, paint_skin(figure, skeleton, positions, covered))
     tailor = Tailor.measure(figure, skeleton, weights)
-    hair = Surface("hair", 0.42, image=jpeg(hair_picture(), 92), both_sides=True)
+    hair = Surface("hair", 0.60, image=jpeg(hair_picture(), 92), both_sides=True)
     for name, tier in TIERS.items():
         cloth = coat(tailor, tier.subdivisions)
         outer = blazer(tailor, cloth)

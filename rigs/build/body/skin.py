@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
+from scipy.spatial import cKDTree
 
 from body.images import Picture, blurred, jpeg, mixed
 from body.joint_names import SIDES
@@ -24,8 +25,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 SIZE = 1024
+LASH_LENGTH = 0.55  # of the source's
 SKIN = (0.93, 0.745, 0.645)
-BROW = (0.23, 0.155, 0.132)
+BROW = (0.24, 0.16, 0.135)
 
 
 def texel_positions(figure: Figure) -> tuple[Array, NDArray[np.bool_]]:
@@ -76,7 +78,10 @@ def paint_skin(figure: Figure, skeleton: Skeleton, positions: Array, covered: ND
     picture: Picture = np.tile(np.array(SKIN, np.float32), (SIZE, SIZE, 1))
     noise = blurred(rng.random((SIZE, SIZE)), 3)
     noise = (noise - noise.mean()) / noise.std()
-    picture = picture * (1 + 0.012 * noise[..., None] * np.array([0.5, 1, 1], np.float32))
+    broad = blurred(rng.random((SIZE, SIZE)), 22)
+    broad = (broad - broad.mean()) / broad.std()
+    picture = picture * (1 + 0.013 * noise[..., None] * np.array([0.5, 1, 1], np.float32))
+    picture = picture * (1 + 0.012 * broad[..., None] * np.array([0.3, 1.1, 1.0], np.float32))
 
     def spot(centre: Array, spread: list[float]) -> Array:
         glow: Array = np.exp(-(((positions - centre) / spread) ** 2).sum(axis=-1) / 2) * covered
@@ -96,26 +101,26 @@ def paint_skin(figure: Figure, skeleton: Skeleton, positions: Array, covered: ND
     nose = np.array([0, eyes[1][1] - 0.032, mouth[2] + 0.012])
     picture = mixed(picture, (0.93, 0.62, 0.55), 0.35 * spot(nose, [0.009, 0.009, 0.012]))
     picture = mixed(picture, (0.90, 0.58, 0.52), 0.35 * blurred(_mask(figure, "ears"), 4))
-    picture = mixed(picture, (0.84, 0.42, 0.42), 0.62 * blurred(_mask(figure, "lips"), 2))
+    picture = mixed(picture, (0.84, 0.42, 0.42), 0.52 * blurred(_mask(figure, "lips"), 3))
     picture = mixed(picture, (0.97, 0.78, 0.75), 0.75 * blurred(_mask(figure, "fingernails"), 1))
     for name in skeleton.names:
         if any(part in name for part in ("Index", "Middle", "Ring", "Little", "Thumb")):
             picture = mixed(picture, (0.90, 0.62, 0.55), 0.20 * spot(skeleton.positions[name], [0.007] * 3))
     for sign, eye in eyes.items():
-        picture = mixed(picture, BROW, 0.85 * _brow(positions, covered, eye, sign))
+        picture = mixed(picture, BROW, 0.95 * _brow(positions, covered, eye, sign))
     return picture
 
 
 def _brow(positions: Array, covered: NDArray[np.bool_], eye: Array, sign: int) -> Picture:
     u = (positions[..., 0] - eye[0]) * sign
     t = (u + 0.017) / 0.040
-    arch = eye[1] + 0.0185 + 0.0045 * np.sin(np.clip(t, 0, 1) * np.pi * 0.85) - 0.006 * np.clip(t - 0.6, 0, 1)
-    half = 0.0026 * (1 - 0.65 * np.clip(t, 0, 1))
+    arch = eye[1] + 0.0185 + 0.0036 * np.sin(np.clip(t, 0, 1) * np.pi * 0.85) - 0.007 * np.clip(t - 0.6, 0, 1)
+    half = 0.0036 * (1 - 0.62 * np.clip(t, 0, 1))
     stroke = np.clip(1.2 - np.abs(positions[..., 1] - arch) / half, 0, 1) * (t > 0) * (t < 1)
     stroke *= (
         np.clip(t * 6, 0, 1) * np.clip((1 - t) * 5, 0, 1) * covered * (positions[..., 2] > eye[2] - 0.01)
     )
-    return blurred(stroke, 0.8)
+    return blurred(stroke, 1.2)
 
 
 def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Picture) -> Part:
@@ -135,7 +140,7 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
         keep |= (arm > 0.3) & (along > 0.88)
     rise = v[:, 1] - skeleton.positions["neck"][1]
     from_axis = np.hypot(v[:, 0], v[:, 2] - 0.0205 - 0.37 * np.clip(rise, -0.03, 0.06))
-    above_collar = (rise > 0.05) | ((rise > -0.055) & (from_axis < 0.068))
+    above_collar = (rise > 0.05) | ((rise > -0.055) & (from_axis < 0.060))
     head, neck = weights[:, column["head"]], weights[:, column["neck"]]
     keep |= (head > 0.4) | ((head + neck > 0.12) & above_collar)
     faces = [face for face in figure.mesh.groups["body"] if keep[face[0]].all()]
@@ -168,7 +173,9 @@ def lashes(figure: Figure, weights: Array) -> Part:
     faces = figure.mesh.triangles(groups)
     used = np.unique(faces)
     mesh = Mesh(figure.vertices, weights, faces).compact()
-    surface = Surface("lashes", 0.8, colour=(0.07, 0.05, 0.05), both_sides=True)
+    lids = figure.body[cKDTree(figure.body).query(mesh.vertices)[1]]
+    mesh.vertices = lids + LASH_LENGTH * (mesh.vertices - lids)
+    surface = Surface("lashes", 0.9, colour=(0.13, 0.085, 0.075), both_sides=True)
     return Part(
         "Lashes", mesh, surface, None, {name: offsets[used] for name, offsets in figure.morphs.items()}
     )

@@ -140,8 +140,8 @@ def blazer_collar(tailor: Tailor, cloth: Mesh, count: int) -> Mesh:
     back = np.sin(np.linspace(0, np.pi, steps))
     stand = 0.002 + (STAND_M - 0.002) * np.clip(back * 1.25, 0, 1) ** 1.2
     width = COLLAR_M + 0.004 * back
-    top = line + stand[:, None] * np.array([0.0, 1.0, 0.0]) - aside * 0.002
-    under = line - aside * 0.004 - normal * 0.002
+    top = line + stand[:, None] * np.array([0.0, 1.0, 0.0]) + aside * 0.0015
+    under = line - aside * 0.001 - normal * 0.004
     fall, out = drape.surface(line + aside * width[:, None])
     edge, hem = fall + out * 0.0062, fall + out * 0.0030 + aside * 0.0006
     middle = drape.surface(line + aside * (0.5 * width)[:, None])[0]
@@ -171,9 +171,9 @@ def shirt_collar(tailor: Tailor, count: int) -> Mesh:
         (inner, upper, top - 0.001),
         (0.8 * inner + 0.2 * outer, upper + 0.0022, top + 0.0012),
         (0.7 * inner + 0.3 * outer, upper + 0.0050, top - 0.0015),
-        (0.4 * inner + 0.6 * outer, np.maximum(upper, bottom) + 0.0068, 0.45 * top + 0.55 * low),
-        (outer, bottom + 0.0085 + 0.012 * front, low),
-        (outer, bottom + 0.0065 + 0.012 * front, low + 0.001),
+        (0.4 * inner + 0.6 * outer, np.maximum(upper, bottom) + 0.0055, 0.45 * top + 0.55 * low),
+        (outer, bottom + 0.0055 + 0.015 * front, low),
+        (outer, bottom + 0.0035 + 0.015 * front, low + 0.001),
     )
     rows = [np.c_[np.sin(a) * r, y, neck_axis_z(tailor, y) + np.cos(a) * r] for a, r, y in profile]
     points = _sheet(rows, count).reshape(-1, 3)

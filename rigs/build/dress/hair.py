@@ -1,4 +1,4 @@
-"""A short bob: a cap over the scalp and locks of hair laid over it, on the head joint."""
+"""A short bob on the head joint: a cap on the scalp, sheets that hang from it, and locks laid over both."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from common.meshes import Mesh, joined, normals
-from common.shapes import tube
+from common.shapes import grid_faces, tube
 
 if TYPE_CHECKING:
     from body.figure import Figure
@@ -19,6 +19,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 SEED = 7
+STRANDS_V = 0.96  # below it the hair's picture is dark
+TEMPLE_RAD = 0.86  # where the hair that hangs begins, from the front
+PARTING_RAD = 0.36  # on her left
+FRINGE_LOCKS = 10
+STRAY_RAD = (-0.70, -0.33, 0.02, 0.66)  # a few fine strands over the fringe
 
 
 @dataclass
@@ -50,7 +55,10 @@ class Scalp:
 
 @dataclass
 class Lock:
-    """One lock: azimuth (0 is the front), polar angles from the crown, then a free fall of `drop_m`."""
+    """One lock: azimuth (0 is the front), polar angles from the crown, then a free fall of `drop_m`.
+
+    It turns by `swing` on its way, `bow` later than evenly, and narrows to its tip from `taper` on.
+    """
 
     azimuth: float
     start: float
@@ -62,85 +70,139 @@ class Lock:
     swing: float = 0.0
     out_m: float = 0.0
     flat: float = 0.42
-    blunt: float = 0.6
+    bow: float = 1.0
+    taper: float = 0.62
+    tip: float = 0.6
+
+    def path(self, scalp: Scalp, steps: int) -> tuple[Array, Array]:
+        """The lock's middle (steps, 3) and the directions away from the head (steps, 3)."""
+        hanging = 0.62 if self.drop_m > 0 else 1.0
+        outward = np.array([np.sin(self.azimuth), 0, np.cos(self.azimuth)])
+        aside = np.array([np.cos(self.azimuth), 0, -np.sin(self.azimuth)])
+        path: list[Array] = []
+        for t in np.linspace(0, 1, steps):
+            lying = min(float(t), hanging)
+            polar = self.start + (self.end - self.start) * lying / hanging
+            azimuth = self.azimuth + self.swing * lying**self.bow
+            d = np.array([np.sin(polar) * np.sin(azimuth), np.cos(polar), np.sin(polar) * np.cos(azimuth)])
+            lift = self.lift_m * (0.35 + 0.65 * np.sin(min(1.0, lying * 1.5) * np.pi / 2))
+            point = scalp.centre + d * (scalp.radius(d) + lift)
+            if t > hanging:
+                k = (t - hanging) / (1 - hanging)
+                point = point + [0, -self.drop_m * k, 0] + aside * (self.swing * 0.05 * k)
+                point = point + outward * (self.out_m * np.sin(k * np.pi * 0.9) - self.curl_m * k * k)
+            path.append(point)
+        middle = np.array(path)
+        up = middle - scalp.centre
+        return middle, up / np.linalg.norm(up, axis=1, keepdims=True)
 
     def mesh(self, scalp: Scalp, steps: int, sides: int) -> tuple[Array, NDArray[np.int64], Array]:
         """The lock as a tube: vertices, faces, texture coordinates."""
-        hanging = 0.62
-        path: list[Array] = []
-        up: list[Array] = []
-        for t in np.linspace(0, 1, steps):
-            polar = self.start + (self.end - self.start) * (min(1.0, t / hanging) if self.drop_m > 0 else t)
-            azimuth = self.azimuth + self.swing * t
-            d = np.array([np.sin(polar) * np.sin(azimuth), np.cos(polar), np.sin(polar) * np.cos(azimuth)])
-            lift = self.lift_m * (0.35 + 0.65 * np.sin(min(1.0, t * 1.5) * np.pi / 2))
-            point = scalp.centre + d * (scalp.radius(d) + lift)
-            if self.drop_m > 0 and t > hanging:
-                k = (t - hanging) / (1 - hanging)
-                outward = np.array([np.sin(self.azimuth), 0, np.cos(self.azimuth)])
-                aside = np.array([np.cos(self.azimuth), 0, -np.sin(self.azimuth)])
-                fall = outward * (self.out_m * np.sin(k * np.pi * 0.9) - self.curl_m * k * k)
-                point = (
-                    path[int(hanging * (steps - 1))]
-                    + [0, -self.drop_m * k, 0]
-                    + fall
-                    + aside * self.swing * 0.05 * k
-                )
-            path.append(point)
-            up.append((point - scalp.centre) / np.linalg.norm(point - scalp.centre))
-        t_all = np.linspace(0, 1, steps)
-        radius = (
-            self.width_m * np.clip(0.55 + 0.9 * t_all, 0, 1) * np.clip((1 - t_all) * 2.6, 0, 1) ** self.blunt
-            + 0.0004
-        )
-        return tube(np.array(path), radius, np.array(up), sides, self.flat)
+        path, up = self.path(scalp, steps)
+        t = np.linspace(0, 1, steps)
+        narrowing = np.clip((1 - t) / (1 - self.taper), 0, 1)
+        radius = self.width_m * np.clip(0.55 + 0.9 * t, 0, 1) * narrowing**self.tip + 0.0004
+        vertices, faces, uv = tube(path, radius, up, sides, self.flat)
+        return vertices, faces, uv * [1.0, STRANDS_V]
 
 
-def _side_and_back_locks(rng: np.random.Generator, share: float) -> list[Lock]:
+def _side_and_back(azimuth: float, length: float, lift_m: float) -> Lock:
+    """How hair hangs at an azimuth behind the temples: over the ears and in to the neck."""
+    behind = 0.5 - 0.5 * np.cos(azimuth)
+    drop = (0.098 + 0.014 * behind) * length
+    return Lock(azimuth, 0.22, 1.62, lift_m, 0.0, drop, 0.020 + 0.010 * behind, 0.0, 0.006)
+
+
+def _curtain(tailor: Tailor, scalp: Scalp, steps: int, columns: int) -> Mesh:
+    """The body of the bob: one closed sheet from temple to temple, on which the locks lie."""
+    azimuths = np.linspace(TEMPLE_RAD, 2 * np.pi - TEMPLE_RAD, columns)
+    lines: list[Array] = []
+    for azimuth in azimuths:
+        length = 0.93 + 0.022 * np.sin(azimuth * 9.0) + 0.012 * np.sin(azimuth * 23.0 + 1.0)
+        lines.append(_side_and_back(float(azimuth), float(length), 0.0125).path(scalp, steps)[0])
+    vertices = np.stack(lines, axis=1).reshape(-1, 3)
+    v, u = np.meshgrid(np.linspace(0, STRANDS_V, steps), azimuths * 1.6, indexing="ij")
+    weights = tailor.rigid(len(vertices), head=1)
+    return Mesh(vertices, weights, grid_faces(steps, columns, flip=True), np.c_[u.ravel(), v.ravel()])
+
+
+def _lining(curtain: Mesh, scalp: Scalp, steps: int, columns: int) -> Mesh:
+    """The curtain's dark inside, seen past the jaw: every second column, a little nearer the head."""
+    every = np.arange(0, columns, 2)
+    low = np.arange(steps // 2, steps)
+    index = (low[:, None] * columns + every).ravel()
+    vertices = scalp.centre + (curtain.vertices[index] - scalp.centre) * [0.965, 1.0, 0.965]
+    uv = np.c_[curtain.uv[index, 0] if curtain.uv is not None else 0 * index, np.full(len(index), 0.995)]
+    return Mesh(vertices, curtain.weights[index], grid_faces(len(low), len(every)), uv)
+
+
+def _locks_over_curtain(rng: np.random.Generator, share: float) -> list[Lock]:
+    """Broad locks with soft tips, in two layers of uneven length and width."""
     locks: list[Lock] = []
-    for lift, count, length in ((0.010, 30, 1.0), (0.016, 26, 0.95), (0.021, 20, 0.86)):
+    for lift, count, length, width in ((0.0165, 21, 1.0, 0.0165), (0.0205, 15, 0.92, 0.0150)):
         number = max(8, round(count * share))
         for i in range(number):
-            azimuth = 0.85 + (2 * np.pi - 1.7) * (i + 0.5) / number + rng.uniform(-0.06, 0.06)
-            drop = (0.105 if np.cos(azimuth) > -0.2 else 0.115) * length * rng.uniform(0.94, 1.06)
-            start, end, width = (
-                rng.uniform(0.10, 0.35),
-                1.62 + rng.uniform(-0.05, 0.05),
-                rng.uniform(0.013, 0.017),
-            )
-            curl, swing, out = rng.uniform(0.020, 0.034), rng.uniform(-0.10, 0.10), rng.uniform(0.003, 0.008)
-            locks.append(Lock(azimuth, start, end, lift, width / share**0.8, drop, curl, swing, out))
+            azimuth = TEMPLE_RAD + 0.06 + (2 * np.pi - 2 * TEMPLE_RAD - 0.12) * (i + 0.5) / number
+            azimuth += rng.uniform(-0.07, 0.07)
+            lock = _side_and_back(azimuth, length * rng.uniform(0.965, 1.025), lift)
+            lock.start = rng.uniform(0.10, 0.32)
+            lock.width_m = width * rng.uniform(0.85, 1.2) / share**0.8
+            lock.swing, lock.flat = rng.uniform(-0.09, 0.09), 0.36
+            lock.taper, lock.tip = rng.uniform(0.66, 0.78), 0.55
+            locks.append(lock)
     return locks
 
 
-def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
-    """Layers of fine strands of uneven length down to the brows.
+def _swept(tip: float, length: float, lift_m: float) -> Lock:
+    """How the fringe lies: combed from the parting to a tip's azimuth, longer toward the temples."""
+    from_parting = tip - PARTING_RAD
+    root = PARTING_RAD + 0.30 * from_parting
+    end = (1.525 + 0.085 * min(1.0, abs(from_parting))) * length
+    return Lock(root, 0.16, end, lift_m, 0.0, swing=tip - root, flat=0.26, bow=1.25)
 
-    Swept apart at a parting, longer at the temples.
-    """
+
+def _fringe_sheet(tailor: Tailor, scalp: Scalp, steps: int, columns: int) -> Mesh:
+    """The body of the fringe: one sheet with a softly waved edge, on which its locks lie."""
+    tips = np.linspace(-1.10, 1.08, columns)
+    edge = 0.985 + 0.012 * np.sin(tips * 8.0 + 0.6) + 0.007 * np.sin(tips * 19.0)
+    lines = [
+        _swept(float(a), float(length), 0.0125).path(scalp, steps)[0]
+        for a, length in zip(tips, edge, strict=True)
+    ]
+    vertices = np.stack(lines, axis=1).reshape(-1, 3)
+    v, u = np.meshgrid(np.linspace(0, STRANDS_V, steps), tips * 1.6, indexing="ij")
+    weights = tailor.rigid(len(vertices), head=1)
+    return Mesh(vertices, weights, grid_faces(steps, columns, flip=True), np.c_[u.ravel(), v.ravel()])
+
+
+def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
+    """Few broad locks over the fringe's sheet, swept to one side, and a few fine strands."""
     locks: list[Lock] = []
-    parting = 0.22
-    for lift, count, extra in ((0.0125, 30, 0.03), (0.0155, 26, 0.0), (0.0180, 20, -0.04)):
-        number = max(9, round(count * share))
-        for i in range(number):
-            a = -1.06 + 2.08 * (i + 0.5) / number + rng.uniform(-0.035, 0.035)
-            length = 1.475 + 0.13 * a * a + extra + rng.uniform(-0.055, 0.045)
-            sweep = (
-                0.16 * a
-                + 0.05 * np.sign(a - parting) * np.exp(-(((a - parting) / 0.22) ** 2))
-                + rng.uniform(-0.03, 0.03)
-            )
-            width = rng.uniform(0.0066, 0.0098) / share**0.9
-            start = 0.20 + rng.uniform(-0.05, 0.05)
-            locks.append(Lock(a * 0.86, start, length, lift, width, swing=sweep, flat=0.30, blunt=1.0))
+    number = max(6, round(FRINGE_LOCKS * share**0.5))
+    spacing = 1.98 / (number - 1)
+    for i in range(number):
+        lock = _swept(-0.99 + spacing * (i + rng.uniform(-0.25, 0.25)), rng.uniform(0.985, 1.02), 0.0155)
+        lock.start += rng.uniform(-0.04, 0.04)
+        lock.width_m = spacing * 0.098 * rng.uniform(0.55, 0.92)
+        lock.taper, lock.tip = rng.uniform(0.46, 0.60), rng.uniform(0.80, 0.95)
+        locks.append(lock)
+    for tip in STRAY_RAD if share > 0.8 else ():
+        lock = _swept(tip, 1.0, 0.0185)
+        lock.width_m, lock.taper, lock.tip = 0.0036, 0.4, 0.8
+        locks.append(lock)
     return locks
 
 
 def _temple_locks() -> list[Lock]:
+    """Longer locks that frame the face and hide the fringe's ends."""
     locks: list[Lock] = []
     for sign in (1, -1):
-        locks.append(Lock(sign * 1.02, 0.3, 1.50, 0.014, 0.0125, 0.10, 0.004, -sign * 0.06))
-        locks.append(Lock(sign * 1.18, 0.3, 1.55, 0.017, 0.0125, 0.105, 0.012, -sign * 0.05))
+        locks.append(
+            Lock(sign * 0.98, 0.3, 1.50, 0.0135, 0.0120, 0.092, 0.004, -sign * 0.07, taper=0.5, tip=0.7)
+        )
+        locks.append(
+            Lock(sign * 1.13, 0.3, 1.55, 0.0165, 0.0150, 0.102, 0.010, -sign * 0.05, taper=0.6, tip=0.6)
+        )
     return locks
 
 
@@ -158,7 +220,9 @@ def _cap(tailor: Tailor, scalp: Scalp) -> Mesh:
     ear = (np.abs(azimuth) > 1.2) & (np.abs(azimuth) < 2.0) & (np.abs(v[:, 0]) > np.percentile(head_x, 96))
     mesh.vertices = v + normals(v, mesh.faces) * 0.006
     mesh = mesh.clipped(np.where(ear, -1, mesh.vertices[:, 1] - line))
-    mesh.uv = np.c_[np.arctan2(mesh.vertices[:, 0], mesh.vertices[:, 2]) * 0.8, mesh.vertices[:, 1] * 3]
+    mesh.uv = np.c_[
+        np.arctan2(mesh.vertices[:, 0], mesh.vertices[:, 2]) * 0.8, np.full(len(mesh.vertices), 0.3)
+    ]
     mesh.weights = tailor.rigid(len(mesh.vertices), head=1)
     return mesh
 
@@ -170,13 +234,17 @@ def bob(tailor: Tailor, steps: int, sides: int, share: float) -> tuple[Mesh, Arr
     """
     rng = np.random.default_rng(SEED)
     scalp = Scalp.of(tailor)
-    locks = _side_and_back_locks(rng, share) + _fringe(rng, share) + _temple_locks()
-    meshes = [_cap(tailor, scalp)]
+    locks = _locks_over_curtain(rng, share) + _fringe(rng, share) + _temple_locks()
+    columns = 2 * round(48 * share) + 1
+    curtain = _curtain(tailor, scalp, steps, columns)
+    meshes = [_cap(tailor, scalp), curtain, _fringe_sheet(tailor, scalp, steps, round(56 * share))]
     for lock in locks:
         vertices, faces, uv = lock.mesh(scalp, steps, sides)
         meshes.append(Mesh(vertices, tailor.rigid(len(vertices), head=1), faces, uv))
     hair = _outside(joined(meshes), scalp)
-    return hair, _soft_normals(hair, scalp)
+    lining = _lining(curtain, scalp, steps, columns)
+    both = joined([hair, lining])
+    return both, np.vstack([_soft_normals(hair, scalp), normals(lining.vertices, lining.faces)])
 
 
 def _outside(hair: Mesh, scalp: Scalp) -> Mesh:

@@ -27,7 +27,7 @@ ARMHOLE = 0.02  # where the sleeve is sewn in, as a share of the upper arm
 SEAM_DEPTH_M = 0.0022
 SHOULDER_REACH_M = 0.15  # within it skin weights are eased
 SHOULDER_ROUNDS = 16
-CUFF = ((0.80, 0.0070), (0.87, 0.0072), (0.938, 0.0075), (0.940, 0.0062), (0.90, 0.0052))  # place, ease m
+CUFF = ((0.845, 0.0060), (0.885, 0.0072), (0.938, 0.0075), (0.940, 0.0062), (0.90, 0.0052))  # place, ease m
 FOLDS = (  # centre and reach along the arm (0 shoulder, 1 elbow, 2 wrist), depth m, folds in the reach, slant
     (1.00, 0.36, 0.0085, 3.4, 0.22),
     (0.32, 0.26, 0.0065, 2.2, -0.45),

@@ -116,8 +116,9 @@ def shirt(tailor: Tailor, subdivisions: int) -> Mesh:
     v = mesh.vertices
     keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), tailor.neck_y + 0.022 - v[:, 1])
     front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
-    shown = np.where(front, opening(tailor, v[:, 1]) + 0.022 - np.abs(v[:, 0]), -1.0)
-    around_neck = 0.064 - np.hypot(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
+    under_collar = 0.012 * np.clip((v[:, 1] - tailor.neck_y + 0.055) / 0.03, 0, 1)
+    shown = np.where(front, opening(tailor, v[:, 1]) + 0.022 - under_collar - np.abs(v[:, 0]), -1.0)
+    around_neck = 0.056 - np.hypot(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
     shown = np.maximum(shown, np.minimum(v[:, 1] - (tailor.neck_y - 0.028), around_neck))
     arms = np.any([tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES], axis=0)
     shown = np.where(arms, -1.0, shown)

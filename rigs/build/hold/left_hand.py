@@ -74,7 +74,7 @@ class LeftHand:
                 beyond(theta3, -42, -15) / 1.5,
             ]
         thumb_points, looking = self.grip.thumb.points(x[9:14])
-        terms.append((position + rotation @ thumb_points[3] - self.saddle) * MM / [1.0, 0.4, 1.2])
+        terms.append((position + rotation @ thumb_points[3] - self.saddle) * MM / [0.5, 0.4, 1.0])
         terms.append((rotation @ looking - [-0.3, -0.85, -0.3]) / 0.6)
         terms.append(thumb_cost(x[9:14]))
         terms.append((x[13:14] * DEG + 30) / 8)
