@@ -74,7 +74,8 @@ class Opened:
         return {"Authorization": f"Bearer {tokens[self.session]}"}
 
     def picture(self) -> NDArray[np.int16]:
-        """The page's pixels, (height, width, 3)."""
+        """The page's pixels, (height, width, 3), once the stage has faded in."""
+        self.until("document.querySelector('canvas').getAnimations().length === 0")
         image = Image.open(io.BytesIO(self.page.screenshot(timeout=PATIENCE_S * 1000))).convert("RGB")
         return np.asarray(image).astype(np.int16)
 

@@ -164,7 +164,6 @@ def test_a_keyframe_set_in_the_page_reaches_the_show(visit: Visit, client: httpx
 def test_the_picture_shows_a_player_with_brass_in_her_hands(visit: Visit) -> None:
     opened = visit()
     opened.until_drawn()
-    opened.page.wait_for_timeout(1000)
     opened.hide_panels()
     whole = opened.picture()
     assert whole.std() > 30, "the picture is not blank"
