@@ -6,7 +6,7 @@ import svelteConfig from "./svelte.config.js";
 
 const noThree = {
   group: ["three", "three/*"],
-  message: "Only src/scene and src/rig draw with three.js; use Stage from src/scene.",
+  message: "Only src/scene, src/rig and src/lab/scene draw with three.js; use Stage from src/scene.",
 };
 const noSocket = {
   name: "WebSocket",
@@ -41,7 +41,7 @@ export default defineConfig(
   },
   { files: ["src/connection/**"], rules: { "no-restricted-globals": "off" } },
   {
-    files: ["src/scene/**", "src/rig/**"],
+    files: ["src/scene/**", "src/rig/**", "src/lab/scene/**"],
     rules: { "no-restricted-imports": "off" },
   },
   {

@@ -15,6 +15,7 @@ from reina.api import (
     examples,
     export,
     frames,
+    lab,
     library,
     page,
     problems,
@@ -94,6 +95,7 @@ def create_app(
         rigs,
         examples,
         library,
+        lab,
         catalogue,
         stream,
     ):

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from starlette.types import ASGIApp, Receive, Scope, Send
 
 LEAST_BYTES = 1000
-PLAIN = re.compile(r"/api/v1/(sessions/[^/]+/(frames|song)|rigs/[^/]+/.+|examples/.+)$")
+PLAIN = re.compile(r"/api/v1/(sessions/[^/]+/(frames|song)|rigs/[^/]+/.+|examples/.+|lab/bvh)$")
 """Floats, sound and models hardly shrink, and their ranges and lengths are to stay what they are."""
 
 

@@ -9,6 +9,7 @@ from starlette.convertors import PathConvertor, register_url_convertor
 from reina.api.access import ServerSettings
 from reina.api.files import file_below
 from reina.api.problems import ProblemError
+from reina.api.settings import Settings
 
 router = APIRouter(include_in_schema=False)
 
@@ -30,7 +31,17 @@ register_url_convertor("page_file", PageFileConvertor())
 @router.api_route("/s/{session_id}", methods=READING)
 def get_page(settings: ServerSettings) -> FileResponse:
     """The page; which session it shows it reads from its own address."""
-    path = settings.page_dir / "index.html"
+    return _document(settings, "index.html")
+
+
+@router.api_route("/lab", methods=READING)
+def get_lab(settings: ServerSettings) -> FileResponse:
+    """The laboratory: a page of its own."""
+    return _document(settings, "lab.html")
+
+
+def _document(settings: Settings, name: str) -> FileResponse:
+    path = settings.page_dir / name
     if not path.is_file():
         raise ProblemError(
             503,

@@ -2,9 +2,9 @@
 
     python -m reina.protocol.generate [--check]
 
-Writes the page's types and frame reader (web/src/generated/protocol.ts), the description of the stream
-(docs/protocol.md) and the JSON Schema of shows (docs/show.schema.json). The description of the HTTP interface
-is `python -m reina.api.openapi`'s.
+Writes the page's types and frame reader (web/src/generated/protocol.ts), those of the laboratory
+(web/src/generated/lab.ts), the description of the stream (docs/protocol.md) and the JSON Schema of shows
+(docs/show.schema.json). The description of the HTTP interface is `python -m reina.api.openapi`'s.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from reina.keyframes import stage_registry
 from reina.keyframes.show_schema import show_schema_text
 from reina.protocol import resources, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
+from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
 from reina.protocol.reader import frame_reader
 from reina.protocol.typescript import interfaces
 
@@ -77,6 +78,11 @@ def typescript() -> str:
     return "\n".join([_HEAD, frame_reader(), interfaces(SENT, RECEIVED), unions])
 
 
+def lab_typescript() -> str:
+    """What the laboratory's page asks and is answered."""
+    return "\n".join([_HEAD, interfaces(LAB_SENT, LAB_RECEIVED)])
+
+
 def write_or_check(files: Mapping[Path, str], *, check: bool) -> int:
     """Write files, or with `check` print how they differ from what is there.
 
@@ -109,6 +115,7 @@ def main() -> int:
     arguments = parser.parse_args()
     files = {
         ROOT / "web/src/generated/protocol.ts": typescript(),
+        ROOT / "web/src/generated/lab.ts": lab_typescript(),
         ROOT / "docs/protocol.md": documentation(),
         ROOT / "docs/show.schema.json": show_schema_text(stage_registry()),
     }

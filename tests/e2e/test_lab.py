@@ -1,0 +1,159 @@
+"""The laboratory's page in a real Chromium: controls set, targets dragged, numbers read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import httpx
+    from tests.e2e.opened import Opened
+
+    Visit = Callable[..., Opened]
+
+pytestmark = pytest.mark.browser
+
+WIDE = (980, 520)
+BROKEN = b"HIERARCHY\nROOT hips\n{\n\tOFFSET 0 nine 0\n}\n"
+
+
+def open_lab(visit: Visit, table: str, **options: Any) -> Opened:
+    """The lab with one of its tables open and drawn."""
+    opened = visit("/lab", **{"size": WIDE} | options)
+    opened.page.get_by_role("tab", name=table).click()
+    opened.until("window.lab?.drawn > 0")
+    return opened
+
+
+def reading(opened: Opened) -> dict[str, Any]:
+    return opened.page.evaluate("window.lab.kinematics")
+
+
+def settled(opened: Opened, status: str) -> dict[str, Any]:
+    """Wait until everything asked is answered, with a status."""
+    opened.until("(status) => !window.lab.kinematics.busy && window.lab.kinematics.status === status", status)
+    return reading(opened)
+
+
+def posed(opened: Opened) -> None:
+    """Wait for the first pose."""
+    opened.until("window.lab.kinematics.end.length === 3 && !window.lab.kinematics.busy")
+    opened.until("window.labTarget?.() != null")
+
+
+def test_four_ways_are_drawn_and_measured(visit: Visit) -> None:
+    opened = open_lab(visit, "Rotations", refusals=("422",))
+    page = opened.page
+    slerp = page.locator("tr[data-way=slerp]")
+    slerp.wait_for()
+    assert slerp.locator("td").all_inner_texts()[:2] == ["141.1°", "1.00"]
+    assert float(page.locator("tr[data-way=matrix] td").nth(1).inner_text()) > 5
+    page.get_by_label("To: turn 1 about z").fill("80")
+    page.get_by_label("To: turn 2 about y").fill("-20")
+    page.get_by_label("To: turn 3 about x").fill("40")
+    opened.until("document.querySelector('tr[data-way=slerp] td').innerText === '90.0°'")
+    page.get_by_label("To: set by").select_option("axis_angle")
+    page.get_by_label("To: axis x").fill("0")
+    page.get_by_label("To: axis y").fill("0")
+    page.get_by_label("To: axis z").fill("0")
+    page.get_by_role("alert").wait_for(state="visible")
+    assert "end/axis" in page.get_by_role("alert").inner_text()
+
+
+def test_a_dragged_target_is_followed_by_the_finger(visit: Visit) -> None:
+    opened = open_lab(visit, "Kinematics")
+    posed(opened)
+    before = reading(opened)
+    place = opened.page.evaluate("window.labTarget()")
+    mouse = opened.page.mouse
+    mouse.move(place["x"], place["y"])
+    mouse.down()
+    mouse.move(place["x"] - 30, place["y"] + 35, steps=4)
+    mouse.up()
+    after = settled(opened, "reached")
+    assert np.linalg.norm(np.subtract(after["target"], before["target"])) > 0.005
+    np.testing.assert_allclose(after["end"], after["target"], atol=1e-6)
+    opened.until("document.querySelector('[role=status]').innerText.startsWith('Reached, 0 mm')")
+    moved = opened.page.evaluate("window.labTarget()")
+    assert abs(moved["x"] - place["x"] + 30) < 2
+    assert abs(moved["y"] - place["y"] - 35) < 2
+
+
+def test_a_target_set_by_numbers_and_keys(visit: Visit, client: httpx.Client) -> None:
+    opened = open_lab(visit, "Kinematics")
+    posed(opened)
+    page = opened.page
+    page.get_by_label("Chain", exact=True).select_option("rightArm")
+    page.get_by_label("Solver", exact=True).select_option("damped_least_squares")
+    for axis, millimetres in (("x", -300), ("y", 50), ("z", 200)):
+        page.get_by_label(f"Target {axis}, mm").fill(str(millimetres))
+    shown = settled(opened, "reached")
+    assert shown["target"] == pytest.approx([-0.3, 0.05, 0.2])
+    asked = {"chain": "rightArm", "target": shown["target"], "choice": {"solver": "damped_least_squares"}}
+    told = client.post("/api/v1/lab/inverse", json=asked).json()
+    np.testing.assert_allclose(shown["end"], told["pose"]["positions"][-1], atol=1e-9)
+    assert f"{told['iterations']} rounds" in page.get_by_role("status").inner_text()
+    page.get_by_role("slider", name="Round of the solver").press("Home")
+    page.get_by_text(f"round 0 of {told['iterations']}").wait_for()
+    page.get_by_role("application").focus()
+    page.keyboard.press("ArrowRight")
+    opened.until("window.lab.kinematics.target[0] > -0.2999 && !window.lab.kinematics.busy")
+    page.get_by_label("Target x, mm").fill("-900")
+    settled(opened, "out_of_reach")
+    assert "Out of reach" in page.get_by_role("status").inner_text()
+
+
+def test_a_joint_is_moved_by_its_slider(visit: Visit) -> None:
+    opened = open_lab(visit, "Kinematics")
+    posed(opened)
+    slider = opened.page.get_by_role("slider", name="right index intermediate, z")
+    before, angle = reading(opened)["end"], float(slider.input_value())
+    slider.focus()
+    for _ in range(5):
+        slider.press("ArrowLeft")
+    assert float(slider.input_value()) == pytest.approx(angle - 5), "a degree a key, however slow the server"
+    opened.until("!window.lab.kinematics.busy")
+    after = reading(opened)
+    assert after["status"] is None
+    assert np.linalg.norm(np.subtract(after["end"], before)) > 0.001
+    assert after["target"] == pytest.approx(after["end"]), "the target waits at the end"
+
+
+def test_clips_play_and_a_broken_file_is_told_with_its_line(visit: Visit) -> None:
+    opened = open_lab(visit, "Motion clips", refusals=("422",))
+    page = opened.page
+    page.get_by_role("heading", name="breathing.bvh").wait_for()
+    frame = page.get_by_role("slider", name="Frame")
+    page.get_by_role("button", name="Play", exact=True).click()
+    opened.until("document.querySelector('input[type=range]').valueAsNumber > 3")
+    page.get_by_role("button", name="Pause", exact=True).click()
+    frame.press("Home")
+    page.get_by_role("button", name="hips").click()
+    page.get_by_text("hips, in the file's unit").wait_for()
+    page.set_input_files("#clip-file", [{"name": "bad.bvh", "mimeType": "text/plain", "buffer": BROKEN}])
+    alert = page.get_by_role("alert")
+    alert.wait_for()
+    told = alert.inner_text()
+    assert "bad.bvh" in told
+    assert "line 4" in told
+    assert "OFFSET 0 nine 0" in told
+    assert page.get_by_role("heading", name="breathing.bvh").is_visible(), "what was open stays"
+
+
+@pytest.mark.parametrize("size", [(390, 844), (1440, 900)], ids=["phone", "wide"])
+def test_nothing_overflows_the_window(visit: Visit, size: tuple[int, int]) -> None:
+    opened = open_lab(visit, "Rotations", size=size)
+    for table in ("Rotations", "Kinematics", "Motion clips"):
+        opened.page.get_by_role("tab", name=table).click()
+        opened.page.wait_for_timeout(400)
+        assert opened.page.evaluate("document.querySelector('main').scrollWidth") <= size[0]
+        nameless = opened.page.evaluate(
+            """() => [...document.querySelectorAll("button, input, select, a")]
+              .filter((one) => !(one.labels?.length || one.ariaLabel || one.textContent.trim()))
+              .map((one) => one.outerHTML.slice(0, 120))"""
+        )
+        assert nameless == []

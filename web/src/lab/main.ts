@@ -1,0 +1,7 @@
+import "../styles/page.css";
+import { mount } from "svelte";
+import Lab from "./Lab.svelte";
+
+const target = document.getElementById("page");
+if (target === null) throw new Error("lab.html has no element #page to mount the lab in");
+mount(Lab, { target });

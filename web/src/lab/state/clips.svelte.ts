@@ -1,0 +1,118 @@
+import { ProblemError } from "../../connection";
+import type { LabClip, ParsedClip } from "../../generated/lab";
+import type { LabApi } from "../api";
+import { floats } from "../figures";
+import { trouble } from "./trouble";
+
+export interface OpenClip {
+  readonly name: string;
+  readonly file: Blob;
+  readonly parsed: ParsedClip;
+  readonly positions: Float32Array;
+}
+
+/** What was wrong with a file, with the line that it was wrong in. */
+export interface ClipProblem {
+  readonly name: string;
+  readonly says: string;
+  readonly line: number | null;
+  readonly text: string | null;
+}
+
+export const RATES = [0.1, 0.25, 0.5, 1, 2] as const;
+
+/** The third table: a motion clip, shipped or the visitor's own. */
+export class Clips {
+  shipped = $state.raw<readonly LabClip[]>([]);
+  open = $state.raw<OpenClip | null>(null);
+  problem = $state.raw<ClipProblem | null>(null);
+  busy = $state(false);
+  /** Among the sampled frames. */
+  frame = $state(0);
+  playing = $state(false);
+  rate = $state(1);
+  /** Index of the point that is followed. */
+  chosen = $state<number | null>(null);
+  readonly #api: LabApi;
+  #asked = 0;
+
+  constructor(api: LabApi) {
+    this.#api = api;
+  }
+
+  /** Seconds from one sampled frame to the next. */
+  get step(): number {
+    const clip = this.open?.parsed;
+    return clip === undefined ? 1 : clip.frame_time_s * clip.frame_step;
+  }
+
+  async start(): Promise<void> {
+    try {
+      this.shipped = await this.#api.clips();
+      const first = this.shipped[0];
+      if (first !== undefined && this.open === null) await this.openShipped(first);
+    } catch (error) {
+      this.#refuse("", error);
+    }
+  }
+
+  async openShipped(clip: LabClip): Promise<void> {
+    const asked = ++this.#asked;
+    try {
+      const file = await this.#api.file(clip.href);
+      if (asked === this.#asked) await this.openFile(file, `${clip.name}.bvh`);
+    } catch (error) {
+      this.#refuse(clip.name, error);
+    }
+  }
+
+  /** Have the server read a file; what was open stays until it has. */
+  async openFile(file: Blob, name: string): Promise<void> {
+    const asked = ++this.#asked;
+    this.busy = true;
+    try {
+      const parsed = await this.#api.readClip(file);
+      if (asked !== this.#asked) return;
+      this.open = { name, file, parsed, positions: floats(parsed.positions) };
+      this.problem = null;
+      this.chosen = null;
+      this.frame = 0;
+      this.playing = false;
+    } catch (error) {
+      if (asked === this.#asked) await this.#refuseFile(file, name, error);
+    } finally {
+      if (asked === this.#asked) this.busy = false;
+    }
+  }
+
+  async rewritten(): Promise<Blob | null> {
+    if (this.open === null) return null;
+    try {
+      return await this.#api.rewrittenClip(this.open.file);
+    } catch (error) {
+      this.#refuse(this.open.name, error);
+      return null;
+    }
+  }
+
+  seek(frame: number): void {
+    const last = (this.open?.parsed.sampled_frames ?? 1) - 1;
+    this.frame = Math.min(Math.max(Math.round(frame), 0), last);
+  }
+
+  #refuse(name: string, error: unknown): void {
+    this.problem = { name, says: trouble(error), line: null, text: null };
+  }
+
+  async #refuseFile(file: Blob, name: string, error: unknown): Promise<void> {
+    const place = error instanceof ProblemError ? error.errors[0]?.location : null;
+    const line = /^line (\d+)$/.exec(place ?? "")?.[1];
+    if (line === undefined) {
+      this.#refuse(name, error);
+      return;
+    }
+    const lines = (await file.text()).split(/\r\n|\r|\n/);
+    const text = lines[Number(line) - 1]?.trim().slice(0, 160) ?? "";
+    this.problem = { name, says: trouble(error), line: Number(line), text: text === "" ? null : text };
+  }
+}
