@@ -16,6 +16,12 @@ QUIET_BREATH_S = 4.3
 SWAY_S = (2.6, 5.2)
 """A sway to and fro takes a whole number of bars, or beats, between these times."""
 
+WANING = 0.5
+"""By what part a sway is smaller at its least."""
+
+EARLY_OR_LATE_RAD = 0.35
+"""How far a sway is before or behind the metre, of the circle that its way to and fro is."""
+
 BLINK_SLOT_S = 3.9
 BLINK_S = 0.16
 GAZE_SLOT_S = 2.3
@@ -41,9 +47,15 @@ class IdleMotion:
         self._offset: float = float(chance.uniform(0.0, 2.0 * np.pi))
 
     def sway(self, times_s: FloatArray) -> FloatArray:
-        """To the side, fore and aft, and about: -1..1, ``(3, F)``, in time with the metre."""
+        """To the side, fore and aft, and about: -1..1, ``(3, F)``, in time with the metre.
+
+        Nobody sways like a pendulum: it waxes and wanes, and comes now a little early and now a little late.
+        """
         phase = (2.0 * np.pi / self._beats_per_sway) * self._tempo.beats(times_s)
-        return np.sin(np.stack([phase, 0.5 * phase + self._offset, phase + 0.9]))
+        slow = np.sin(np.stack([phase / 3.7, phase / 2.3]) + self._offset)
+        phase = phase + EARLY_OR_LATE_RAD * slow[1]
+        extent = 1.0 - WANING * (0.5 + 0.5 * slow[0])
+        return extent * np.sin(np.stack([phase, 0.5 * phase + self._offset, phase + 0.9]))
 
     def quiet_breath(self, times_s: FloatArray) -> FloatArray:
         """How full the chest is while nothing is played, 0..1, ``(F,)``."""

@@ -242,7 +242,7 @@ def _lean(phrases: Phrases, jitter: FloatArray) -> FloatArray:
     leans = length >= LEANING_PHRASE_S
     return _in_order(
         [
-            _movements(begin, duration, -0.45 * np.minimum(duration / 0.5, 1.0))[leans],
+            _movements(begin, duration, -0.35 * np.minimum(duration / 0.5, 1.0))[leans],
             np.column_stack([phrases.start_s, climax, reach])[leans],
             np.column_stack([climax, settled, np.zeros(len(climax))])[leans],
         ]
