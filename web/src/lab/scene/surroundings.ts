@@ -16,6 +16,9 @@ import {
 
 import { INK } from "./palette";
 
+/** Pixels of a reflection's side: metal here is dull, and drawing in software is slow. */
+const SIDE = 32;
+
 function panel(colour: string, strength: number, size: readonly number[], place: readonly number[]): Mesh {
   const material = new MeshBasicMaterial({ color: new Color(colour).multiplyScalar(strength) });
   const mesh = new Mesh(new BoxGeometry(size[0], size[1], size[2]), material);
@@ -34,7 +37,7 @@ function reflected(renderer: WebGLRenderer): Texture {
     panel("#15110d", 1, [12, 0.1, 12], [0, -3.3, 0]),
   );
   const generator = new PMREMGenerator(renderer);
-  const texture = generator.fromScene(room, 0.03).texture;
+  const texture = generator.fromScene(room, 0, 0.1, 100, { size: SIDE }).texture;
   generator.dispose();
   return texture;
 }
