@@ -12,6 +12,7 @@ from fastapi import FastAPI
 import reina
 from reina.api import (
     catalogue,
+    curves,
     examples,
     export,
     frames,
@@ -91,6 +92,7 @@ def create_app(
         song,
         show,
         show_edits,
+        curves,
         tracks,
         rigs,
         examples,

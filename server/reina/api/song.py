@@ -1,14 +1,24 @@
 """A session's sound."""
 
-from fastapi import APIRouter, Response
+import asyncio
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
 
 from reina.api.access import Watched
 from reina.api.problems import ProblemError
 from reina.protocol.messages import SongState
+from reina.protocol.timeline import SongPeaks
+from reina.sessions.session import Session
+from reina.sessions.sound_peaks import song_peaks
 
 router = APIRouter(tags=["song"])
 
+MOST_PEAKS = 20_000
+PEAK_DIGITS = 4
 # What was uploaded as sound is never to be taken for a page.
 HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
 
@@ -23,6 +33,48 @@ HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
 )
 async def get_song(session: Watched) -> Response:
     """The audio; while the server still makes it from the score, how far it is."""
+    path = _song_path(session)
+    if path is None:
+        return _under_way(session)
+    return FileResponse(path, media_type=session.song.media_type, headers=HEADERS)
+
+
+@router.get(
+    "/sessions/{session_id}/song/peaks",
+    response_model=SongPeaks,
+    responses={
+        202: {"model": SongState, "description": "The song is still being made."},
+        204: {"description": "The server reads WAV alone: the peaks are to be had from the decoded sound."},
+    },
+)
+async def get_peaks(
+    request: Request,
+    session: Watched,
+    points: Annotated[int, Query(ge=1, le=MOST_PEAKS, description="How many stretches.")] = 1000,
+) -> Response:
+    """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
+    path = _song_path(session)
+    if path is None:
+        return _under_way(session)
+    async with request.app.state.computing:
+        peaks = await asyncio.to_thread(song_peaks, path)
+    if peaks is None:
+        return Response(status_code=204)
+    drawn = peaks.reduced(points)
+    answer = SongPeaks(
+        duration_s=drawn.duration_s,
+        lowest=np.round(drawn.lowest, PEAK_DIGITS).tolist(),
+        highest=np.round(drawn.highest, PEAK_DIGITS).tolist(),
+    )
+    return Response(answer.model_dump_json(), media_type="application/json", headers=HEADERS)
+
+
+def _song_path(session: Session) -> Path | None:
+    """The song's file; None while it is being made.
+
+    Raises:
+        ProblemError: There will be none.
+    """
     song = session.song
     if song.source == "rendered" and song.path is not None and not song.path.is_file():
         # Removed to make room, or by hand.
@@ -30,8 +82,10 @@ async def get_song(session: Watched) -> Response:
         song = session.song
     if song.error is not None:
         raise ProblemError(502, "no-song", "There is no sound", f"no song could be made: {song.error}")
-    if song.path is None:
-        return JSONResponse(
-            session.song_state().model_dump(), 202, headers={"Retry-After": "1", "Cache-Control": "no-store"}
-        )
-    return FileResponse(song.path, media_type=song.media_type, headers=HEADERS)
+    return song.path
+
+
+def _under_way(session: Session) -> Response:
+    return JSONResponse(
+        session.song_state().model_dump(), 202, headers={"Retry-After": "1", "Cache-Control": "no-store"}
+    )

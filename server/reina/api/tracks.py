@@ -59,7 +59,7 @@ async def list_keyframes(
     session: Watched, path: TrackPath, store: Store, if_none_match: IfNoneMatch = None
 ) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
-    _parameter(store.stage.registry, path)
+    known_parameter(store.stage.registry, path)
     kept = session.kept_show
     keyframes = [keyframe_document(keyframe) for keyframe in _keyframes(kept.show, path)]
     return conditional(json.dumps({"keyframes": keyframes}), kept.text.track_etag(path), if_none_match)
@@ -75,7 +75,7 @@ async def add_keyframe(
     if_match: IfMatch = None,
 ) -> Document:
     """One keyframe more; it is given the next free key unless it names its own."""
-    parameter = _parameter(store.stage.registry, path)
+    parameter = known_parameter(store.stage.registry, path)
     added: list[Keyframe[Any]] = []
 
     def edit(show: Show) -> Show:
@@ -102,7 +102,7 @@ async def get_keyframe(
     session: Watched, path: TrackPath, key: Key, store: Store, if_none_match: IfNoneMatch = None
 ) -> Response:
     """One keyframe, under its track's validator."""
-    _parameter(store.stage.registry, path)
+    known_parameter(store.stage.registry, path)
     kept = session.kept_show
     document = keyframe_document(kept.show.track(path).keyframe(key))
     return conditional(json.dumps(document), kept.text.track_etag(path), if_none_match)
@@ -119,7 +119,7 @@ async def change_keyframe(
     if_match: IfMatch = None,
 ) -> Document:
     """Change some fields of a keyframe; null takes one back to its default."""
-    parameter = _parameter(store.stage.registry, path)
+    parameter = known_parameter(store.stage.registry, path)
     if fields.get("key", key) != key:
         raise ProblemError(
             422, "key-fixed", "The show cannot be used", "a keyframe's key stays; add another and remove this"
@@ -136,7 +136,7 @@ async def remove_keyframe(
     session: Controlled, path: TrackPath, key: Key, store: Store, response: Response, if_match: IfMatch = None
 ) -> None:
     """One keyframe less; a track that loses its last and answers no events goes with it."""
-    _parameter(store.stage.registry, path)
+    known_parameter(store.stage.registry, path)
     kept = await ShowChange(session, store, if_match, path).edit(
         lambda show: show.without_keyframe(path, key)
     )
@@ -148,7 +148,7 @@ async def get_track(
     session: Watched, path: TrackPath, store: Store, if_none_match: IfNoneMatch = None
 ) -> Response:
     """A whole track: its keyframes, their unit, what comes before and after them, what it answers."""
-    _parameter(store.stage.registry, path)
+    known_parameter(store.stage.registry, path)
     written = session.kept_show.text.tracks.get(path)
     if written is None:
         raise KeyNotFoundError("the show has no such track", track=path)
@@ -165,7 +165,7 @@ async def put_track(
 ) -> Response:
     """Another track of the parameter in the place of its present one, if there is any."""
     registry = store.stage.registry
-    _parameter(registry, path)
+    known_parameter(registry, path)
     if fields.get("parameter", path) != path:
         raise ProblemError(
             422,
@@ -189,7 +189,12 @@ async def remove_track(session: Controlled, path: TrackPath, store: Store, if_ma
     await ShowChange(session, store, if_match, path).edit(lambda show: show.without_track(path))
 
 
-def _parameter(registry: ParameterRegistry, path: str) -> Parameter:
+def known_parameter(registry: ParameterRegistry, path: str) -> Parameter:
+    """The parameter of a path.
+
+    Raises:
+        ProblemError: 404 when there is none.
+    """
     parameter = registry.get(path)
     if parameter is None:
         raise ProblemError(

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from reina.keyframes import stage_registry
 from reina.keyframes.show_schema import show_schema_text
-from reina.protocol import resources, transport
+from reina.protocol import resources, timeline, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
 from reina.protocol.reader import frame_reader
@@ -37,6 +37,9 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.SessionList,
     resources.Score,
     resources.ShowEdited,
+    timeline.ShowCurves,
+    timeline.MusicTime,
+    timeline.SongPeaks,
     resources.ShowLibrary,
     resources.RigList,
     resources.ShowParameterList,
@@ -57,6 +60,7 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *FROM_VIEWER,
     *COMMANDS,
     resources.SessionChange,
+    timeline.CurvePreview,
 )
 """What the server is sent: fields with a default may be left out."""
 

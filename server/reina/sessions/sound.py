@@ -18,6 +18,7 @@ from pathlib import Path
 from reina.music.score import Score
 from reina.sessions.sound_events import SoundPlan
 from reina.sessions.sound_font import MissingSoundfontError, SoundError, find_soundfont, soundfont_id
+from reina.sessions.sound_peaks import peaks_path
 from reina.sessions.sound_plan import plan_sound
 from reina.sessions.sound_probe import AudioInfo, probe_audio
 
@@ -190,7 +191,7 @@ class SongRenderer:
         total = freed = sum(stat.st_size for _, stat in songs)
         for song, stat in sorted(songs, key=lambda entry: entry[1].st_mtime):
             if total > most_bytes and song not in in_use:
-                song.unlink(missing_ok=True)
+                self.discard(song)
                 total -= stat.st_size
         return freed - total
 
@@ -198,6 +199,7 @@ class SongRenderer:
         """Remove a song that nobody needs any more; None, and one that is gone already, are no error."""
         if path is not None:
             path.unlink(missing_ok=True)
+            peaks_path(path).unlink(missing_ok=True)
 
     def _ended(self, path: Path, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)

@@ -336,6 +336,35 @@ export interface ShowEdited extends ShowState {
   removed: string[]
 }
 
+/** Curves of parameters, sampled at the same times. */
+export interface ShowCurves {
+  times_s: number[]
+  /** In the order in which they were asked for. */
+  curves: ShowCurve[]
+}
+
+/** The music's time, for rulers, snapping, and the time of a key in its track's unit. */
+export interface MusicTime {
+  duration_s: number
+  knots: TimeKnots
+  /** Every beat (quarter note) of the score. */
+  beats_s: number[]
+  /** Every bar line of the score. */
+  bars_s: number[]
+  /** Every onset of a note that the player plays, each once. */
+  onsets_s: number[]
+}
+
+/** The shape of a song's sound: its lowest and highest sample, all channels together, by stretches. */
+export interface SongPeaks {
+  /** The song's length, which all stretches together fill evenly. */
+  duration_s: number
+  /** -1..1, a number a stretch. */
+  lowest: number[]
+  /** -1..1. */
+  highest: number[]
+}
+
 /** The bundled shows, each to be fetched and put into a session of one's own. */
 export interface ShowLibrary {
   shows: ShowSummary[]
@@ -426,6 +455,20 @@ export interface SessionChange {
   written?: boolean | null
   octave_fit?: boolean | null
   sequence?: number | null
+}
+
+/** A track whose curve is asked for; it is not kept. */
+export interface CurvePreview {
+  /** As a show has it, with its parameter; times without a unit of their own are in the show's. */
+  track: Record<string, unknown>
+}
+
+/** A parameter's values over the times of a ShowCurves. */
+export interface CurveLine {
+  /** A list a component, each as long as times_s: colours linear sRGB, choices indices, as in frames. */
+  values: number[][]
+  /** Indices i where the value jumps between times_s[i - 1] and times_s[i]; a line is broken there. */
+  jumps: number[]
 }
 
 /** A bundled piece: its files, to be posted as a session of one's own. */
@@ -533,6 +576,19 @@ export interface SessionSummary {
   links: SessionLinks
 }
 
+/** One parameter's curve, whether its track is muted or not. */
+export interface ShowCurve {
+  parameter: string
+  /** The ETag of the track that it was sampled from; "none" where there is none, and of a preview. */
+  etag: string
+  /** Song time of each of the track's keyframes, in their order, those out of sight included. */
+  keys_s: number[]
+  /** What the keyframes alone say; the default where there are none. */
+  keys: CurveLine
+  /** What comes of it with the track's answer to events, where it has one. */
+  with_events: CurveLine | null
+}
+
 /** A parameter that keyframes can move. */
 export interface ShowParameter {
   path: string
@@ -600,6 +656,13 @@ export interface Tempo {
   onset_s: number
   /** Quarter notes a minute. */
   bpm: number
+}
+
+/** Places of the music's time in all three units: between two, and beyond both ends, it runs straight. */
+export interface TimeKnots {
+  seconds: number[]
+  beats: number[]
+  bars: number[]
 }
 
 /** Something in the score that could not be taken as it stands, and what was done instead. */

@@ -1,0 +1,116 @@
+"""What a timeline editor draws, so that it has no value to work out: curves, and the music's time."""
+
+import asyncio
+import hashlib
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Depends, Query, Response
+
+from reina.api.access import Controlled, Store, Watched
+from reina.api.conditions import IfNoneMatch, conditional
+from reina.api.frames import LATEST_S
+from reina.api.problems import ProblemError
+from reina.api.tracks import known_parameter
+from reina.keyframes import ShowError
+from reina.keyframes.show_reader import read_track
+from reina.protocol.timeline import CurvePreview, MusicTime, ShowCurves
+from reina.sessions.show_curves import (
+    CurveSpan,
+    curves_identity,
+    curves_of_show,
+    curves_of_track,
+    music_time,
+)
+
+router = APIRouter(tags=["show"])
+
+MOST_PARAMETERS = 64
+MOST_POINTS = 2000
+MOST_SAMPLES = 40_000
+
+EXAMPLE: dict[str, Any] = {
+    "parameter": "lights/key/intensity",
+    "time": "bars",
+    "keyframes": [
+        {"key": "k1", "time": 0, "value": 1},
+        {"key": "k2", "time": 2, "value": 3, "interpolation": "cubic_bezier", "handles": [0.3, 0, 0.1, 1]},
+    ],
+}
+
+
+def _span(
+    start_s: Annotated[float, Query(ge=0, le=LATEST_S, description="Song time of the first point.")],
+    end_s: Annotated[float, Query(ge=0, le=LATEST_S, description="Song time of the last.")],
+    points: Annotated[int, Query(ge=1, le=MOST_POINTS, description="How many, evenly spaced.")] = 500,
+) -> CurveSpan:
+    if end_s < start_s:
+        raise ProblemError(
+            422,
+            "span-invalid",
+            "These curves cannot be sampled",
+            f"end_s lies at or after start_s, {start_s:g}, not at {end_s:g}",
+        )
+    return CurveSpan(start_s, end_s, points)
+
+
+Span = Annotated[CurveSpan, Depends(_span)]
+
+
+@router.get("/sessions/{session_id}/show/curves", response_model=ShowCurves)
+async def get_curves(
+    session: Watched,
+    store: Store,
+    span: Span,
+    parameter: Annotated[
+        list[str],
+        Query(min_length=1, max_length=MOST_PARAMETERS, description="A parameter's path; may be repeated."),
+    ],
+    if_none_match: IfNoneMatch = None,
+) -> Response:
+    """Curves of parameters over a span of song time, as the show moves them.
+
+    The validator follows from the tracks that are asked for alone: an edit of another track leaves it.
+    """
+    if len(parameter) * span.points > MOST_SAMPLES:
+        raise ProblemError(
+            422,
+            "too-many-samples",
+            "These curves cannot be sampled",
+            f"{len(parameter)} parameters of {span.points} points are more than {MOST_SAMPLES} samples; "
+            "ask for fewer points or parameters",
+        )
+    for path in parameter:
+        known_parameter(store.stage.registry, path)
+    production, kept = session.production, session.kept_show
+    identity = "\n".join([str(span), *curves_identity(production, kept.text, parameter)])
+    etag = f'"{hashlib.sha256(identity.encode()).hexdigest()[:24]}"'
+    unchanged = conditional("", etag, if_none_match)
+    if unchanged.status_code != 200:
+        return unchanged
+    text = await asyncio.to_thread(
+        lambda: curves_of_show(production, kept, parameter, span).model_dump_json()
+    )
+    return conditional(text, etag, None)
+
+
+@router.post("/sessions/{session_id}/show/curves")
+def preview_curve(
+    session: Controlled,
+    store: Store,
+    span: Span,
+    asked: Annotated[CurvePreview, Body(examples=[{"track": EXAMPLE}])],
+) -> ShowCurves:
+    """The curve of a track as it would be: nothing is kept. For a key or a handle that is being dragged."""
+    track = asked.track
+    path = track.get("parameter")
+    if not isinstance(path, str):
+        raise ShowError("a parameter's path is needed here", field="track/parameter")
+    parameter = known_parameter(store.stage.registry, path)
+    read = read_track(track, parameter, session.kept_show.show.time)
+    return curves_of_track(session.production, read, span)
+
+
+@router.get("/sessions/{session_id}/time")
+def get_music_time(session: Watched) -> MusicTime:
+    """How seconds, beats and bars run in this piece, and what keys may snap to."""
+    return music_time(session.production, session.clock.duration_s)
