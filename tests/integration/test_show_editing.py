@@ -95,6 +95,86 @@ def test_a_track_has_a_validator_of_its_own(shown: Owned) -> None:
     assert etag(shown, TRACK) == known, "the same track again"
 
 
+def test_a_batch_is_one_step_and_its_answer_is_the_show_that_came_of_it(shown: Owned) -> None:
+    edits = [
+        {"edit": "move_keyframes", "keyframes": {LIGHT: ["k1"], FOV: ["k1"]}, "by": 1, "value_by": 0.1},
+        {"edit": "change_track", "parameter": FOV, "changes": {"muted": True}},
+        {"edit": "copy_track", "parameter": LIGHT, "to": "lights/rim/intensity"},
+        {"edit": "change_show", "changes": {"markers": [{"time": 1, "name": "Here"}]}},
+    ]
+    before = shown.client.get(f"{shown.path}/show").json()
+    answer = request(shown, "POST", "/show/edits", etag(shown), edits).raise_for_status()
+    told = answer.json()
+    assert answer.headers["etag"] == told["etag"] == etag(shown)
+    now = shown.client.get(f"{shown.path}/show").json()
+    assert told["tracks"] == now.pop("tracks")
+    assert told["head"] == now
+    assert now["markers"] == [{"time": 1, "name": "Here"}]
+    assert told["removed"] == []
+    undone = request(shown, "POST", "/show/undo", told["etag"]).raise_for_status().json()
+    assert undone["removed"] == ["lights/rim/intensity"]
+    assert shown.client.get(f"{shown.path}/show").json() == before
+
+
+def test_a_brief_answer_leaves_the_tracks_out(shown: Owned) -> None:
+    headers = {**shown.headers, "Prefer": "respond-async, return=minimal"}
+    edits = [{"edit": "change_keyframe", "parameter": FOV, "key": "k1", "changes": {"value": 0.4}}]
+    answer = shown.client.post(f"{shown.path}/show/edits", json=edits, headers=headers).raise_for_status()
+    assert answer.headers["preference-applied"] == "return=minimal"
+    assert answer.json()["tracks"] == []
+    assert answer.json()["etag"] == etag(shown)
+    some = shown.client.get(f"{shown.path}/show", params={"parameter": [FOV, "no/such"]}).json()
+    assert [track["keyframes"][0]["value"] for track in some["tracks"]] == [0.4]
+
+
+def test_what_is_muted_rests_and_what_is_solo_is_heard_alone(shown: Owned) -> None:
+    paths = (LIGHT, FOV)
+
+    def values() -> tuple[float, ...]:
+        manifest = shown.client.get(f"{shown.path}/manifest").json()
+        frame = shown.client.get(f"{shown.path}/frames", params={"start_s": 1, "end_s": 1.01}).content
+        offsets = {entry["path"]: entry["offset"] for entry in manifest["parameters"]}
+        return tuple(round(struct.unpack_from("<f", frame, offsets[path])[0], 5) for path in paths)
+
+    def change(path: str, **changes: object) -> None:
+        edit = {"edit": "change_track", "parameter": path, "changes": changes}
+        shown.change("POST", "/show/edits", json=[edit]).raise_for_status()
+
+    parameters = shown.client.get("/api/v1/parameters").json()["parameters"]
+    defaults = {entry["path"]: entry["default"] for entry in parameters}
+    rests = tuple(round(defaults[path], 5) for path in paths)
+    own = (1.0, 0.5)
+    assert values() == own
+    change(LIGHT, muted=True)
+    assert values() == (rests[0], own[1])
+    change(LIGHT, muted=None, solo=True)
+    assert values() == (own[0], rests[1])
+    change(FOV, solo=True)
+    assert values() == own
+    change(FOV, muted=True)
+    assert values() == (own[0], rests[1]), "a muted track stays so"
+    change(LIGHT, solo=None)
+    assert values() == rests, "what is solo and muted alone leaves nothing"
+
+
+def test_who_watches_hears_which_tracks_changed(server: Running, shown: Owned) -> None:
+    async def scenario() -> list[object]:
+        async with watch(server, shown.id) as watcher:
+            for edits in (
+                [
+                    {"edit": "remove_keyframe", "parameter": LIGHT, "key": "k1"},
+                    {"edit": "change_keyframe", "parameter": FOV, "key": "k1", "changes": {"value": 0.4}},
+                ],
+                [{"edit": "change_show", "changes": {"title": "Other"}}],
+            ):
+                answer = await asyncio.to_thread(shown.change, "POST", "/show/edits", json=edits)
+                answer.raise_for_status()
+            await watcher.until(lambda: len(watcher.of_type("show_changed")) == 2)
+            return [told["paths"] for told in watcher.of_type("show_changed")]
+
+    assert asyncio.run(scenario()) == [[LIGHT, FOV], None]
+
+
 def test_of_two_who_add_the_first_keyframe_one_is_refused(shown: Owned) -> None:
     below = "/show/tracks/camera/roll/keyframes"
     known = etag(shown, below)

@@ -23,6 +23,17 @@ IfNoneMatch = Annotated[
 ]
 
 
+Prefer = Annotated[
+    str | None,
+    Header(description="`return=minimal` (RFC 7240): the answer leaves out the tracks that changed."),
+]
+
+
+def wants_minimal(prefer: str | None) -> bool:
+    """Whether a brief answer is preferred."""
+    return any(part.strip().lower() == "return=minimal" for part in re.split("[,;]", prefer or ""))
+
+
 def require_match(if_match: str | None, *etags: str) -> None:
     """Refuse a write whose condition does not hold.
 

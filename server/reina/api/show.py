@@ -1,12 +1,13 @@
 """The show as a whole."""
 
-from typing import Any
+import asyncio
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 
 from reina.api.access import Controlled, Store, Watched
 from reina.api.body import read_show_body
-from reina.api.conditions import IfMatch, IfNoneMatch, conditional
+from reina.api.conditions import NOT_MODIFIED, IfMatch, IfNoneMatch, conditional
 from reina.api.show_change import ShowChange
 from reina.protocol.messages import ShowState
 from reina.sessions.production import read_show
@@ -37,10 +38,19 @@ EXAMPLE: Document = {
 
 
 @router.get("/sessions/{session_id}/show", response_model=Document)
-async def get_show(session: Watched, if_none_match: IfNoneMatch = None) -> Response:
-    """The whole show, as docs/show.schema.json describes it."""
+async def get_show(
+    session: Watched,
+    if_none_match: IfNoneMatch = None,
+    parameter: Annotated[
+        list[str] | None, Query(description="Only the tracks of these parameters, as far as there are any.")
+    ] = None,
+) -> Response:
+    """The whole show, as docs/show.schema.json describes it, or its own fields and some of its tracks."""
     text = session.kept_show.text
-    return conditional(text.text, text.etag, if_none_match)
+    known = conditional("", text.etag, if_none_match)
+    if known.status_code == NOT_MODIFIED:
+        return known
+    return conditional(await asyncio.to_thread(text.of_tracks, parameter), text.etag, None)
 
 
 @router.put(

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING
 
 from reina.api.conditions import require_match
-from reina.protocol.resources import ShowEdited
+from reina.keyframes.show_writer import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,13 +60,21 @@ class ShowChange:
 
         return await self._store.change_show(self._session, conditional_step)
 
-    def outcome(self, after: KeptShow) -> ShowEdited:
-        """What the change came to."""
+    def outcome(self, after: KeptShow, *, briefly: bool) -> str:
+        """What the change came to: `ShowEdited` as JSON, put together of what is written already.
+
+        Args:
+            after: What it came to.
+            briefly: Whether to leave out the tracks themselves.
+        """
         old, new = self.before.text.tracks, after.text.tracks
-        changed = [
-            json.loads(written.text)
-            for path, written in new.items()
-            if path not in old or old[path].etag != written.etag
-        ]
-        removed = [path for path in old if path not in new]
-        return ShowEdited(**dict(after.state), tracks=changed, removed=removed)
+        changed = (
+            written.text for path, written in new.items() if path not in old or old[path].etag != written.etag
+        )
+        parts = {
+            "head": after.text.head,
+            "tracks": "[]" if briefly else f"[{', '.join(changed)}]",
+            "removed": json_text([path for path in old if path not in new]),
+        }
+        told = ", ".join(f'"{name}": {text}' for name, text in parts.items())
+        return f"{after.state.model_dump_json()[:-1]}, {told}}}"

@@ -1,5 +1,6 @@
 """Several edits of a show at once, and the way back."""
 
+import asyncio
 import json
 from typing import Any
 
@@ -7,11 +8,13 @@ from fastapi import APIRouter, Request, Response
 
 from reina.api.access import Controlled, Store
 from reina.api.body import read_show_body
-from reina.api.conditions import IfMatch
+from reina.api.conditions import IfMatch, Prefer, wants_minimal
 from reina.api.problems import ProblemError
 from reina.api.show_change import ShowChange
-from reina.keyframes import KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
+from reina.keyframes import EDITS, KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
+from reina.keyframes.time_map import TIME_UNITS
 from reina.protocol.resources import ShowEdited
+from reina.sessions.kept_show import KeptShow
 
 router = APIRouter(tags=["show"])
 
@@ -31,39 +34,65 @@ EXAMPLE: list[dict[str, Any]] = [
     },
     {"edit": "change_keyframe", "parameter": "camera/fov", "key": "k2", "changes": {"time": 2.5}},
     {"edit": "remove_keyframe", "parameter": "camera/fov", "key": "k1"},
+    {
+        "edit": "move_keyframes",
+        "keyframes": {"camera/fov": ["k2", "k3"]},
+        "time": "bars",
+        "by": 1,
+        "stretch": {"about": 0, "factor": 2},
+        "value_by": -0.05,
+    },
+    {"edit": "change_track", "parameter": "camera/fov", "changes": {"after": "loop", "muted": True}},
+    {"edit": "copy_track", "parameter": "camera/fov", "to": "camera/roll"},
+    {"edit": "remove_track", "parameter": "camera/roll"},
+    {"edit": "change_show", "changes": {"markers": [{"time": 8, "name": "Refrain"}]}},
 ]
+
+
+_FIELDS: dict[str, Any] = {
+    "parameter": {"type": "string"},
+    "key": {"type": "string"},
+    "keyframe": {"type": "object"},
+    "replace": {"type": "boolean", "default": False},
+    "changes": {"type": "object"},
+    "keyframes": {
+        "type": "object",
+        "additionalProperties": {"type": "array", "items": {"type": "string"}},
+        "description": "Keys by their parameters.",
+    },
+    "by": {"type": "number", "default": 0},
+    "stretch": {
+        "type": "object",
+        "properties": {"about": {"type": "number"}, "factor": {"type": "number", "exclusiveMinimum": 0}},
+    },
+    "time": {"enum": list(TIME_UNITS), "description": "The unit of `by` and `about`; the show's by default."},
+    "value_by": {"description": "What is added to the values: a number, or three for vectors."},
+    "track": {"type": "object"},
+    "to": {"type": "string", "description": "The other parameter."},
+}
+"""Every field of an edit, as JSON Schema."""
+
+
+def _schema(name: str) -> dict[str, Any]:
+    fields = (*EDITS[name].fields, *EDITS[name].optional)
+    return {
+        "type": "object",
+        "title": name,
+        "required": ["edit", *EDITS[name].fields],
+        "properties": {"edit": {"const": name}, **{field: _FIELDS[field] for field in fields}},
+        "additionalProperties": False,
+    }
 
 
 @router.post(
     "/sessions/{session_id}/show/edits",
+    response_model=ShowEdited,
     openapi_extra={
         "requestBody": {
             "required": True,
             "content": {
                 "application/json": {
-                    "schema": {
-                        "type": "array",
-                        "items": {
-                            "type": "object",
-                            "required": ["edit"],
-                            "properties": {
-                                "edit": {
-                                    "enum": [
-                                        "add_keyframe",
-                                        "change_keyframe",
-                                        "remove_keyframe",
-                                        "put_track",
-                                        "remove_track",
-                                    ]
-                                },
-                                "parameter": {"type": "string"},
-                                "key": {"type": "string"},
-                                "keyframe": {"type": "object"},
-                                "changes": {"type": "object"},
-                                "track": {"type": "object"},
-                            },
-                        },
-                    },
+                    "schema": {"type": "array", "items": {"oneOf": [_schema(name) for name in EDITS]}},
                     "example": EXAMPLE,
                 }
             },
@@ -71,8 +100,8 @@ EXAMPLE: list[dict[str, Any]] = [
     },
 )
 async def edit_show(
-    session: Controlled, store: Store, request: Request, response: Response, if_match: IfMatch = None
-) -> ShowEdited:
+    session: Controlled, store: Store, request: Request, if_match: IfMatch = None, prefer: Prefer = None
+) -> Response:
     """Several edits in their order as one step: all of them are made, or none.
 
     Only their outcome has to be a show, so that keyframes may change places.
@@ -84,18 +113,20 @@ async def edit_show(
 
     def edit(show: Show) -> Show:
         try:
-            return with_edits(show, edits, store.stage.registry)
+            return with_edits(show, edits, store.stage.registry, session.production.show_plan.time_map)
         except KeyNotFoundError as error:
             raise ProblemError(
                 409, "unknown-keyframe", "There is no such track or keyframe", str(error)
             ) from error
 
     change = ShowChange(session, store, if_match)
-    return _told(response, change.outcome(await change.edit(edit)))
+    return await _told(change, await change.edit(edit), prefer)
 
 
-@router.post("/sessions/{session_id}/show/undo")
-async def undo(session: Controlled, store: Store, response: Response, if_match: IfMatch = None) -> ShowEdited:
+@router.post("/sessions/{session_id}/show/undo", response_model=ShowEdited)
+async def undo(
+    session: Controlled, store: Store, if_match: IfMatch = None, prefer: Prefer = None
+) -> Response:
     """Take the last edit back, whoever made it."""
 
     def step(history: ShowHistory) -> ShowHistory:
@@ -109,11 +140,13 @@ async def undo(session: Controlled, store: Store, response: Response, if_match: 
         return history.undone()
 
     change = ShowChange(session, store, if_match)
-    return _told(response, change.outcome(await change.step(step)))
+    return await _told(change, await change.step(step), prefer)
 
 
-@router.post("/sessions/{session_id}/show/redo")
-async def redo(session: Controlled, store: Store, response: Response, if_match: IfMatch = None) -> ShowEdited:
+@router.post("/sessions/{session_id}/show/redo", response_model=ShowEdited)
+async def redo(
+    session: Controlled, store: Store, if_match: IfMatch = None, prefer: Prefer = None
+) -> Response:
     """Do again what was taken back last; an edit in between has ended that."""
 
     def step(history: ShowHistory) -> ShowHistory:
@@ -127,9 +160,13 @@ async def redo(session: Controlled, store: Store, response: Response, if_match: 
         return history.redone()
 
     change = ShowChange(session, store, if_match)
-    return _told(response, change.outcome(await change.step(step)))
+    return await _told(change, await change.step(step), prefer)
 
 
-def _told(response: Response, edited: ShowEdited) -> ShowEdited:
-    response.headers["ETag"] = edited.etag
-    return edited
+async def _told(change: ShowChange, after: KeptShow, prefer: str | None) -> Response:
+    briefly = wants_minimal(prefer)
+    text = await asyncio.to_thread(change.outcome, after, briefly=briefly)
+    headers = {"ETag": after.text.etag, "Vary": "Prefer"}
+    if briefly:
+        headers["Preference-Applied"] = "return=minimal"
+    return Response(text, media_type="application/json", headers=headers)

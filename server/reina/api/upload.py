@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 MEGABYTE = 1_000_000
 
-FILE_LIMITS = {"score": 20 * MEGABYTE, "song": 200 * MEGABYTE, "show": 5 * MEGABYTE}
+FILE_LIMITS = {"score": 20 * MEGABYTE, "song": 200 * MEGABYTE, "show": 20 * MEGABYTE}
 """Bytes, by the part's name."""
 FIELD_LIMITS = {
     "title": 1000,

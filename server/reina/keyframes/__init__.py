@@ -2,7 +2,7 @@
 
 from reina.keyframes.default_show import write_default_show
 from reina.keyframes.eased_keyframe import CubicBezierKeyframe, EasedKeyframe
-from reina.keyframes.edits import ShowHistory, with_edits
+from reina.keyframes.edits import EDITS, with_edits
 from reina.keyframes.errors import KeyNotFoundError, ShowError
 from reina.keyframes.event_response import EventResponse, NoteFilter
 from reina.keyframes.interpolation import InterpolationError, interpolations
@@ -14,6 +14,7 @@ from reina.keyframes.parameter import Parameter
 from reina.keyframes.parameter_registry import ParameterRegistry
 from reina.keyframes.performance_event_emitter import PerformanceEventEmitter
 from reina.keyframes.show import Marker, Show
+from reina.keyframes.show_history import ShowHistory
 from reina.keyframes.show_plan import ShowPlan
 from reina.keyframes.show_writer import keyframe_document, track_document
 from reina.keyframes.spaces import OKLAB, ORIENTATION
@@ -24,6 +25,7 @@ from reina.keyframes.track import Track, UnknownTrack
 from reina.keyframes.triggers import Triggers
 
 __all__ = [
+    "EDITS",
     "OKLAB",
     "ORIENTATION",
     "STAGE_PARAMETERS",

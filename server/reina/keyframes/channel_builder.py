@@ -2,15 +2,16 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from reina.keyframes.arrays import FloatArray
+from reina.keyframes.arrays import FloatArray, IntArray
 from reina.keyframes.channel import Channel, Stretch
 from reina.keyframes.eased_keyframe import EasedKeyframe
 from reina.keyframes.easings import DIRECTION_CODES, EASE_IN, EaseIn
 from reina.keyframes.keyframe import Keyframe
+from reina.keyframes.options import options_of
 from reina.keyframes.outside import Outside
 from reina.keyframes.spaces import OrientationSpace, Space
 from reina.keyframes.spline_keyframe import SplineKeyframe, quaternion_pace, spline_pace
@@ -64,13 +65,17 @@ class ChannelBuilder:
         self.paces: list[EaseIn] = [EASE_IN["linear"]]
         self.pace = np.zeros(self.count + 1, dtype=np.int64)
         self.directions = np.zeros(self.count + 1)
-        self.rows: dict[int, FloatArray] = {}
+        self.option_rows: list[tuple[IntArray, FloatArray]] = []
         self.stretches: dict[int, Stretch] = {}
         self.quaternion_splines: dict[int, FloatArray] = {}
         self.limits = values[1:].copy()
         self.moving = np.ones(self.count + 1, dtype=np.bool_)
+        of_kind: dict[type[Keyframe[Any]], list[int]] = {}
         for segment, keyframe in enumerate(keyframes[1:], start=1):
-            self._classify(segment, keyframe)
+            of_kind.setdefault(type(keyframe), []).append(segment)
+        self.splines: dict[str, list[IntArray]] = {}
+        for kind, segments in of_kind.items():
+            self._classify(kind, np.array(segments, dtype=np.int64))
         self._find_slopes()
 
     def channel(self) -> Channel:
@@ -78,9 +83,9 @@ class ChannelBuilder:
         jumped = np.any(np.abs(self.limits - self.values[1:]) > _SAME, axis=1)
         jumps = np.concatenate([[0, 0], np.cumsum(jumped)]).astype(np.int64)
         wraps = self.count > 1 and bool(np.any(np.abs(self.limits[-1] - self.values[0]) > _SAME))
-        options = np.zeros((self.count + 1, max((row.size for row in self.rows.values()), default=0)))
-        for segment, row in self.rows.items():
-            options[segment, : row.size] = row
+        options = np.zeros((self.count + 1, max((row.shape[1] for _, row in self.option_rows), default=0)))
+        for segments, rows in self.option_rows:
+            options[segments, : rows.shape[1]] = rows
         return Channel(
             space=self.space,
             before=self.before,
@@ -103,31 +108,38 @@ class ChannelBuilder:
             jumps_a_lap=int(jumps[-2]) + int(wraps) if self.count > 1 else 0,
         )
 
-    def _classify(self, segment: int, keyframe: Keyframe[Any]) -> None:
-        formula = _formula(type(keyframe))
-        if isinstance(keyframe, EasedKeyframe) and formula is _formula(EasedKeyframe):
-            self.pace[segment] = self._pace_index(type(keyframe).ease_in)
-            self.directions[segment] = DIRECTION_CODES[keyframe.direction]
-            self.rows[segment] = keyframe.option_row()
-        elif isinstance(keyframe, SplineKeyframe) and formula is _formula(SplineKeyframe):
-            if keyframe.tangents == "given" and isinstance(self.space, OrientationSpace):
-                self.pace[segment] = self._pace_index(quaternion_pace)
-                self.quaternion_splines[segment] = self._quaternion_spline(segment)
+    def _classify(self, kind: type[Keyframe[Any]], segments: IntArray) -> None:
+        """Lay out the segments that end with keyframes of one class."""
+        formula = _formula(kind)
+        if issubclass(kind, EasedKeyframe) and formula is _formula(EasedKeyframe):
+            self.pace[segments] = self._pace_index(kind.ease_in)
+            self.directions[segments] = DIRECTION_CODES[kind.direction]
+            if options_of(kind):
+                ends = (cast("EasedKeyframe[Any]", self.keyframes[segment]) for segment in segments.tolist())
+                self.option_rows.append((segments, np.array([end.option_numbers() for end in ends])))
+        elif issubclass(kind, SplineKeyframe) and formula is _formula(SplineKeyframe):
+            if kind.tangents == "given" and isinstance(self.space, OrientationSpace):
+                self.pace[segments] = self._pace_index(quaternion_pace)
+                for segment in segments.tolist():
+                    self.quaternion_splines[segment] = self._quaternion_spline(segment)
             else:
-                self.pace[segment] = self._pace_index(spline_pace)
+                self.pace[segments] = self._pace_index(spline_pace)
+                self.splines.setdefault(kind.tangents, []).append(segments)
         elif formula is _formula(Keyframe):
-            self.moving[segment] = False
-            self.limits[segment - 1] = self.values[segment - 1]
+            self.moving[segments] = False
+            self.limits[segments - 1] = self.values[segments - 1]
         else:
-            self._add_own_formula(segment, keyframe)
+            for segment in segments.tolist():
+                self._add_own_formula(segment)
 
     def _pace_index(self, ease_in: EaseIn) -> int:
         if ease_in not in self.paces:
             self.paces.append(ease_in)
         return self.paces.index(ease_in)
 
-    def _add_own_formula(self, segment: int, keyframe: Keyframe[Any]) -> None:
+    def _add_own_formula(self, segment: int) -> None:
         """A class that overrides `eval`: called with both keys' values, and slopes, as points."""
+        keyframe = self.keyframes[segment]
         plain = not isinstance(self.space, OrientationSpace)
         before_it = replace(
             self.keyframes[segment - 1],
@@ -164,20 +176,8 @@ class ChannelBuilder:
     def _find_slopes(self) -> None:
         inner = slice(1, self.count)
         chords = self.deltas[inner] / self.durations[inner, None]
-        for tangents in ("given", "automatic", "clamped"):
-            segments = np.array(
-                [
-                    segment
-                    for segment, keyframe in enumerate(self.keyframes)
-                    if isinstance(keyframe, SplineKeyframe)
-                    and keyframe.tangents == tangents
-                    and segment > 0
-                    and segment not in self.quaternion_splines
-                ],
-                dtype=np.int64,
-            )
-            if segments.size == 0:
-                continue
+        for tangents, groups in self.splines.items():
+            segments = np.concatenate(groups)
             if tangents == "given":
                 leaving, arriving = self.out_tangents[segments - 1], self.in_tangents[segments]
             else:

@@ -38,10 +38,15 @@ class EasedKeyframe(Keyframe[T], Generic[T]):
 
     def option_row(self) -> FloatArray:
         """The options' numbers in one row ``(Q,)``, as `ease_in` takes them."""
-        values = [getattr(self, declared.name) for declared in options_of(type(self))]
-        return np.concatenate(
-            [np.zeros(0), *(np.atleast_1d(np.asarray(value, dtype=np.float64)) for value in values)]
-        )
+        return np.array(self.option_numbers(), dtype=np.float64)
+
+    def option_numbers(self) -> list[float]:
+        """The options' numbers, one after another."""
+        numbers: list[float] = []
+        for declared in options_of(type(self)):
+            value: float | tuple[float, ...] = getattr(self, declared.name)
+            numbers.extend(value if isinstance(value, tuple) else (value,))
+        return numbers
 
 
 @dataclass(frozen=True)

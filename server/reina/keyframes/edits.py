@@ -1,187 +1,190 @@
-"""Edits of a show as JSON: several at once, all or none, and a history that can be walked back."""
+"""Edits of a show as JSON: several at once, all or none."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from reina.keyframes.errors import KeyNotFoundError, ShowError
+from reina.keyframes.errors import ShowError
 from reina.keyframes.parameter import Parameter
 from reina.keyframes.parameter_registry import ParameterRegistry
 from reina.keyframes.place import Json, Place
-from reina.keyframes.show import Show, changed_keyframe_document
-from reina.keyframes.show_reader import read_keyframe, read_track
-from reina.keyframes.show_writer import keyframe_document, track_document
-from reina.keyframes.track import Track
-
-Tracks = dict[str, dict[str, Any]]
-"""Tracks as JSON by their parameters' paths, while they are being edited."""
+from reina.keyframes.show import Show
+from reina.keyframes.show_draft import ShowDraft
+from reina.keyframes.time_map import TIME_UNITS, TimeMap
+from reina.keyframes.track_draft import TrackDraft
+from reina.keyframes.value_types import parse_number, parse_numbers
 
 
-def with_edits(show: Show, edits: object, registry: ParameterRegistry) -> Show:
+def with_edits(
+    show: Show, edits: object, registry: ParameterRegistry, time_map: TimeMap | None = None
+) -> Show:
     """The show with a list of edits made, one after another; only their outcome has to be a show.
 
-    So two keyframes may change places. Each edit is a JSON object with ``edit``:
+    So two keyframes may change places. Each edit is a JSON object with ``edit``, a name of `EDITS`, and that
+    edit's fields; docs/shows.md says what each does.
 
-    - ``add_keyframe``: ``parameter``, ``keyframe``;
-    - ``change_keyframe``: ``parameter``, ``key``, ``changes`` (fields; null goes back to the default);
-    - ``remove_keyframe``: ``parameter``, ``key``;
-    - ``put_track``: ``track``, which takes the place of the one of its parameter;
-    - ``remove_track``: ``parameter``.
+    Args:
+        show: As it is.
+        edits: The list.
+        registry: The parameters.
+        time_map: How the music's time runs, for edits in another unit than a track's; 120 beats a minute in
+            4/4 where it is not given.
 
     Raises:
         ShowError: An edit, or what comes of them, is not as it should be.
         KeyNotFoundError: A track or keyframe is not there.
     """
     place = Place()
-    named = _named(place.items(edits, "edits"))
-    tracks: Tracks = {
-        track.parameter: track_document(track, show.time)
-        for track in show.tracks
-        if isinstance(track, Track) and track.parameter in named
-    }
-    touched: dict[str, None] = {}
+    draft = ShowDraft(show, registry, time_map or TimeMap.steady())
     for index, entry in enumerate(place.items(edits, "edits")):
         given: Json = cast("Json", entry) if isinstance(entry, Mapping) else {}
         name: object = given.get("edit")
-        kind = _EDITS.get(str(name))
+        kind = EDITS.get(str(name))
         if kind is None:
-            raise place.error(f"{name!r} is none of {', '.join(_EDITS)}", f"edits/{index}/edit")
-        fields, make = kind
-        edit = place.fields(given, ("edit", *fields), what=f"the edit {name}")
-        for field in fields:
-            if field not in edit:
-                raise place.error("it is missing", f"edits/{index}/{field}")
-        touched[make(tracks, edit, registry)] = None
-    for path in touched:
-        document = tracks.get(path)
-        if document is None or not (document["keyframes"] or "events" in document):
-            if any(track.parameter == path for track in show.tracks):
-                show = show.without_track(path)
-            continue
-        show = show.with_track(read_track(document, _parameter(path, registry), show.time))
-    return show
+            raise place.error(f"{name!r} is none of {', '.join(EDITS)}", f"edits/{index}/edit")
+        try:
+            edit = place.fields(given, ("edit", *kind.fields, *kind.optional), what=f"the edit {name}")
+            for field in kind.fields:
+                if field not in edit:
+                    raise place.error("it is missing", field)
+            kind.make(draft, edit)
+        except ShowError as error:
+            field = "/".join(part for part in (f"edits/{index}", error.field) if part)
+            raise type(error)(error.detail, track=error.track, key=error.key, field=field) from None
+    return draft.finished()
 
 
-def _named(edits: Iterable[object]) -> set[str]:
-    """The parameters that edits name, so that no other track has to be written out and read again."""
-    found: set[str] = set()
-    for entry in edits:
-        given: Json = cast("Json", entry) if isinstance(entry, Mapping) else {}
-        track = given.get("track")
-        inner: Json = cast("Json", track) if isinstance(track, Mapping) else {}
-        found |= {path for path in (given.get("parameter"), inner.get("parameter")) if isinstance(path, str)}
-    return found
-
-
-def _parameter(path: object, registry: ParameterRegistry) -> Parameter:
+def _parameter(path: object, registry: ParameterRegistry, field: str = "parameter") -> Parameter:
     parameter = registry.get(path) if isinstance(path, str) else None
     if parameter is None:
-        raise ShowError(f"there is no parameter {path!r}; GET /parameters lists them all", field="parameter")
+        raise ShowError(f"there is no parameter {path!r}; GET /parameters lists them all", field=field)
     return parameter
 
 
-def _add_keyframe(tracks: Tracks, edit: Json, registry: ParameterRegistry) -> str:
-    parameter = _parameter(edit["parameter"], registry)
-    track = tracks.setdefault(parameter.path, {"parameter": parameter.path, "keyframes": []})
-    keys = {keyframe["key"] for keyframe in track["keyframes"]}
-    free = (f"k{number}" for number in range(1, len(keys) + 2) if f"k{number}" not in keys)
-    track["keyframes"].append(keyframe_document(read_keyframe(edit["keyframe"], parameter, free)))
-    return parameter.path
+def _track(draft: ShowDraft, edit: Json) -> TrackDraft:
+    return draft.track(_parameter(edit["parameter"], draft.registry))
 
 
-def _change_keyframe(tracks: Tracks, edit: Json, registry: ParameterRegistry) -> str:
-    parameter = _parameter(edit["parameter"], registry)
-    index = _find(tracks, parameter.path, edit["key"])
-    keyframes = tracks[parameter.path]["keyframes"]
-    place = Place(parameter.path, str(edit["key"]))
+def _changes(edit: Json, place: Place) -> Json:
     if not isinstance(edit["changes"], Mapping):
         raise place.error("a JSON object of the fields to change is needed here", "changes")
-    changed = changed_keyframe_document(keyframes[index], cast("Json", edit["changes"]))
-    keyframes[index] = keyframe_document(read_keyframe(changed, parameter, ()))
-    return parameter.path
+    return cast("Json", edit["changes"])
 
 
-def _remove_keyframe(tracks: Tracks, edit: Json, registry: ParameterRegistry) -> str:
-    path = _parameter(edit["parameter"], registry).path
-    index = _find(tracks, path, edit["key"])
-    tracks[path]["keyframes"].pop(index)
-    return path
+def _add_keyframe(draft: ShowDraft, edit: Json) -> None:
+    parameter = _parameter(edit["parameter"], draft.registry)
+    replaces = Place(parameter.path).flag(edit, "replace")
+    draft.track_or_new(parameter).add(edit["keyframe"], replaces=replaces)
 
 
-def _put_track(tracks: Tracks, edit: Json, registry: ParameterRegistry) -> str:
-    document = edit["track"]
-    if not isinstance(document, Mapping):
+def _change_keyframe(draft: ShowDraft, edit: Json) -> None:
+    track = _track(draft, edit)
+    track.change(edit["key"], _changes(edit, Place(track.parameter.path, str(edit["key"]))))
+
+
+def _remove_keyframe(draft: ShowDraft, edit: Json) -> None:
+    _track(draft, edit).remove(edit["key"])
+
+
+def _move_keyframes(draft: ShowDraft, edit: Json) -> None:
+    place = Place()
+    if not isinstance(edit["keyframes"], Mapping):
+        raise place.error("an object is needed here: parameters, and for each a list of keys", "keyframes")
+    unit = place.choice(edit, "time", TIME_UNITS, draft.show.time)
+    by = _number(edit.get("by", 0.0), "by")
+    stretch = place.fields(edit.get("stretch", {}), ("about", "factor"), what="stretch")
+    about = _number(stretch.get("about", 0.0), "stretch/about")
+    factor = _number(stretch.get("factor", 1.0), "stretch/factor")
+    if factor <= 0.0:
+        raise place.error(f"{factor:g} would turn time back; it is greater than 0", "stretch/factor")
+    for path, keys in cast("Json", edit["keyframes"]).items():
+        parameter = _parameter(path, draft.registry, "keyframes")
+        draft.track(parameter).move(
+            place.items(keys, f"keyframes/{path}"),
+            by=by,
+            about=about,
+            factor=factor,
+            unit=unit,
+            time_map=draft.time_map,
+            value_by=_value_by(edit["value_by"], parameter) if "value_by" in edit else None,
+        )
+
+
+def _number(value: object, field: str) -> float:
+    try:
+        return parse_number(value)
+    except ValueError as error:
+        raise ShowError(str(error), field=field) from None
+
+
+def _value_by(value: object, parameter: Parameter) -> float | tuple[float, ...]:
+    if parameter.type not in ("number", "vector"):
+        raise ShowError(
+            f"a {parameter.type} has nothing that could be added to it; only numbers and vectors have",
+            track=parameter.path,
+            field="value_by",
+        )
+    try:
+        return parse_number(value) if parameter.type == "number" else parse_numbers(value, 3)
+    except ValueError as error:
+        raise ShowError(str(error), track=parameter.path, field="value_by") from None
+
+
+def _put_track(draft: ShowDraft, edit: Json) -> None:
+    if not isinstance(edit["track"], Mapping):
         raise Place().error("a track is a JSON object", "track")
-    fields = dict(cast("Json", document))
-    parameter = _parameter(fields.get("parameter"), registry)
-    if fields.get("keyframes") or "events" in fields:
-        # Keyframes get their keys here, so that later edits of the list can name them.
-        written = track_document(read_track(fields, parameter, "seconds"), "seconds")
-        written.pop("time", None)
-        fields = written | {name: fields[name] for name in ("time",) if name in fields}
-    else:
-        fields["keyframes"] = []
-    tracks[parameter.path] = fields
-    return parameter.path
+    fields = cast("Json", edit["track"])
+    draft.put_track(fields, _parameter(fields.get("parameter"), draft.registry, "track/parameter"))
 
 
-def _remove_track(tracks: Tracks, edit: Json, _: ParameterRegistry) -> str:
-    path = str(edit["parameter"])
-    if tracks.pop(path, None) is None:
-        raise KeyNotFoundError("the show has no such track", track=path)
-    return path
+def _change_track(draft: ShowDraft, edit: Json) -> None:
+    track = _track(draft, edit)
+    place = Place(track.parameter.path)
+    changes = place.fields(_changes(edit, place), CHANGED_OF_TRACK, what="what can be changed of a track")
+    track.change_head(changes, draft.show.time, draft.time_map)
 
 
-def _find(tracks: Tracks, path: str, key: object) -> int:
-    keyframes: list[dict[str, Any]] = tracks[path]["keyframes"] if path in tracks else []
-    for index, keyframe in enumerate(keyframes):
-        if keyframe.get("key") == key:
-            return index
-    raise KeyNotFoundError("there is no such keyframe", track=path, key=str(key))
+def _copy_track(draft: ShowDraft, edit: Json) -> None:
+    track = _track(draft, edit)
+    draft.replace(track.copied_to(_parameter(edit["to"], draft.registry, "to")))
 
 
-_EDITS: dict[str, tuple[tuple[str, ...], Callable[[Tracks, Json, ParameterRegistry], str]]] = {
-    "add_keyframe": (("parameter", "keyframe"), _add_keyframe),
-    "change_keyframe": (("parameter", "key", "changes"), _change_keyframe),
-    "remove_keyframe": (("parameter", "key"), _remove_keyframe),
-    "put_track": (("track",), _put_track),
-    "remove_track": (("parameter",), _remove_track),
-}
-"""Each kind of edit: its fields, and what it does to the tracks; returns the parameter's path."""
+def _remove_track(draft: ShowDraft, edit: Json) -> None:
+    draft.remove_track(str(edit["parameter"]))
+
+
+def _change_show(draft: ShowDraft, edit: Json) -> None:
+    draft.change_head(Place().fields(_changes(edit, Place()), CHANGED_OF_SHOW, what="what can be changed"))
+
+
+CHANGED_OF_TRACK = ("time", "before", "after", "color_space", "muted", "solo", "events")
+CHANGED_OF_SHOW = ("title", "description", "markers")
 
 
 @dataclass(frozen=True)
-class ShowHistory:
-    """A show with what it was before and what was taken back. Never changed; each step gives a new history.
-
-    Shows share the tracks that did not change, so that a step costs no more than the track it touched.
+class EditKind:
+    """One kind of edit.
 
     Attributes:
-        show: As it is.
-        past: What it was, the latest last.
-        future: What was taken back, the next to be done again last.
-        longest: How many steps are kept.
+        make: Does it to a draft; its second argument has all of `fields`.
+        fields: What it needs.
+        optional: What it may have besides.
     """
 
-    show: Show
-    past: tuple[Show, ...] = ()
-    future: tuple[Show, ...] = ()
-    longest: int = 200
+    make: Callable[[ShowDraft, Json], Any]
+    fields: tuple[str, ...]
+    optional: tuple[str, ...] = ()
 
-    def then(self, show: Show) -> "ShowHistory":
-        """The history after an edit; what was taken back is forgotten."""
-        if show == self.show:
-            return self
-        return ShowHistory(show, (*self.past, self.show)[-self.longest :], (), self.longest)
 
-    def undone(self) -> "ShowHistory":
-        """One step back, or the same where there is none."""
-        if not self.past:
-            return self
-        return ShowHistory(self.past[-1], self.past[:-1], (*self.future, self.show), self.longest)
-
-    def redone(self) -> "ShowHistory":
-        """One step forward again, or the same where nothing was taken back."""
-        if not self.future:
-            return self
-        return ShowHistory(self.future[-1], (*self.past, self.show), self.future[:-1], self.longest)
+EDITS: dict[str, EditKind] = {
+    "add_keyframe": EditKind(_add_keyframe, ("parameter", "keyframe"), ("replace",)),
+    "change_keyframe": EditKind(_change_keyframe, ("parameter", "key", "changes")),
+    "remove_keyframe": EditKind(_remove_keyframe, ("parameter", "key")),
+    "move_keyframes": EditKind(_move_keyframes, ("keyframes",), ("by", "stretch", "time", "value_by")),
+    "put_track": EditKind(_put_track, ("track",)),
+    "change_track": EditKind(_change_track, ("parameter", "changes")),
+    "copy_track": EditKind(_copy_track, ("parameter", "to")),
+    "remove_track": EditKind(_remove_track, ("parameter",)),
+    "change_show": EditKind(_change_show, ("changes",)),
+}
+"""Every edit by its name."""

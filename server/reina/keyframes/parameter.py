@@ -1,6 +1,7 @@
 """A parameter: something about the picture that a show may change over time."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,6 +79,12 @@ class Parameter:
     def floats(self, value: Value) -> FloatArray:
         """A parsed value as the floats of a frame, ``(length,)``: colours linear, choices by index."""
         return VALUE_TYPES[self.type].floats(value, self.choices)
+
+    def rows_of_floats(self, values: Sequence[Value]) -> FloatArray:
+        """Parsed values, one at least, as `floats` has them: ``(K, length)``."""
+        if self.type in ("number", "vector", "orientation"):
+            return np.array(values, dtype=np.float64).reshape(-1, self.length)
+        return np.stack([self.floats(value) for value in values])
 
     def value(self, floats: FloatArray) -> Value:
         """The value that floats of a frame ``(length,)`` stand for."""

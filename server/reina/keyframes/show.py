@@ -11,10 +11,11 @@ from reina.keyframes.parameter_registry import ParameterRegistry
 from reina.keyframes.place import Json, Place
 from reina.keyframes.plain_json import check_plain
 from reina.keyframes.show_plan import ShowPlan
-from reina.keyframes.show_reader import KEYFRAME_FIELDS, read_keyframe, read_track
-from reina.keyframes.show_writer import json_value, keyframe_document, track_document
+from reina.keyframes.show_reader import read_keyframe, read_track
+from reina.keyframes.show_writer import json_value, track_document
 from reina.keyframes.time_map import TIME_UNITS, TimeMap, TimeUnit
 from reina.keyframes.track import Track, UnknownTrack
+from reina.keyframes.track_draft import changed_keyframe
 from reina.keyframes.triggers import Triggers
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ class Show:
             markers=tuple(_read_markers(fields, place)),
             schema=place.text(fields, "$schema") or None,
         )
-        show._check_size()
+        check_size(show)
         return show
 
     def __post_init__(self) -> None:
@@ -105,13 +106,6 @@ class Show:
             if track.parameter in seen:
                 raise ShowError("it has two tracks; put their keyframes into one", track=track.parameter)
             seen.add(track.parameter)
-
-    def _check_size(self) -> None:
-        count = sum(len(track.keyframes) for track in self.tracks if isinstance(track, Track))
-        if count > MOST_KEYFRAMES:
-            raise ShowError(
-                f"{count} keyframes are more than a show may have, {MOST_KEYFRAMES}", field="tracks"
-            )
 
     def to_document(self) -> dict[str, Any]:
         """The show as JSON; `from_document` gives the same show again."""
@@ -206,8 +200,7 @@ class Show:
             ShowError: A field is not as it should be.
         """
         track = self.track(parameter.path)
-        document = changed_keyframe_document(keyframe_document(track.keyframe(key)), changes)
-        keyframe = read_keyframe(document, parameter, ())
+        keyframe = changed_keyframe(track.keyframe(key), changes, parameter)
         return self.with_track(track.without_keyframe(key).with_keyframe(keyframe))
 
     def new_keyframe(self, parameter: Parameter, document: object) -> Keyframe[Any]:
@@ -242,11 +235,15 @@ class Show:
         return replace(self, tracks=tuple(track for track in self.tracks if track.parameter != path))
 
 
-def changed_keyframe_document(document: Json, changes: Json) -> dict[str, Any]:
-    """A keyframe as JSON with some fields changed; see `Show.with_changed`."""
-    if changes.get("interpolation", document["interpolation"]) != document["interpolation"]:
-        document = {name: value for name, value in document.items() if name in KEYFRAME_FIELDS}
-    return {name: value for name, value in {**document, **changes}.items() if value is not None}
+def check_size(show: Show) -> None:
+    """Refuse a show that is too large.
+
+    Raises:
+        ShowError: It has more than `MOST_KEYFRAMES`.
+    """
+    count = sum(len(track.keyframes) for track in show.tracks if isinstance(track, Track))
+    if count > MOST_KEYFRAMES:
+        raise ShowError(f"{count} keyframes are more than a show may have, {MOST_KEYFRAMES}", field="tracks")
 
 
 def _read_markers(document: Json, place: Place) -> list[Marker]:

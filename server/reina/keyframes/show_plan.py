@@ -103,9 +103,9 @@ class ShowPlan:
     ) -> "ShowPlan":
         """Plan a show; see `Show.plan`."""
         plans: list[TrackPlan] = []
-        for track in show.tracks:
+        for track in tracks_in_effect(show):
             parameter = registry.get(track.parameter)
-            if not isinstance(track, Track) or track.muted or parameter is None:
+            if parameter is None:
                 continue
             known = None if earlier is None else earlier.tracks.get(track.parameter)
             if known is None or known.track is not track or known.parameter != parameter:
@@ -163,6 +163,13 @@ class ShowPlan:
         frame = np.rint(times * self.fps)
         on_grid = np.abs(times * self.fps - frame) < 1e-6
         return np.where(on_grid, (frame - 1.0) / self.fps, times - 1.0 / self.fps)
+
+
+def tracks_in_effect(show: "Show") -> list[Track]:
+    """The tracks that are not muted; where some are solo, those of them that are not muted."""
+    known = [track for track in show.tracks if isinstance(track, Track)]
+    any_solo = any(track.solo for track in known)
+    return [track for track in known if not track.muted and (track.solo or not any_solo)]
 
 
 def _lines(plan: TrackPlan, column: int) -> list[tuple[int, Channel, TrackPlan]]:

@@ -16,14 +16,22 @@ from reina.keyframes.time_map import TIME_UNITS, TimeUnit
 from reina.keyframes.track import Track
 from reina.keyframes.value_types import parse_number, parse_numbers
 
-TRACK_FIELDS = ("parameter", "time", "before", "after", "color_space", "muted", "events", "keyframes")
+TRACK_FIELDS = ("parameter", "time", "before", "after", "color_space", "muted", "solo", "events", "keyframes")
 KEYFRAME_FIELDS = ("key", "time", "value", "interpolation", "in_tangent", "out_tangent")
 LONGEST_TRACK = 100_000
 _KEY = re.compile(r"[A-Za-z0-9_-]{1,64}")
 
 
-def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> Track:
+def read_track(
+    document: Json, parameter: Parameter, default_time: TimeUnit, *, may_be_empty: bool = False
+) -> Track:
     """Read a track of a parameter.
+
+    Args:
+        document: The track.
+        parameter: What it moves.
+        default_time: The unit of its times where it names none.
+        may_be_empty: Whether it may have neither keyframes nor an answer to events, since it will yet.
 
     Raises:
         ShowError: A field or a keyframe is not as it should be.
@@ -31,8 +39,10 @@ def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> 
     place = Place(parameter.path)
     place.fields(document, TRACK_FIELDS, what="a track")
     events = read_events(document["events"], parameter) if "events" in document else None
-    entries = place.items(document.get("keyframes", None if events is None else ()), "keyframes")
-    if not entries and events is None:
+    entries = place.items(
+        document.get("keyframes", () if may_be_empty or events is not None else None), "keyframes"
+    )
+    if not entries and events is None and not may_be_empty:
         raise place.error("a track has one keyframe at least, or answers events", "keyframes")
     if len(entries) > LONGEST_TRACK:
         raise place.error(
@@ -52,6 +62,7 @@ def read_track(document: Json, parameter: Parameter, default_time: TimeUnit) -> 
         after=place.choice(document, "after", OUTSIDE, "hold"),
         color_space=place.choice(document, "color_space", COLOR_SPACES, "oklab"),
         muted=place.flag(document, "muted"),
+        solo=place.flag(document, "solo"),
         events=events,
     )
 

@@ -122,7 +122,8 @@ def _track(parameter: Parameter, interpolations: Mapping[str, type[Keyframe[Any]
         "before": {"$ref": "#/$defs/outside"},
         "after": {"$ref": "#/$defs/outside"},
         "color_space": {"enum": list(COLOR_SPACES)},
-        "muted": {"type": "boolean"},
+        "muted": {"type": "boolean", "description": "Whether the show leaves the track out."},
+        "solo": {"type": "boolean", "description": "Whether it leaves out all tracks that are not solo."},
         "events": {"$ref": "#/$defs/events"},
         "keyframes": {"type": "array", "items": _keyframe(parameter, kinds)},
     }

@@ -1,6 +1,8 @@
 """Writes shows as JSON: what `show_reader` reads, without what is so anyway."""
 
+import json
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, cast
 
 from reina.keyframes.event_reader import events_document
@@ -9,6 +11,9 @@ from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.options import options_of
 from reina.keyframes.time_map import TimeUnit
 from reina.keyframes.track import Track
+
+_TEXT = "_json_text"
+"""Where a keyframe keeps its text."""
 
 
 def keyframe_document(keyframe: Keyframe[Any]) -> dict[str, Any]:
@@ -28,6 +33,28 @@ def keyframe_document(keyframe: Keyframe[Any]) -> dict[str, Any]:
     return document
 
 
+def keyframe_text(keyframe: Keyframe[Any]) -> str:
+    """A keyframe as JSON text. Kept with it: of a large show an edit writes what it changed alone."""
+    kept: str | None = keyframe.__dict__.get(_TEXT)
+    if kept is None:
+        kept = json_text(keyframe_document(keyframe))
+        object.__setattr__(keyframe, _TEXT, kept)
+    return kept
+
+
+def track_text(track: Track, default_time: TimeUnit) -> str:
+    """`track_document` as JSON text."""
+    head = json_text(track_document(replace(track, keyframes=()), default_time))
+    keyframes = ", ".join([keyframe_text(keyframe) for keyframe in track.keyframes])
+    # An empty list of keyframes ends the head.
+    return f"{head[:-2]}{keyframes}]}}"
+
+
+def json_text(document: Any) -> str:
+    """JSON as shows are written."""
+    return json.dumps(document, ensure_ascii=False, allow_nan=False)
+
+
 def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:
     """A track as JSON."""
     document: dict[str, Any] = {"parameter": track.parameter}
@@ -41,6 +68,8 @@ def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:
         document["color_space"] = track.color_space
     if track.muted:
         document["muted"] = True
+    if track.solo:
+        document["solo"] = True
     if track.events is not None:
         document["events"] = json_value(events_document(track.events))
     document["keyframes"] = [keyframe_document(keyframe) for keyframe in track.keyframes]

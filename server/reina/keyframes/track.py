@@ -26,6 +26,7 @@ class Track:
         after: What happens after the last.
         color_space: What colours are mixed in.
         muted: Whether the show leaves the track out.
+        solo: Whether the show leaves out all tracks but those that are solo.
         events: What it does at notes, beats or bars on top of its keyframes; a track that has this needs no
             keyframes.
     """
@@ -37,6 +38,7 @@ class Track:
     after: Outside = "hold"
     color_space: ColorSpace = "oklab"
     muted: bool = False
+    solo: bool = False
     events: EventResponse | None = None
 
     def __post_init__(self) -> None:

@@ -31,7 +31,7 @@ class TrackPlan:
         """Make a track ready: one channel, or three for a transform."""
         if not track.keyframes:
             return cls(track, parameter, ())
-        values = np.stack([parameter.floats(keyframe.value) for keyframe in track.keyframes])
+        values = parameter.rows_of_floats([keyframe.value for keyframe in track.keyframes])
         in_tangents, out_tangents = _tangents(track, parameter)
         channels: list[Channel] = []
         first = 0

@@ -72,6 +72,8 @@ class ShowChanged(ShowState):
     type: Literal["show_changed"] = "show_changed"
     path: str | None
     """The parameter whose track changed, or null for several or the whole show."""
+    paths: list[str] | None
+    """The parameters whose tracks changed or are gone, or null when more than tracks changed."""
 
 
 class ScoreChanged(WireModel):

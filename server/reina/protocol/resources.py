@@ -196,8 +196,10 @@ class Score(WireModel):
 class ShowEdited(ShowState):
     """What came of an edit, an undo or a redo."""
 
+    head: dict[str, Any]
+    """The show as it is now, but for its tracks: title, time, markers."""
     tracks: list[dict[str, Any]]
-    """The tracks that changed, as the show holds them now."""
+    """The tracks that changed, as the show holds them now; none with `Prefer: return=minimal`."""
     removed: list[str]
     """Parameters whose tracks are gone."""
 

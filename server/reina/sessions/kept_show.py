@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from operator import is_not
 from typing import TYPE_CHECKING
 
 from reina.keyframes import Show, ShowHistory, Track
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 MOST_KEYFRAMES_KEPT = 200_000
 """Keyframes that only the history still holds; beyond that, its oldest steps are forgotten."""
+REFERENCES_A_KEYFRAME = 64
+"""A track that was edited holds its unchanged keyframes by reference alone: so many weigh what one weighs."""
 
 
 @dataclass(frozen=True)
@@ -28,11 +31,14 @@ class KeptShow:
         history: The show, its past, and what was taken back.
         text: The show, written.
         revision: How many steps led here, since the session was loaded.
+        weights: What each step holds beside what its neighbours hold, in keyframes: one for each state of the
+            past, the oldest first, then one for each that was taken back, the latest first.
     """
 
     history: ShowHistory
     text: ShowText
     revision: int = 0
+    weights: tuple[int, ...] = ()
 
     @classmethod
     def begin(cls, show: Show) -> KeptShow:
@@ -53,7 +59,13 @@ class KeptShow:
         history = step(self.history)
         if history is self.history:
             return self
-        return KeptShow(_bounded(history), ShowText.of(history.show, self.text), self.revision + 1)
+        weights = self.weights
+        if history.past and history.past[-1] is self.show and not history.future:
+            # An edit, and what was taken back before is forgotten; or the last such, which weighs the same.
+            done = len(self.history.past)
+            weights = (*weights[:done], _weight(self.show, history.show))[-len(history.past) :]
+        history, weights = _bounded(history, weights)
+        return KeptShow(history, ShowText.of(history.show, self.text), self.revision + 1, weights)
 
     @property
     def state(self) -> ShowState:
@@ -66,34 +78,45 @@ class KeptShow:
         )
 
 
-def changed_path(before: Show, after: Show) -> str | None:
-    """The one parameter whose track differs; None where several do, or the show's own fields."""
+def changed_paths(before: Show, after: Show) -> list[str] | None:
+    """The parameters whose tracks differ; None where more than those differ, or their order."""
     if replace(before, tracks=()) != replace(after, tracks=()):
         return None
     old, new = ({track.parameter: track for track in show.tracks} for show in (before, after))
-    paths = [path for path in {**old, **new} if not _same(old.get(path), new.get(path))]
-    return paths[0] if len(paths) == 1 else None
+    if [path for path in old if path in new] != [path for path in new if path in old]:
+        return None
+    return [path for path in {**old, **new} if not _same(old.get(path), new.get(path))]
 
 
 def _same(one: Track | UnknownTrack | None, other: Track | UnknownTrack | None) -> bool:
     return one is other or one == other
 
 
-def _bounded(history: ShowHistory) -> ShowHistory:
-    """Forget the oldest steps while the rest holds too many keyframes beside the show's own."""
-    seen = {id(track) for track in history.show.tracks}
-    left = MOST_KEYFRAMES_KEPT
+def _weight(before: Show, after: Show) -> int:
+    """What two states of a show hold that the other does not, in keyframes; 1 at least."""
+    old, new = ({track.parameter: track for track in show.tracks} for show in (before, after))
+    return 1 + sum(_weight_of_tracks(old.get(path), new.get(path)) for path in {**old, **new})
 
-    def kept(shows: tuple[Show, ...]) -> tuple[Show, ...]:
-        nonlocal left
-        for number, show in enumerate(reversed(shows)):
-            for track in show.tracks:
-                if id(track) not in seen and isinstance(track, Track):
-                    seen.add(id(track))
-                    left -= len(track.keyframes)
-            if left < 0:
-                return shows[len(shows) - number :]
-        return shows
 
-    future = kept(history.future)
-    return replace(history, future=future, past=kept(history.past))
+def _weight_of_tracks(old: Track | UnknownTrack | None, new: Track | UnknownTrack | None) -> int:
+    if old is new:
+        return 0
+    one, other = (track.keyframes if isinstance(track, Track) else () for track in (old, new))
+    references = max(len(one), len(other)) // REFERENCES_A_KEYFRAME
+    if len(one) == len(other):
+        # Few keyframes that gave way to others at their own places, as mostly: no need to look for them.
+        replaced = sum(map(is_not, one, other))
+        if replaced <= references:
+            return replaced + references
+    shared = len(set(map(id, one)) & set(map(id, other)))
+    return max(len(one), len(other)) - shared + references
+
+
+def _bounded(history: ShowHistory, weights: tuple[int, ...]) -> tuple[ShowHistory, tuple[int, ...]]:
+    """Forget the oldest steps while all together weigh too much; what was taken back goes last."""
+    past = history.past
+    too_much = sum(weights) - MOST_KEYFRAMES_KEPT
+    while past and too_much > 0:
+        too_much -= weights[0]
+        past, weights = past[1:], weights[1:]
+    return replace(history, past=past), weights

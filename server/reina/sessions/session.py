@@ -14,7 +14,7 @@ from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, Transp
 from reina.sessions.audience import Audience
 from reina.sessions.description import NoteTable, part_summaries, transport_state, warned
 from reina.sessions.frames import EncodedFrames
-from reina.sessions.kept_show import changed_path
+from reina.sessions.kept_show import changed_paths
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.song import Song, song_state
 
@@ -184,10 +184,11 @@ class Session:
             production: The same but for the show.
             kept_show: The other show, with its history.
         """
-        path = changed_path(self.kept_show.show, kept_show.show)
+        paths = changed_paths(self.kept_show.show, kept_show.show)
+        path = paths[0] if paths is not None and len(paths) == 1 else None
         self.kept_show = kept_show
         self._replace(production)
-        self.audience.announce(ShowChanged(path=path, **dict(kept_show.state)))
+        self.audience.announce(ShowChanged(path=path, paths=paths, **dict(kept_show.state)))
 
     def change_part(self, record: SessionRecord, production: Production) -> None:
         """Let the player play another part, or the same elsewhere; a song that was rendered is made anew.

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from reina.keyframes import Show
+from reina.keyframes import Show, Track
+from reina.keyframes.show_writer import json_text, json_value, track_text
 
 if TYPE_CHECKING:
-    from reina.keyframes import Track, UnknownTrack
+    from collections.abc import Iterable
+
+    from reina.keyframes import UnknownTrack
 
 NO_TRACK_ETAG = '"none"'
 """The validator of a track that is not there, so that its first keyframe can be added under a condition."""
@@ -56,14 +58,19 @@ class ShowText:
         tracks = {track.parameter: known.get(id(track)) or _written(track, show) for track in show.tracks}
         document = replace(show, tracks=()).to_document()
         del document["tracks"]
-        head = _json(document)
+        head = json_text(document)
         etag = _etag(head, *(written.etag for written in tracks.values()))
         return cls(show=show, head=head, tracks=tracks, etag=etag)
 
     @property
     def text(self) -> str:
         """The whole show as JSON, a line a track."""
-        tracks = ",\n".join(written.text for written in self.tracks.values())
+        return self.of_tracks()
+
+    def of_tracks(self, parameters: Iterable[str] | None = None) -> str:
+        """The show as JSON with the tracks of some parameters alone; with all of them when None."""
+        paths = self.tracks if parameters is None else dict.fromkeys(parameters)
+        tracks = ",\n".join([self.tracks[path].text for path in paths if path in self.tracks])
         return f'{self.head[:-1]}, "tracks": [\n{tracks}\n]}}\n'
 
     def track_etag(self, path: str) -> str:
@@ -73,12 +80,9 @@ class ShowText:
 
 
 def _written(track: Track | UnknownTrack, show: Show) -> TrackText:
-    text = _json(Show(tracks=(track,), time=show.time).to_document()["tracks"][0])
+    known = isinstance(track, Track)
+    text = track_text(track, show.time) if known else json_text(json_value(track.document))
     return TrackText(track, text, _etag(text))
-
-
-def _json(document: dict[str, Any]) -> str:
-    return json.dumps(document, ensure_ascii=False, allow_nan=False)
 
 
 def _etag(*texts: str) -> str:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from reina.keyframes import Keyframe, Show, Track, stage_registry
 from reina.sessions import kept_show
-from reina.sessions.kept_show import KeptShow, changed_path
+from reina.sessions.kept_show import KeptShow, changed_paths
 from reina.sessions.show_text import NO_TRACK_ETAG, ShowText
 
 REGISTRY = stage_registry()
@@ -126,11 +126,46 @@ def test_the_history_is_bounded_by_steps_and_by_what_it_holds(monkeypatch: pytes
     assert kept.state.undo == 10
 
 
-def test_the_path_of_a_change_is_told_when_it_is_one_track() -> None:
+def test_a_large_track_that_is_edited_key_by_key_keeps_its_past(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept_show, "MOST_KEYFRAMES_KEPT", 500)
+    kept = KeptShow.begin(Show((track(LIGHT, *[1.0] * 1000),)))
+    for number in range(100):
+        own = kept.show.track(LIGHT)
+        kept = edited(kept, Show((own.with_keyframe(Keyframe(0.0, float(number), "k0")),)))
+    # A step weighs 1 for the keyframe, 1 for itself, and the references to 1,000.
+    assert kept.state.undo == 500 // (2 + 1000 // 64)
+
+
+def test_what_was_taken_back_weighs_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept_show, "MOST_KEYFRAMES_KEPT", 250)
+    kept = KeptShow.begin(Show((track(LIGHT, *[0.0] * 100),)))
+    for number in (1.0, 2.0):
+        kept = edited(kept, Show((track(LIGHT, *[number] * 100),)))
+    for _ in range(2):
+        kept = undone(kept)
+    assert (kept.state.undo, kept.state.redo) == (0, 2)
+    kept = redone(redone(kept))
+    assert (kept.state.undo, kept.state.redo) == (2, 0)
+    kept = edited(kept, Show((track(LIGHT, *[3.0] * 100),)))
+    assert kept.state.undo == 2
+    kept = edited(undone(undone(kept)), Show((track(LIGHT, *[4.0] * 100),)))
+    assert (kept.state.undo, kept.state.redo) == (1, 0)
+
+
+def test_the_paths_of_a_change_are_told_when_only_tracks_changed() -> None:
     light, fov = track(LIGHT, 1.0), track(FOV, 0.5)
     both = Show((light, fov))
-    assert changed_path(both, Show((light, track(FOV, 0.6)))) == FOV
-    assert changed_path(both, Show((light,))) == FOV
-    assert changed_path(Show((light,)), both) == FOV
-    assert changed_path(both, Show((track(LIGHT, 2.0), track(FOV, 0.6)))) is None
-    assert changed_path(both, Show((light, track(FOV, 0.6)), title="Other")) is None
+    assert changed_paths(both, Show((light, track(FOV, 0.6)))) == [FOV]
+    assert changed_paths(both, Show((light,))) == [FOV]
+    assert changed_paths(Show((light,)), both) == [FOV]
+    assert changed_paths(both, Show((track(LIGHT, 2.0), track(FOV, 0.6)))) == [LIGHT, FOV]
+    assert changed_paths(both, Show((light, track(FOV, 0.6)), title="Other")) is None
+    assert changed_paths(both, Show((fov, light))) is None
+
+
+def test_some_tracks_are_read_alone() -> None:
+    text = ShowText.of(Show((track(LIGHT, 1.0), track(FOV, 0.5)), title="A"))
+    some = json.loads(text.of_tracks([FOV, "camera/roll", FOV]))
+    assert [entry["parameter"] for entry in some["tracks"]] == [FOV]
+    assert some["title"] == "A"
+    assert json.loads(text.of_tracks([]))["tracks"] == []

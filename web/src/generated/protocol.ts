@@ -247,6 +247,8 @@ export interface ShowChanged extends ShowState {
   type: "show_changed"
   /** The parameter whose track changed, or null for several or the whole show. */
   path: string | null
+  /** The parameters whose tracks changed or are gone, or null when more than tracks changed. */
+  paths: string[] | null
 }
 
 /** What is played was chosen anew; read the score again, and the song if its href changed. */
@@ -330,7 +332,9 @@ export interface Score {
 
 /** What came of an edit, an undo or a redo. */
 export interface ShowEdited extends ShowState {
-  /** The tracks that changed, as the show holds them now. */
+  /** The show as it is now, but for its tracks: title, time, markers. */
+  head: Record<string, unknown>
+  /** The tracks that changed, as the show holds them now; none with Prefer: return=minimal. */
   tracks: (Record<string, unknown>)[]
   /** Parameters whose tracks are gone. */
   removed: string[]
