@@ -9,6 +9,7 @@ from tests.integration.scores import scale, song
 from tests.integration.server import upload
 
 from reina.api.app import create_app
+from reina.keyframes import EDITS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -120,3 +121,24 @@ def test_what_changes_a_show_takes_a_condition() -> None:
         for path, method, _ in operations()
         if path.startswith(f"{SESSION}/show") and method != "get" and path != PREVIEW
     }
+
+
+def test_conditions_are_described_and_hold(shown: Owned) -> None:
+    described = 0
+    for path, method, operation in operations():
+        taken = {parameter["name"] for parameter in operation.get("parameters", [])}
+        assert ("if-match" in taken) == ("412" in operation["responses"]), f"{method} {path}"
+        assert ("if-none-match" in taken) == ("304" in operation["responses"]), f"{method} {path}"
+        described += "412" in operation["responses"]
+    assert described >= 9
+    answer = shown.client.get(f"{shown.path}/show", headers={"If-None-Match": "*"})
+    assert (answer.status_code, answer.content) == (304, b"")
+
+
+def test_every_kind_of_edit_has_an_example_and_a_schema() -> None:
+    content = DOCUMENT["paths"][f"{SESSION}/show/edits"]["post"]["requestBody"]["content"]["application/json"]
+    schemas = content["schema"]["items"]["oneOf"]
+    assert {schema["title"] for schema in schemas} == set(EDITS) == {e["edit"] for e in content["example"]}
+    for edit in content["example"]:
+        schema = next(schema for schema in schemas if schema["title"] == edit["edit"])
+        assert set(schema["required"]) <= set(edit) <= set(schema["properties"])

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
+from tests.integration.scores import scale, song
+from tests.integration.server import upload
 from tests.integration.watching import Watcher, watch
 
 from reina.protocol import FrameFlag
@@ -420,3 +422,52 @@ def test_a_track_may_answer_the_notes(shown: Owned) -> None:
     assert [round(glow[k], 4) for k in (0, 15, 30, 45)] == [3.0] * 4
     assert [round(glow[k], 4) for k in (7, 14, 29, 44)] == [1.0] * 4
     assert 1.0 < glow[3] < glow[1] < 3.0
+
+
+def test_a_show_of_one_piece_is_put_on_another_and_what_does_not_fit_is_told(
+    client: httpx.Client, shown: Owned
+) -> None:
+    """Two seconds of 4/4 at 120 here (and four more to settle); there 8 seconds at 60."""
+    document = {
+        "version": 1,
+        "time": "bars",
+        "markers": [{"time": 0, "name": "Begin"}, {"time": 9, "name": "Coda"}],
+        "tracks": [
+            {
+                "parameter": LIGHT,
+                "keyframes": [
+                    {"key": "k1", "time": 0, "value": 1.0},
+                    {"key": "k2", "time": 1, "value": 3.0},
+                    {"key": "k3", "time": 50, "value": 2.0},
+                ],
+            },
+            {"parameter": FOV, "events": {"on": "notes", "where": {"part": 4}, "amount": 1, "decay": 1}},
+            {"parameter": "smoke/density", "keyframes": [{"time": 0, "value": 1, "colour": "grey"}]},
+        ],
+    }
+    shown.change("PUT", "/show", json=document).raise_for_status()
+    exported = shown.client.get(f"{shown.path}/show").content
+    other = upload(client, scale(16, bpm=60.0), song=("song.wav", song()), show=("show.json", exported))
+    try:
+        assert client.get(f"{other.path}/show").json() == shown.client.get(f"{shown.path}/show").json()
+        told = client.get(f"{other.path}/show/warnings").raise_for_status().json()["warnings"]
+        assert [(warning["kind"], warning["place"]) for warning in told] == [
+            ("show-unknown-parameter", "smoke/density"),
+            ("show-keyframes-after-the-end", LIGHT),
+            ("show-markers-after-the-end", "markers"),
+            ("show-never-answers", FOV),
+        ]
+        assert "1 of its 3 keyframes stands after the end, which is at 3 bars" in told[1]["message"]
+        assert "Coda" in told[2]["message"]
+        assert "part 4, and the parts are 0 to 0" in told[3]["message"]
+        assert [w for w in other.body["warnings"] if w["kind"].startswith("show-")] == told
+        curve = {"parameter": LIGHT, "start_s": 0, "end_s": 4, "points": 3}
+        for session, values in ((shown, [1, 3.0, 3.0]), (other, [1, 2, 3])):
+            answer = client.get(f"{session.path}/show/curves", params=curve).json()
+            assert answer["curves"][0]["keys"]["values"][0] == pytest.approx(values, abs=0.1)
+    finally:
+        other.change("DELETE")
+
+
+def test_a_show_that_fits_has_no_warnings(shown: Owned) -> None:
+    assert shown.client.get(f"{shown.path}/show/warnings").json() == {"warnings": []}

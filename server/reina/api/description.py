@@ -18,11 +18,31 @@ def describe(app: FastAPI) -> None:
         document = generate()
         for operations in document["paths"].values():
             for operation in operations.values():
-                problem: dict[str, Any] = operation["responses"].get("4XX", {})
+                responses: dict[str, Any] = operation["responses"]
+                problem: dict[str, Any] = responses.get("4XX", {})
                 # FastAPI gives it the media type of the route's good answers.
                 if "content" in problem:
                     (body,) = problem["content"].values()
                     problem["content"] = {MEDIA_TYPE: body}
+                _describe_conditions(operation, problem)
         return document
 
     app.openapi = openapi
+
+
+def _describe_conditions(operation: dict[str, Any], problem: dict[str, Any]) -> None:
+    """What the answer to a conditional request may be (RFC 9110, 13)."""
+    taken = {parameter["name"] for parameter in operation.get("parameters", [])}
+    responses: dict[str, Any] = operation["responses"]
+    if not taken & {"if-match", "if-none-match"}:
+        return
+    for status, response in responses.items():
+        if status.startswith("2"):
+            response.setdefault("headers", {})["ETag"] = {
+                "description": "The validator of what is answered, for conditions.",
+                "schema": {"type": "string"},
+            }
+    if "if-none-match" in taken:
+        responses["304"] = {"description": "It is still what `If-None-Match` names; there is no body."}
+    if "if-match" in taken:
+        responses["412"] = {**problem, "description": "It has changed since; nothing was changed by this."}

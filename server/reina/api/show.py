@@ -10,6 +10,7 @@ from reina.api.body import read_show_body
 from reina.api.conditions import NOT_MODIFIED, IfMatch, IfNoneMatch, conditional
 from reina.api.show_change import ShowChange
 from reina.protocol.messages import ShowState
+from reina.protocol.resources import ShowWarnings
 from reina.sessions.production import read_show
 
 router = APIRouter(tags=["show"])
@@ -74,3 +75,12 @@ async def put_show(session: Controlled, store: Store, request: Request, if_match
 async def get_history(session: Watched) -> ShowState:
     """Which state the show is in, and how many steps it can be walked back and forth."""
     return session.kept_show.state
+
+
+@router.get("/sessions/{session_id}/show/warnings")
+async def get_warnings(session: Watched) -> ShowWarnings:
+    """What of the show has no effect in this piece: unknown parameters, keyframes after its end.
+
+    A show from another piece is kept as it came; its times in bars follow this one.
+    """
+    return ShowWarnings(warnings=await asyncio.to_thread(session.show_warnings))

@@ -184,9 +184,12 @@ async def put_track(
 
 
 @router.delete(TRACK, status_code=204)
-async def remove_track(session: Controlled, path: TrackPath, store: Store, if_match: IfMatch = None) -> None:
+async def remove_track(
+    session: Controlled, path: TrackPath, store: Store, response: Response, if_match: IfMatch = None
+) -> None:
     """The show no longer moves the parameter, which goes back to its default. Unknown tracks go too."""
-    await ShowChange(session, store, if_match, path).edit(lambda show: show.without_track(path))
+    kept = await ShowChange(session, store, if_match, path).edit(lambda show: show.without_track(path))
+    response.headers["ETag"] = kept.text.track_etag(path)
 
 
 def known_parameter(registry: ParameterRegistry, path: str) -> Parameter:

@@ -204,6 +204,13 @@ class ShowEdited(ShowState):
     """Parameters whose tracks are gone."""
 
 
+class ShowWarnings(WireModel):
+    """What of a show has no effect in the piece that it is put on, and why. Nothing of it is dropped."""
+
+    warnings: list[Warned]
+    """Each with the parameter, or `markers`, as its place."""
+
+
 class ShowSummary(WireModel):
     """A show in the library."""
 

@@ -16,6 +16,7 @@ from reina.sessions.description import NoteTable, part_summaries, transport_stat
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.kept_show import changed_paths
 from reina.sessions.note_messages import NoteMessages
+from reina.sessions.show_fit import show_warnings
 from reina.sessions.song import Song, song_state
 
 if TYPE_CHECKING:
@@ -134,10 +135,14 @@ class Session:
                 for choice in self.production.ranking
             ],
             notes=len(score.notes),
-            warnings=warned((*score.warnings, *played.warnings)),
+            warnings=[*warned((*score.warnings, *played.warnings)), *self.show_warnings()],
             song=self.song_state(),
             links=session_links(self.id),
         )
+
+    def show_warnings(self) -> list[resources.Warned]:
+        """What of its show has no effect in this piece."""
+        return show_warnings(self.production, self.clock.duration_s)
 
     def transport(self) -> TransportState:
         """The clock as it is now."""

@@ -340,6 +340,12 @@ export interface ShowEdited extends ShowState {
   removed: string[]
 }
 
+/** What of a show has no effect in the piece that it is put on, and why. Nothing of it is dropped. */
+export interface ShowWarnings {
+  /** Each with the parameter, or markers, as its place. */
+  warnings: Warned[]
+}
+
 /** Curves of parameters, sampled at the same times. */
 export interface ShowCurves {
   times_s: number[]

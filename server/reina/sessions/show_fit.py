@@ -1,0 +1,86 @@
+"""How a show fits the piece that it is put on: what of it has no effect there, and why."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.keyframes import Track
+from reina.protocol.resources import Warned
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from reina.keyframes import Show, TimeMap, TimeUnit
+    from reina.sessions.production import Production
+
+LATE = 1e-6
+"""Seconds after the end that are a rounding and no keyframe too late."""
+
+
+def show_warnings(production: Production, duration_s: float) -> list[Warned]:
+    """What of the show has no effect in this piece.
+
+    Args:
+        production: The piece and its show.
+        duration_s: How long it can be played.
+    """
+    show, times = production.show, production.show_plan.time_map
+    return [
+        *_unknown(show),
+        *_late_keyframes(show, times, duration_s),
+        *_late_markers(show, times, duration_s),
+        *_never_answers(production),
+    ]
+
+
+def _unknown(show: Show) -> Iterator[Warned]:
+    for path in show.unknown_parameters:
+        message = "no parameter of this name is known here; its track is kept as it came and has no effect"
+        yield Warned(kind="show-unknown-parameter", place=path, message=message)
+
+
+def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[Warned]:
+    for track in show.tracks:
+        if not isinstance(track, Track):
+            continue
+        late = _late([keyframe.time for keyframe in track.keyframes], track.time, time_map, duration_s)
+        if late:
+            count = f"{late} of its {len(track.keyframes)} keyframes"
+            verb = "stands" if late == 1 else "stand"
+            message = f"{count} {verb} {_beyond(track.time, time_map, duration_s)} and will not be reached"
+            yield Warned(kind="show-keyframes-after-the-end", place=track.parameter, message=message)
+
+
+def _late_markers(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[Warned]:
+    late = _late([marker.time for marker in show.markers], show.time, time_map, duration_s)
+    if late:
+        names = ", ".join(marker.name for marker in show.markers[len(show.markers) - late :])
+        message = f"these stand {_beyond(show.time, time_map, duration_s)}: {names}"
+        yield Warned(kind="show-markers-after-the-end", place="markers", message=message)
+
+
+def _late(times: list[float], unit: TimeUnit, time_map: TimeMap, duration_s: float) -> int:
+    times_s = time_map.to_seconds(np.array(times, dtype=np.float64), unit)
+    return int((times_s > duration_s + LATE).sum())
+
+
+def _beyond(unit: TimeUnit, time_map: TimeMap, duration_s: float) -> str:
+    end = float(time_map.from_seconds(np.array([duration_s]), unit)[0])
+    return f"after the end, which is at {end:.4g} {unit}"
+
+
+def _never_answers(production: Production) -> Iterator[Warned]:
+    plan = production.show_plan
+    for track in production.show.tracks:
+        if not isinstance(track, Track) or track.events is None:
+            continue
+        times, _ = track.events.events(plan.triggers, plan.time_map, track.time)
+        if times.size:
+            continue
+        message = f"of the {track.events.on} that it answers there are none in this piece"
+        part, parts = track.events.where.part, len(production.score.parts)
+        if part is not None and part >= parts:
+            message += f": it names part {part}, and the parts are 0 to {parts - 1}"
+        yield Warned(kind="show-never-answers", place=track.parameter, message=message)
