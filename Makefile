@@ -35,7 +35,7 @@ generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
 assets: .venv/.dev ## Build the rigs anew from their pinned sources
 	$(BIN)/python rigs/build/build.py
 
-bench: setup .venv/.bench ## Measure, and print the figures
+bench: setup .venv/.bench tests/benchmarks/theatre/node_modules/.stamp ## Measure, and print the figures
 	$(BIN)/python tests/benchmarks/run.py
 
 lock: ## Pin the Python dependencies anew (needs uv)
@@ -59,6 +59,10 @@ clean: ## Remove everything that was built
 
 .venv/.bench: .venv/.dev requirements/bench.txt
 	$(BIN)/pip install --quiet --require-hashes -r requirements/bench.txt
+	@touch $@
+
+tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.json tests/benchmarks/theatre/package-lock.json
+	cd tests/benchmarks/theatre && npm ci --no-fund --no-audit --loglevel=error
 	@touch $@
 
 .venv/.browser: .venv/.dev
