@@ -40,33 +40,118 @@ class Piece:
 
 @dataclass(frozen=True)
 class Choice:
-    """When a shot is chosen.
+    """When some shots are chosen.
 
     Attributes:
-        shot: A name of `SHOTS`.
+        shots: Names of `SHOTS`, the one that is liked best first.
         name: What the marker says.
         suits: Whether a passage of a piece asks for it.
     """
 
-    shot: str
+    shots: tuple[str, ...]
     name: str
     suits: Callable[[Passage, Piece], bool]
 
 
 CHOICES = (
-    Choice("room", "Rest", lambda p, _: p.sounding < 0.25),
-    Choice("fingers", "Fast", lambda p, piece: p.notes_per_second >= max(3.5, 1.15 * piece.notes_per_second)),
-    Choice("low", "Loud", lambda p, piece: p.loudness >= piece.loudness + 0.05),
-    Choice("portrait", "High", lambda p, piece: p.height >= piece.height + 2.5),
-    Choice("profile", "Soft", lambda p, piece: p.loudness <= piece.loudness - 0.05),
+    Choice(("room", "figure"), "Rest", lambda p, _: p.sounding < 0.25),
+    Choice(
+        ("valves", "fingers", "bell"),
+        "Fast",
+        lambda p, piece: p.notes_per_second >= max(3.5, 1.15 * piece.notes_per_second),
+    ),
+    Choice(("low", "bell", "shoulder"), "Loud", lambda p, piece: p.loudness >= piece.loudness + 0.05),
+    Choice(("portrait", "bell", "crane"), "High", lambda p, piece: p.height >= piece.height + 2.5),
+    Choice(("profile", "shoulder", "crane"), "Soft", lambda p, piece: p.loudness <= piece.loudness - 0.05),
 )
-"""The first that suits is taken, unless the passage before had the same shot."""
+"""The first that suits is taken; of its shots the first that was not just seen: its best one may come again
+after one other, the rest after two."""
 
-IN_TURN = ("figure", "portrait", "profile", "fingers", "low")
-"""What is shown where nothing asks for something else, or asks for the same again."""
+IN_TURN = ("figure", "portrait", "shoulder", "fingers", "profile", "crane", "low", "bell")
+"""What is shown where nothing asks for something else."""
 
-COLORS = (("#D9A441", "#FFE3A6"), ("#4C6A9A", "#CFE0FF"), ("#E2B866", "#FFF0C9"), ("#8C7BA8", "#EBDDFF"))
-"""The note blocks' colour, and that of the note that sounds, phrase by phrase."""
+
+@dataclass(frozen=True)
+class Mood:
+    """The light and the colours of a phrase.
+
+    Attributes:
+        block: Colour of the notes to come.
+        sounding: Colour of the note that sounds.
+        colors: Colours of lights by their parameters.
+        levels: Strengths of lights by their parameters, where the phrase is as loud as the piece.
+    """
+
+    block: str
+    sounding: str
+    colors: dict[str, str]
+    levels: dict[str, float]
+
+
+def _mood(block: str, sounding: str, **lights: tuple[str | None, float]) -> Mood:
+    """Each light's colour and strength."""
+    return Mood(
+        block,
+        sounding,
+        {f"lights/{name}/color": color for name, (color, _) in lights.items() if color is not None},
+        {f"lights/{name}/intensity": level for name, (_, level) in lights.items()},
+    )
+
+
+MOODS = (
+    _mood(
+        "#D9A441",
+        "#FFE3A6",
+        key=("#FFD3A1", 3.2),
+        fill=("#9FB6DC", 0.55),
+        rim=("#FFE6C4", 2.2),
+        back_wash=("#B8742E", 0.5),
+        environment=(None, 0.66),
+    ),
+    _mood(
+        "#4C6A9A",
+        "#CFE0FF",
+        key=("#D8E2FF", 2.5),
+        fill=("#6E8FD6", 0.8),
+        rim=("#A9C4FF", 3.6),
+        back_wash=("#2A55B8", 2.6),
+        environment=(None, 0.4),
+    ),
+    _mood(
+        "#E2B866",
+        "#FFF0C9",
+        key=("#FFB36B", 3.6),
+        fill=("#B49AD0", 0.5),
+        rim=("#FFD9A0", 3.0),
+        back_wash=("#C8641E", 1.8),
+        environment=(None, 0.48),
+    ),
+    _mood(
+        "#8C7BA8",
+        "#EBDDFF",
+        key=("#FFC9B8", 2.7),
+        fill=("#8C86D0", 0.7),
+        rim=("#E6BCEC", 3.4),
+        back_wash=("#5B3F96", 1.7),
+        environment=(None, 0.42),
+    ),
+)
+"""Phrase by phrase."""
+
+LOUDER: dict[str, float] = {
+    "lights/key/intensity": 6.0,
+    "lights/fill/intensity": -2.0,
+    "lights/rim/intensity": 2.0,
+    "lights/back_wash/intensity": 3.0,
+    "lights/environment/intensity": 0.5,
+}
+"""What is added to a light for each unit of loudness beyond the piece's."""
+
+HIGHER = 0.15
+"""What is added to the light from behind for each semitone beyond the piece's mean."""
+
+LEAST, GREATEST = 0.12, 5.0
+"""No light of a mood is weaker or stronger."""
 
 
 def write_default_show(form: MusicForm, *, title: str = "") -> Show:
@@ -81,24 +166,31 @@ def write_default_show(form: MusicForm, *, title: str = "") -> Show:
     found = passages(form)
     piece = Piece.of(found)
     shots = _choose(found, piece)
-    tracks = [*_camera(found, [shot for shot, _ in shots]), *_colors(found), *_lights(found, piece)]
+    tracks = [
+        *_camera(found, [shot for shot, _ in shots]),
+        *_colors(found),
+        *_lights(found, piece),
+    ]
     markers = tuple(Marker(float(p.start_bar), name) for p, (_, name) in zip(found, shots, strict=True))
     return Show(tuple(tracks), title=title, time="bars", markers=markers)
 
 
 def _choose(found: Sequence[Passage], piece: Piece) -> list[tuple[str, str]]:
-    """Each passage's shot, and why."""
+    """Each passage's shot, and why. It begins, and ends, with the whole room."""
     chosen: list[tuple[str, str]] = []
     turn = 0
     for index, passage in enumerate(found):
-        last = chosen[-1][0] if chosen else None
+        recent = [shot for shot, _ in chosen[-2:]]
         name = "Beginning" if index == 0 else "End" if index == len(found) - 1 else f"Phrase {passage.phrase}"
-        shot = "room" if index == 0 and len(found) > 1 else None
-        for choice in CHOICES:
-            if shot is None and choice.suits(passage, piece):
-                shot, name = choice.shot, choice.name
-        while shot is None or shot == last:
+        choice = next((choice for choice in CHOICES if choice.suits(passage, piece)), None)
+        if choice is not None:
+            name = choice.name if index > 0 else name
+        liked = ["room"] if index in (0, len(found) - 1) and len(found) > 1 else []
+        liked += choice.shots if choice is not None and index > 0 else ()
+        shot = next((s for s in liked if s not in recent or (s == liked[0] and s != recent[-1])), None)
+        while shot is None:
             shot = IN_TURN[turn % len(IN_TURN)]
+            shot = None if shot in recent else shot
             turn += 1
         chosen.append((shot, name))
     return chosen
@@ -123,43 +215,52 @@ def _camera(found: Sequence[Passage], shots: Sequence[str]) -> list[Track]:
     return tracks
 
 
-def _colors(found: Sequence[Passage]) -> list[Track]:
-    """The blocks' colours: each phrase has its own, reached in the bar before it begins.
-
-    A piece of one phrase changes them passage by passage.
-    """
+def _moods(found: Sequence[Passage]) -> list[Mood]:
+    """Each passage's mood: its phrase's, or its own in a piece of one phrase."""
     one_phrase = len({passage.phrase for passage in found}) < 2
     turns = [index if one_phrase else max(passage.phrase - 1, 0) for index, passage in enumerate(found)]
-    tracks: list[Track] = []
-    for path, column in (("blocks/color", 0), ("blocks/sounding_color", 1)):
-        colors = [COLORS[turn % len(COLORS)][column] for turn in turns]
-        keyframes: list[Keyframe[Any]] = [Keyframe(float(found[0].start_bar), colors[0])]
-        for passage, (before, color) in zip(found[1:], pairwise(colors), strict=True):
-            if color == before:
-                continue
-            if passage.start_bar - 1.0 > keyframes[-1].time:
-                keyframes.append(Keyframe(passage.start_bar - 1.0, before))
-            keyframes.append(BUILT_IN["sine_in_out"](float(passage.start_bar), color))
-        tracks.append(_track(path, keyframes))
-    return tracks
+    return [MOODS[turn % len(MOODS)] for turn in turns]
+
+
+def _colors(found: Sequence[Passage]) -> list[Track]:
+    moods = _moods(found)
+    return [
+        _changes("blocks/color", found, [mood.block for mood in moods]),
+        _changes("blocks/sounding_color", found, [mood.sounding for mood in moods]),
+    ]
 
 
 def _lights(found: Sequence[Passage], piece: Piece) -> list[Track]:
-    """Light by phrase: the louder, the more sun; the higher, the more light from behind."""
+    """Light by phrase: the louder, the more of it; the higher, the more from behind."""
+    moods = _moods(found)
 
-    def line(path: str, least: float, greatest: float, value: Callable[[Passage], float]) -> Track:
-        keyframes = [
-            BUILT_IN["clamped"](float(p.start_bar), round(min(max(value(p), least), greatest), 3))
-            for p in found
-        ]
-        return _track(path, keyframes)
+    def level(path: str, passage: Passage, mood: Mood) -> float:
+        value = mood.levels[path] + LOUDER[path] * (passage.loudness - piece.loudness)
+        if path == "lights/rim/intensity":
+            value += HIGHER * (passage.height - piece.height)
+        return round(min(max(value, LEAST), GREATEST), 3)
 
+    glow = [round(min(max(1.3 + 4.0 * (p.loudness - piece.loudness), 0.9), 2.4), 3) for p in found]
     return [
-        line("lights/key/intensity", 2.4, 4.2, lambda p: 3.2 + 6.0 * (p.loudness - piece.loudness)),
-        line("lights/fill/intensity", 0.4, 0.9, lambda p: 0.55 - 2.0 * (p.loudness - piece.loudness)),
-        line("lights/rim/intensity", 1.6, 3.4, lambda p: 2.2 + 0.15 * (p.height - piece.height)),
-        line("blocks/glow", 0.9, 2.4, lambda p: 1.3 + 4.0 * (p.loudness - piece.loudness)),
+        *(
+            _changes(path, found, [level(path, p, mood) for p, mood in zip(found, moods, strict=True)])
+            for path in LOUDER
+        ),
+        *(_changes(path, found, [mood.colors[path] for mood in moods]) for path in MOODS[0].colors),
+        _changes("blocks/glow", found, glow),
     ]
+
+
+def _changes(path: str, found: Sequence[Passage], values: Sequence[Any]) -> Track:
+    """A value a passage, each reached in the bar before it begins."""
+    keyframes: list[Keyframe[Any]] = [Keyframe(float(found[0].start_bar), values[0])]
+    for passage, (before, value) in zip(found[1:], pairwise(values), strict=True):
+        if value == before:
+            continue
+        if passage.start_bar - 1.0 > keyframes[-1].time:
+            keyframes.append(Keyframe(passage.start_bar - 1.0, before))
+        keyframes.append(BUILT_IN["sine_in_out"](float(passage.start_bar), value))
+    return _track(path, keyframes)
 
 
 def _track(path: str, keyframes: Sequence[Keyframe[Any]]) -> Track:

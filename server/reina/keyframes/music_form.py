@@ -9,7 +9,11 @@ from reina.keyframes.arrays import FloatArray
 SHORTEST_S = 3.0
 """No passage is shorter: cuts that follow faster are felt as haste."""
 LONGEST_S = 11.0
-"""A longer passage is divided at bar lines."""
+"""A longer passage is divided at bar lines, in slow music."""
+LONGEST_FAST_S = 5.0
+"""The same in fast music, which wants quicker cuts."""
+SLOW, FAST = 1.5, 5.0
+"""Notes a second of slow and of fast music."""
 
 
 def _no_phrases() -> FloatArray:
@@ -82,13 +86,24 @@ def passages(form: MusicForm) -> tuple[Passage, ...]:
             cuts.append(bar)
     divided: list[int] = []
     for first, last in zip(cuts, [*cuts[1:], lines.size], strict=True):
-        count = int(np.ceil((ends[last] - ends[first]) / LONGEST_S))
-        parts = np.rint(np.linspace(first, last, max(count, 1) + 1)).astype(int).tolist()
-        divided += [bar for bar in dict.fromkeys(parts) if bar < last]
+        divided += _divided(form, ends, first, last)
     return tuple(
         _passage(form, ends, first, last)
         for first, last in zip(divided, [*divided[1:], lines.size], strict=True)
     )
+
+
+def _divided(form: MusicForm, ends: FloatArray, first: int, last: int) -> list[int]:
+    """The bars at which the parts of a passage begin: as many as its pace asks for, none too short."""
+    start_s, end_s = float(ends[first]), float(ends[last])
+    notes = int(((form.onset_s >= start_s) & (form.onset_s < end_s)).sum())
+    pace = notes / (end_s - start_s)
+    longest_s = float(np.interp(pace, [SLOW, FAST], [LONGEST_S, LONGEST_FAST_S]))
+    for count in range(int(np.ceil((end_s - start_s) / longest_s)), 1, -1):
+        parts = np.rint(np.linspace(first, last, count + 1)).astype(int)
+        if float(np.diff(ends[parts]).min()) >= SHORTEST_S:
+            return parts[:-1].tolist()
+    return [first]
 
 
 def _passage(form: MusicForm, ends: FloatArray, first: int, last: int) -> Passage:

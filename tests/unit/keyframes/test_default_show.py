@@ -57,9 +57,33 @@ def test_a_show_is_written_the_same_each_time_and_is_a_document() -> None:
 def test_it_looks_where_the_music_is() -> None:
     shots = dict(_shots(write_default_show(_march())))
     assert shots[0.0] == "room"
-    assert shots[8.0] == "fingers"
+    assert shots[8.0] == "valves"
     assert shots[16.0] == "profile"
     assert shots[24.0] == "low"
+
+
+def test_fast_music_is_cut_faster_and_never_hastily() -> None:
+    slow = _form(_run(0, 64, 1.0, 67, 0.7), 32, phrases_s=np.array([[0.0, 64.0]]))
+    fast = _form(_run(0, 64, 0.15, 67, 0.7), 32, phrases_s=np.array([[0.0, 64.0]]))
+    assert len(passages(fast)) >= 2 * len(passages(slow))
+    lengths_s = np.diff([time * BAR_S for time, _ in _shots(write_default_show(fast))])
+    assert lengths_s.min() >= SHORTEST_S
+    assert lengths_s.mean() <= 5.0
+
+
+def test_it_has_variety() -> None:
+    """Of three shots in a row no two are the same, but for the room, and most kinds are seen."""
+    random = np.random.default_rng(5)
+    notes = [
+        note
+        for phrase in range(12)
+        for note in _run(8 * phrase, 8 * phrase + 7, 0.4, 60 + 12 * random.random(), random.uniform(0.4, 1))
+    ]
+    phrases = np.array([[8.0 * phrase, 8.0 * phrase + 7.0] for phrase in range(12)])
+    shots = [name for _, name in _shots(write_default_show(_form(notes, 48, phrases_s=phrases)))]
+    assert shots[0] == shots[-1] == "room"
+    assert len(set(shots)) >= 6
+    assert all(before != after for before, after in pairwise(shots))
 
 
 def test_light_and_colour_go_by_phrase() -> None:
@@ -68,9 +92,10 @@ def test_light_and_colour_go_by_phrase() -> None:
     assert sun[24.0] > sun[0.0] > sun[16.0]
     plan = show.plan(REGISTRY, TimeMap.steady(120.0))
     values, _ = plan.evaluate(np.array([4.0, 20.0, 36.0, 52.0]))
-    offset = REGISTRY.layout()["blocks/color"][0]
-    colors = values[:, offset : offset + 3]
-    assert all(np.abs(a - b).max() > 0.05 for a, b in pairwise(colors))
+    for path in ("blocks/color", "lights/back_wash/color", "lights/rim/color"):
+        offset = REGISTRY.layout()[path][0]
+        colors = values[:, offset : offset + 3]
+        assert all(np.abs(a - b).max() > 0.02 for a, b in pairwise(colors)), path
 
 
 def test_markers_say_why() -> None:
