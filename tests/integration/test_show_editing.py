@@ -471,3 +471,19 @@ def test_a_show_of_one_piece_is_put_on_another_and_what_does_not_fit_is_told(
 
 def test_a_show_that_fits_has_no_warnings(shown: Owned) -> None:
     assert shown.client.get(f"{shown.path}/show/warnings").json() == {"warnings": []}
+
+
+def test_the_shows_of_bundled_pieces_fit_them(client: httpx.Client) -> None:
+    examples = client.get("/api/v1/examples").json()["examples"]
+    assert examples[0]["name"] == "prince-of-denmarks-march"
+    with_show = [example for example in examples if example["show"]]
+    assert examples[: len(with_show)] == with_show
+    assert len(with_show) >= 2
+    for example in with_show:
+        score, show = (client.get(example[file]).raise_for_status().content for file in ("score", "show"))
+        name = example["score"].rpartition("/")[2]
+        session = upload(client, score, name, song=("song.wav", song()), show=("show.json", show))
+        try:
+            assert client.get(f"{session.path}/show/warnings").json() == {"warnings": []}, example["name"]
+        finally:
+            session.change("DELETE")

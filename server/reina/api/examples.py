@@ -16,12 +16,14 @@ from reina.protocol.resources import Example, ExampleList
 router = APIRouter(tags=["examples"])
 
 FOLDERS = ("scores", "songs", "shows")
+FIRST_VISIT = "prince-of-denmarks-march"
+"""The piece that a first visitor is shown."""
 SCORES = frozenset({".mid", ".midi", ".json"})
 
 
 @router.get("/examples")
 def list_examples(settings: ServerSettings) -> ExampleList:
-    """The bundled pieces; those with a show come first.
+    """The bundled pieces: the one for a first visit, then those with a show.
 
     A piece is a score in `scores`; the song and the show of the same name, if there are any, go with it.
     """
@@ -42,7 +44,8 @@ def list_examples(settings: ServerSettings) -> ExampleList:
                 show=links["shows"],
             )
         )
-    return ExampleList(examples=sorted(examples, key=lambda example: example.show is None))
+    examples.sort(key=lambda example: (example.name != FIRST_VISIT, example.show is None))
+    return ExampleList(examples=examples)
 
 
 @router.get("/examples/{folder}/{name}", response_class=FileResponse)
