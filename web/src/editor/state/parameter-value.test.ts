@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Manifest, ShowParameter } from "../generated/protocol";
+import type { Manifest, ShowParameter } from "../../generated/protocol";
 import { hexOf, shownNumber, typedNumber, valueOnScreen } from "./parameter-value";
 
 const base = { length: 1, unit: "", minimum: null, maximum: null, blend: true, interpolations: [], documentation: "" };

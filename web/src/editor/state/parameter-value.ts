@@ -1,4 +1,4 @@
-import { HEADER_SIZE, type Manifest, type ShowParameter } from "../generated/protocol";
+import { HEADER_SIZE, type Manifest, type ShowParameter } from "../../generated/protocol";
 
 /** What a parameter's value is called in a show's JSON, read from the floats of the frame on screen. */
 export function valueOnScreen(manifest: Manifest, floats: Float32Array, parameter: ShowParameter): unknown {

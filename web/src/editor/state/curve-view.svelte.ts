@@ -1,0 +1,138 @@
+import type { ShowParameter } from "../../generated/protocol";
+import { componentsOf, hasCurve } from "./component-values";
+import type { SampledCurve } from "./curves.svelte";
+import type { Editor } from "./editor.svelte";
+import type { ShowTrack } from "./show-document";
+
+/** A track whose curve is drawn, with the span of values that its room shows. */
+export interface CurvedTrack {
+  readonly track: ShowTrack;
+  readonly parameter: ShowParameter;
+  readonly curve: SampledCurve | null;
+  readonly low: number;
+  readonly high: number;
+  readonly active: boolean;
+}
+
+const MOST_TRACKS = 8;
+/** After a change of what is on screen, the curves are asked for this much later. */
+const PATIENCE_MS = 70;
+/** A preview while a handle is held, at most one in so many milliseconds. */
+const PREVIEW_MS = 60;
+const POINTS_PER_PIXEL = 0.75;
+
+/** The curves of the chosen tracks, as the server samples them. */
+export class CurveView {
+  readonly #editor: Editor;
+  #sampled = $state.raw<ReadonlyMap<string, SampledCurve>>(new Map());
+  #preview = $state.raw<{ readonly path: string; readonly curve: SampledCurve } | null>(null);
+  #previewing = false;
+  /** What is drawn is the show as the server has it. */
+  settled = false;
+  #previewWanted: ShowTrack | null = null;
+  /** While something is held, values keep their place on screen. */
+  #frozen = $state.raw<ReadonlyMap<string, readonly [number, number]> | null>(null);
+
+  constructor(editor: Editor) {
+    this.#editor = editor;
+  }
+
+  /** The track that is looked at, and those that chosen keyframes stand on. */
+  readonly #shown = $derived.by(() => {
+    const { active, selection, store } = this.#editor;
+    const paths = new Set([...selection.byTrack.keys(), ...(active === null ? [] : [active])]);
+    const tracks = (store.document?.tracks ?? []).filter(({ parameter }) => paths.has(parameter));
+    const shown = tracks.flatMap((track) => {
+      const parameter = this.#editor.parameter(track.parameter);
+      return hasCurve(parameter) ? [{ track, parameter, active: track.parameter === active }] : [];
+    });
+    return shown.sort((a, b) => Number(a.active) - Number(b.active)).slice(-MOST_TRACKS);
+  });
+
+  /** The one that is looked at comes last. */
+  readonly tracks: readonly CurvedTrack[] = $derived.by(() =>
+    this.#shown.map((shown) => {
+      const path = shown.track.parameter;
+      const held = this.#preview?.path === path ? this.#preview.curve : null;
+      const curve = held ?? this.#sampled.get(path) ?? null;
+      const [low, high] = this.#frozen?.get(path) ?? rangeOf(shown.track, shown.parameter, curve);
+      return { ...shown, curve, low, high };
+    }),
+  );
+
+  /** Ask for what is on screen, with half as much again on either side; returns what calls that off. */
+  follow(): () => void {
+    const { window, curves, reina, store } = this.#editor;
+    const paths = this.#shown.map(({ track }) => track.parameter);
+    const [from, to, points] = [window.from, window.to, window.width * POINTS_PER_PIXEL];
+    this.settled = false;
+    // What waits to be saved is not yet in the server's curves.
+    if (paths.length === 0 || store.waiting > 0) return () => undefined;
+    const ended = new AbortController();
+    const spare = (to - from) / 4;
+    const timer = setTimeout(() => {
+      curves.read({ paths, from: from - spare, to: to + spare, points: points * 1.5 }, ended.signal).then(
+        (read) => {
+          this.#sampled = read;
+          this.settled = true;
+          if (this.#frozen === null) this.#preview = null;
+        },
+        (error: unknown) => {
+          if (!ended.signal.aborted) reina.tell(error);
+        },
+      );
+    }, PATIENCE_MS);
+    return () => {
+      clearTimeout(timer);
+      ended.abort();
+    };
+  }
+
+  hold(): void {
+    this.#frozen = new Map(this.tracks.map(({ track, low, high }) => [track.parameter, [low, high] as const]));
+  }
+
+  /** Let go; what was previewed stays until the show's own curve has come. */
+  release(keep: boolean): void {
+    this.#frozen = null;
+    this.#previewWanted = null;
+    if (!keep) this.#preview = null;
+  }
+
+  /** Show a track's curve as it would be. */
+  preview(track: ShowTrack): void {
+    this.#previewWanted = track;
+    if (!this.#previewing) void this.#readPreviews();
+  }
+
+  async #readPreviews(): Promise<void> {
+    const { window, curves } = this.#editor;
+    this.#previewing = true;
+    try {
+      for (let track = this.#previewWanted; track !== null; track = this.#previewWanted) {
+        this.#previewWanted = null;
+        const curve = await curves.preview(track, window.from, window.to, window.width * POINTS_PER_PIXEL);
+        if (curve !== null && this.#frozen !== null) this.#preview = { path: track.parameter, curve };
+        await new Promise((resolve) => setTimeout(resolve, PREVIEW_MS));
+      }
+    } catch {
+      // The pointer may hold a place that no show can have; the edit itself will say so.
+    } finally {
+      this.#previewing = false;
+    }
+  }
+}
+
+/** The span of a track's values, with a little air. */
+function rangeOf(track: ShowTrack, parameter: ShowParameter, curve: SampledCurve | null): readonly [number, number] {
+  let [low, high] = [Infinity, -Infinity];
+  const take = (value: number): void => {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  };
+  for (const { value } of track.keyframes) componentsOf(parameter, value).forEach(take);
+  for (const values of curve?.values ?? []) values.forEach(take);
+  if (low > high) return [0, 1];
+  const air = high - low > 1e-9 ? (high - low) * 0.12 : Math.max(Math.abs(high) * 0.25, 0.25);
+  return [low - air, high + air];
+}

@@ -1,0 +1,71 @@
+import type { ReinaApi } from "../../connection";
+import type { ShowCurve, ShowCurves } from "../../generated/protocol";
+import type { ShowTrack } from "./show-document";
+
+/** A parameter's curve as the server has sampled it, over evenly spaced song times. */
+export interface SampledCurve {
+  readonly from: number;
+  readonly to: number;
+  /** A list a component. */
+  readonly values: readonly (readonly number[])[];
+  /** Indices between which and the one before the value jumps. */
+  readonly jumps: readonly number[];
+}
+
+/** What of curves is to be seen. */
+export interface CurvesAsked {
+  readonly paths: readonly string[];
+  readonly from: number;
+  readonly to: number;
+  readonly points: number;
+}
+
+const MOST_SAMPLES = 40_000;
+const MOST_PATHS = 64;
+
+/** Reads curves from the server: those of the show, and of a track as it would be. */
+export class CurveReader {
+  readonly #api: Pick<ReinaApi, "request" | "sessionPath">;
+  readonly #session: string;
+  readonly #token: string | null;
+
+  constructor(api: Pick<ReinaApi, "request" | "sessionPath">, session: string, token: string | null) {
+    this.#api = api;
+    this.#session = session;
+    this.#token = token;
+  }
+
+  /** Curves of the show as it is, by parameter. */
+  async read({ paths, from, to, points }: CurvesAsked, signal: AbortSignal): Promise<Map<string, SampledCurve>> {
+    const asked = paths.slice(0, MOST_PATHS);
+    const query = spanQuery(from, to, Math.min(points, Math.floor(MOST_SAMPLES / Math.max(asked.length, 1))));
+    for (const path of asked) query.append("parameter", path);
+    const address = this.#api.sessionPath(this.#session, `show/curves?${query.toString()}`);
+    return byPath((await (await this.#api.request("GET", address, { signal })).json()) as ShowCurves);
+  }
+
+  /** The curve of a track as it would be; nothing is kept. */
+  async preview(track: ShowTrack, from: number, to: number, points: number, signal?: AbortSignal): Promise<SampledCurve | null> {
+    if (this.#token === null) return null;
+    const address = this.#api.sessionPath(this.#session, `show/curves?${spanQuery(from, to, points).toString()}`);
+    const asked = { json: { track }, token: this.#token, ...(signal === undefined ? {} : { signal }) };
+    return byPath((await (await this.#api.request("POST", address, asked)).json()) as ShowCurves).get(track.parameter) ?? null;
+  }
+}
+
+function spanQuery(from: number, to: number, points: number): URLSearchParams {
+  const start = Math.max(from, 0);
+  return new URLSearchParams({
+    start_s: String(start),
+    end_s: String(Math.max(to, start)),
+    points: String(Math.max(Math.round(points), 2)),
+  });
+}
+
+function byPath({ times_s: times, curves }: ShowCurves): Map<string, SampledCurve> {
+  const [from = 0, to = 0] = [times[0], times.at(-1)];
+  const lineOf = ({ with_events: whole, keys }: ShowCurve) => whole ?? keys;
+  return new Map(
+    curves.map((curve) => [curve.parameter, { from, to, values: lineOf(curve).values, jumps: lineOf(curve).jumps }]),
+  );
+}

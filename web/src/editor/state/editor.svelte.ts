@@ -1,0 +1,169 @@
+import type { Interpolation, ShowParameter, ShowParameterList } from "../../generated/protocol";
+import type { Deck } from "../../state/deck.svelte";
+import type { Reina } from "../../state/reina.svelte";
+import type { SessionView } from "../../state/session-view.svelte";
+import { remember, remembered } from "../../state/storage";
+import { CurveReader } from "./curves.svelte";
+import { readEasingShapes, type EasingShape } from "./easing-shapes";
+import type { Edit } from "./edits";
+import { KeyTimes } from "./key-times";
+import { valueOnScreen } from "./parameter-value";
+import { rowsOf, type Row } from "./rows";
+import { Selection, type ChosenKey } from "./selection.svelte";
+import { trackOf, type ShowTrack } from "./show-document";
+import { ShowStore } from "./show-store.svelte";
+import { snapped, type Snap } from "./snapping";
+import { spanOf, type Retiming, type Span } from "./spans";
+import { TimeAxis } from "./time-axis";
+import { TimeWindow } from "./time-window.svelte";
+
+export type Mode = "keys" | "curves";
+
+/** The show's editor over one session: what it shows, what is chosen, and what it does through the server. */
+export class Editor {
+  readonly deck: Deck;
+  readonly reina: Reina;
+  readonly view: SessionView;
+  readonly store: ShowStore;
+  readonly selection = new Selection();
+  readonly window = new TimeWindow();
+  readonly curves: CurveReader;
+
+  mode = $state<Mode>("keys");
+  /** Path of the track that is looked at: its settings are shown, and Enter puts a keyframe on it. */
+  active = $state<string | null>(null);
+  /** Index of the chosen marker. */
+  marker = $state<number | null>(null);
+  closed = $state.raw<ReadonlySet<string>>(new Set(remembered().closedGroups));
+  snapping = $state(remembered().snapping);
+  snaps = $state.raw<ReadonlySet<Snap>>(new Set(remembered().snaps));
+  /** What the pointer moves; the show is edited once it lets go. */
+  moving = $state.raw<Retiming | null>(null);
+  /** How far the rows are scrolled, pixels. */
+  scrollTop = $state(0);
+  /** Every interpolation by its name, with its options; as the server describes them. */
+  ways = $state.raw<ReadonlyMap<string, Interpolation>>(new Map());
+  /** How each interpolation runs, as the server samples it. */
+  shapes = $state.raw<ReadonlyMap<string, EasingShape>>(new Map());
+  /** What was done last, for readers of the screen. */
+  said = $state("");
+
+  constructor(deck: Deck, view: SessionView) {
+    this.deck = deck;
+    this.reina = deck.reina;
+    this.view = view;
+    this.store = new ShowStore({
+      api: this.reina.api,
+      session: view.id,
+      token: view.token,
+      axis: () => this.axis,
+      tell: (error) => this.reina.tell(error),
+      word: (title, detail) => this.reina.word(title, detail),
+      later: (action, milliseconds) => setTimeout(action, milliseconds),
+    });
+    this.curves = new CurveReader(this.reina.api, view.id, view.token);
+  }
+
+  readonly axis = $derived.by(() => new TimeAxis(this.view.score));
+  readonly times = $derived.by(() => new KeyTimes(this.axis, this.store.document?.time ?? "seconds"));
+  readonly rows: readonly Row[] = $derived.by(() => rowsOf(this.store.document, this.closed));
+  readonly chosen: readonly ChosenKey[] = $derived.by(() => this.selection.keysOf(this.store.document));
+  readonly span: Span | null = $derived.by(() => spanOf(this.axis, this.times, this.chosen));
+  readonly markerTimes: readonly number[] = $derived.by(() => {
+    const document = this.store.document;
+    return (document?.markers ?? []).map(({ time }) => this.axis.toSongTime(document?.time ?? "seconds", time));
+  });
+  readonly #parameters = $derived.by(() => new Map(this.reina.parameters.map((each) => [each.path, each])));
+
+  get editable(): boolean {
+    return this.store.editable;
+  }
+
+  get fps(): number {
+    return this.view.hello?.fps ?? 60;
+  }
+
+  parameter(path: string): ShowParameter | null {
+    return this.#parameters.get(path) ?? null;
+  }
+
+  track(path: string | null): ShowTrack | null {
+    return path === null ? null : trackOf(this.store.document, path);
+  }
+
+  /** Song time of a keyframe, seconds. */
+  songTimeOf({ track, keyframe }: ChosenKey): number {
+    return this.axis.toSongTime(this.times.unitOf(track), keyframe.time);
+  }
+
+  /** A parameter's value in the picture that was drawn last. */
+  valueNow(parameter: ShowParameter): unknown {
+    const { hello, drawn } = this.view;
+    return hello === null || drawn === null ? parameter.default : valueOnScreen(hello, drawn.floats, parameter);
+  }
+
+  edit(says: string, edits: readonly Edit[]): void {
+    this.store.edit(says, edits);
+    if (edits.length > 0) this.said = says;
+  }
+
+  /** The place near a song time that the switched-on snaps draw it to. `free` leaves it where it is. */
+  snap(songTime: number, free = false, reachPixels = 9): number {
+    if (free || !this.snapping) return songTime;
+    const stays = (this.store.document?.tracks ?? []).filter(({ parameter }) => !this.selection.byTrack.has(parameter));
+    return snapped(songTime, reachPixels / this.window.scale, this.snaps, {
+      axis: this.axis,
+      score: this.view.score,
+      keys: this.snaps.has("keys") ? stays.map((track) => this.times.of(track)) : [],
+      markers: this.markerTimes,
+      fps: this.fps,
+    });
+  }
+
+  setSnapping(on: boolean): void {
+    this.snapping = on;
+    remember({ snapping: on });
+  }
+
+  toggleSnap(snap: Snap): void {
+    const snaps = new Set(this.snaps);
+    if (!snaps.delete(snap)) snaps.add(snap);
+    this.snaps = snaps;
+    remember({ snaps: [...snaps] });
+  }
+
+  toggleGroup(name: string, open = this.closed.has(name)): void {
+    const closed = new Set(this.closed);
+    if (open) closed.delete(name);
+    else closed.add(name);
+    this.closed = closed;
+    remember({ closedGroups: [...closed] });
+  }
+
+  /** Look at a track, and open its group. */
+  look(path: string | null): void {
+    this.active = path;
+    this.marker = null;
+  }
+
+  /** Ask the server what interpolations there are. */
+  async readWays(): Promise<void> {
+    try {
+      const response = await this.reina.api.request("GET", "/api/v1/parameters");
+      const { interpolations } = (await response.json()) as ShowParameterList;
+      this.ways = new Map(interpolations.map((each) => [each.name, each]));
+    } catch (error) {
+      this.reina.tell(error);
+    }
+  }
+
+  /** Ask the server, once, how they run. */
+  async readShapes(): Promise<void> {
+    if (this.shapes.size > 0 || !this.editable) return;
+    try {
+      this.shapes = await readEasingShapes(this.curves, this.reina.parameters);
+    } catch (error) {
+      this.reina.tell(error);
+    }
+  }
+}

@@ -1,0 +1,39 @@
+import type { ReinaApi } from "../../connection";
+
+/** The shape of a song's sound: its lowest and highest sample by stretches of equal length. */
+export class Peaks {
+  readonly #lowest: readonly number[];
+  readonly #highest: readonly number[];
+  readonly #rate: number;
+
+  constructor({ duration_s, lowest, highest }: { duration_s: number; lowest: number[]; highest: number[] }) {
+    const loudest = Math.max(...highest, ...lowest.map(Math.abs), 1e-3);
+    this.#lowest = lowest.map((value) => value / loudest);
+    this.#highest = highest.map((value) => value / loudest);
+    this.#rate = lowest.length / Math.max(duration_s, 1e-6);
+  }
+
+  /** The lowest and the highest between two song times, seconds, in shares of the song's loudest moment. */
+  between(from: number, to: number): readonly [low: number, high: number] {
+    const first = Math.max(Math.floor(from * this.#rate), 0);
+    const beyond = Math.min(Math.max(Math.ceil(to * this.#rate), first + 1), this.#lowest.length);
+    let [low, high] = [0, 0];
+    for (let index = first; index < beyond; index += 1) {
+      low = Math.min(low, this.#lowest[index] ?? 0);
+      high = Math.max(high, this.#highest[index] ?? 0);
+    }
+    return [low, high];
+  }
+}
+
+/** Get the shape of a session's song; null while there is none to be had. */
+export async function readPeaks(api: ReinaApi, session: string, signal: AbortSignal): Promise<Peaks | null> {
+  try {
+    const response = await api.request("GET", api.sessionPath(session, "song/peaks"), { signal });
+    if (response.status !== 200) return null;
+    return new Peaks((await response.json()) as { duration_s: number; lowest: number[]; highest: number[] });
+  } catch {
+    // The timeline is of use without the sound's shape.
+    return null;
+  }
+}
