@@ -1,0 +1,187 @@
+import type { CameraView } from "../../scene";
+import { copied, freshKey, pasted, type Copied } from "../state/clipboard";
+import type { Editor } from "../state/editor.svelte";
+import type { Changes, Edit } from "../state/edits";
+import { nearest } from "../state/key-times";
+import { byTrack } from "../state/selection.svelte";
+import type { ShowTrack } from "../state/show-document";
+import { movedBy, stretched, type Retiming } from "../state/spans";
+
+/** Nearer than this to the playhead, a keyframe is changed instead of a new one made, seconds. */
+const SAME_PLACE_S = 1 / 120;
+
+/** What was copied last, on whatever session. */
+let clipboard: Copied | null = null;
+
+/** How many keyframes were copied. */
+export function copiedCount(): number {
+  return clipboard?.count ?? 0;
+}
+
+/** Put a keyframe of each parameter at the playhead; one that stands there takes the value instead. */
+function keysHere(editor: Editor, values: readonly (readonly [path: string, value: unknown])[]): void {
+  const at = editor.view.songTime;
+  const { document } = editor.store;
+  if (document === null) return;
+  const keys: [string, string][] = [];
+  const edits = values.map(([parameter, value]): Edit => {
+    const track = editor.track(parameter);
+    const there = track === null ? null : keyNear(editor, track, at);
+    if (there !== null) {
+      keys.push([parameter, there]);
+      return { edit: "change_keyframe", parameter, key: there, changes: { value } };
+    }
+    const key = freshKey();
+    keys.push([parameter, key]);
+    const time = editor.axis.toTrackTime(track === null ? document.time : editor.times.unitOf(track), at);
+    return { edit: "add_keyframe", parameter, keyframe: { key, time, value, ...wayTo(editor, track, parameter, at) } };
+  });
+  editor.edit(values.length === 1 ? "Keyframe added" : `${values.length} keyframes added`, edits);
+  editor.selection.set(keys);
+}
+
+function keyNear(editor: Editor, track: ShowTrack, at: number): string | null {
+  const times = editor.times.of(track);
+  const index = nearest(times, at);
+  const time = times[index];
+  return time !== undefined && Math.abs(time - at) < SAME_PLACE_S ? (track.keyframes[index]?.key ?? null) : null;
+}
+
+/** A new keyframe is come to as the one before it is; the first straight, or by a step where nothing else is possible. */
+function wayTo(editor: Editor, track: ShowTrack | null, path: string, at: number): { interpolation: string } {
+  const known = editor.parameter(path)?.interpolations ?? [];
+  const times = track === null ? null : editor.times.of(track);
+  const before = times === null ? undefined : track?.keyframes[times.findLastIndex((time) => time < at)];
+  const way = before?.interpolation;
+  const plain = way === "cubic_spline" ? "automatic" : way;
+  if (plain !== undefined && known.includes(plain)) return { interpolation: plain };
+  return { interpolation: known.includes("linear") ? "linear" : (known[0] ?? "step") };
+}
+
+/** A keyframe at the playhead on the track that is looked at, with the value on screen. */
+export function addKeyHere(editor: Editor, path = editor.active): void {
+  const parameter = path === null ? null : editor.parameter(path);
+  if (parameter === null) {
+    editor.reina.word("Choose a track first", "Then Enter puts a keyframe at the playhead.");
+    return;
+  }
+  editor.toggleGroup(parameter.path.split("/")[0] ?? "", true);
+  keysHere(editor, [[parameter.path, editor.valueNow(parameter)]]);
+  editor.look(parameter.path);
+}
+
+/** Keyframes of the camera's four tracks from a view, as one step. */
+export function addCameraKeys(editor: Editor, view: CameraView): void {
+  keysHere(editor, [
+    ["camera/position", view.position.map(short)],
+    ["camera/target", view.target.map(short)],
+    ["camera/fov", short(view.fov)],
+    ["camera/roll", short(view.roll)],
+  ]);
+  editor.look("camera/position");
+}
+
+function short(value: number): number {
+  return Number(value.toFixed(5));
+}
+
+export function selectAll(editor: Editor): void {
+  const tracks = editor.store.document?.tracks ?? [];
+  editor.selection.set(tracks.flatMap(({ parameter, keyframes }) => keyframes.map(({ key }) => [parameter, key] as const)));
+  editor.said = `${editor.selection.size} keyframes chosen`;
+}
+
+export function removeKeys(editor: Editor): void {
+  const edits = editor.chosen.map(({ track, keyframe }): Edit => {
+    return { edit: "remove_keyframe", parameter: track.parameter, key: keyframe.key };
+  });
+  editor.edit(counted(edits.length, "removed"), edits);
+  editor.selection.clear();
+}
+
+export function copyKeys(editor: Editor): void {
+  const taken = copied(editor.axis, editor.times, editor.chosen);
+  if (taken === null) return;
+  clipboard = taken;
+  editor.said = counted(taken.count, "copied");
+}
+
+export function cutKeys(editor: Editor): void {
+  copyKeys(editor);
+  removeKeys(editor);
+}
+
+/** Put what was copied at the playhead: on the track that is looked at where it came from one of the same type. */
+export function pasteKeys(editor: Editor, at = editor.view.songTime, from = clipboard, ontoActive = true): void {
+  const { document } = editor.store;
+  if (document === null || from === null) return;
+  const source = from.tracks[0] === undefined ? null : editor.parameter(from.tracks[0].parameter);
+  const target = editor.active === null ? null : editor.parameter(editor.active);
+  const onto = ontoActive && from.tracks.length === 1 && target !== null && target.type === source?.type ? target.path : null;
+  const { edits, keys } = pasted(editor.axis, editor.times, document, from, at, onto);
+  editor.edit(counted(keys.length, "pasted"), edits);
+  editor.selection.set(keys);
+}
+
+/** The chosen keyframes once more, whole bars later. */
+export function duplicateKeys(editor: Editor): void {
+  const { axis, span } = editor;
+  const taken = copied(axis, editor.times, editor.chosen);
+  if (taken === null || span === null) return;
+  const from = axis.beatsAt(span.start);
+  const bar = axis.barLengthAt(from);
+  const bars = Math.max(Math.ceil((axis.beatsAt(span.end) - from) / bar + 1e-6), 1);
+  pasteKeys(editor, axis.secondsAt(from + bars * bar), taken, false);
+}
+
+/** Take the chosen keyframes to other times. */
+export function retime(editor: Editor, says: string, retiming: Retiming): void {
+  const { about, factor, by } = retiming;
+  if (editor.chosen.length === 0 || (factor === 1 && by === 0)) return;
+  const keyframes = Object.fromEntries(
+    [...byTrack(editor.chosen)].map(([track, chosen]) => [track.parameter, chosen.map(({ key }) => key)]),
+  );
+  editor.edit(says, [{ edit: "move_keyframes", keyframes, time: "beats", by, stretch: { about, factor } }]);
+}
+
+/** Move the chosen keyframes so that their first comes to a song time, seconds. */
+export function moveTo(editor: Editor, songTime: number): void {
+  const { span } = editor;
+  if (span !== null) retime(editor, counted(editor.chosen.length, "moved"), movedBy(editor.axis, span.start, songTime));
+}
+
+/** Stretch the chosen keyframes so that their last comes to a song time, seconds. */
+export function stretchTo(editor: Editor, songTime: number): void {
+  const { span } = editor;
+  if (span === null || span.end <= span.start) return;
+  retime(editor, counted(editor.chosen.length, "stretched"), stretched(editor.axis, span.start, span.end, songTime));
+}
+
+export type NudgeStep = "frame" | "beat" | "bar";
+
+/** Move the chosen keyframes a little. */
+export function nudge(editor: Editor, step: NudgeStep, direction: 1 | -1): void {
+  const { axis, span } = editor;
+  if (span === null) return;
+  const beats = axis.beatsAt(span.start);
+  const to =
+    step === "frame"
+      ? span.start + direction / editor.fps
+      : axis.secondsAt(beats + direction * (step === "bar" ? axis.barLengthAt(beats) : 1));
+  moveTo(editor, Math.max(to, 0));
+}
+
+/** Change the chosen keyframes alike, as far as their parameters take it. */
+export function changeKeys(editor: Editor, says: string, changes: Changes): void {
+  const way = changes["interpolation"];
+  const edits = editor.chosen.flatMap(({ track, keyframe }): Edit[] => {
+    const known = editor.parameter(track.parameter)?.interpolations ?? [];
+    if (typeof way === "string" && !known.includes(way)) return [];
+    return [{ edit: "change_keyframe", parameter: track.parameter, key: keyframe.key, changes }];
+  });
+  editor.edit(says, edits);
+}
+
+export function counted(count: number, done: string): string {
+  return count === 1 ? `Keyframe ${done}` : `${count} keyframes ${done}`;
+}

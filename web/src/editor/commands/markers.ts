@@ -1,0 +1,46 @@
+import type { Editor } from "../state/editor.svelte";
+import type { ShowMarker } from "../state/show-document";
+
+/** A marker at the playhead. */
+export function addMarker(editor: Editor): void {
+  const { document } = editor.store;
+  if (document === null) return;
+  const markers = document.markers ?? [];
+  const time = editor.axis.toTrackTime(document.time, editor.view.songTime);
+  const marker = { time, name: `Marker ${markers.length + 1}` };
+  put(editor, "Marker added", [...markers, marker]);
+  editor.marker = (editor.store.document?.markers ?? []).findIndex((each) => each.time === time);
+}
+
+/** Take a marker to another song time, seconds. */
+export function moveMarker(editor: Editor, index: number, songTime: number): void {
+  const { document } = editor.store;
+  if (document === null) return;
+  change(editor, "Marker moved", index, { time: editor.axis.toTrackTime(document.time, songTime) });
+}
+
+export function nameMarker(editor: Editor, index: number, name: string): void {
+  if (name.trim() !== "") change(editor, "Marker named", index, { name: name.trim() });
+}
+
+export function removeMarker(editor: Editor, index: number): void {
+  const markers = editor.store.document?.markers ?? [];
+  editor.marker = null;
+  put(
+    editor,
+    "Marker removed",
+    markers.filter((_, place) => place !== index),
+  );
+}
+
+function change(editor: Editor, says: string, index: number, changes: Partial<ShowMarker>): void {
+  const markers = editor.store.document?.markers ?? [];
+  const changed = markers.map((marker, place) => (place === index ? { ...marker, ...changes } : marker));
+  const kept = changed[index];
+  put(editor, says, changed);
+  editor.marker = kept === undefined ? null : (editor.store.document?.markers ?? []).indexOf(kept);
+}
+
+function put(editor: Editor, says: string, markers: readonly ShowMarker[]): void {
+  editor.edit(says, [{ edit: "change_show", changes: { markers: [...markers].sort((a, b) => a.time - b.time) } }]);
+}

@@ -1,0 +1,34 @@
+import type { Changes, Edit } from "../state/edits";
+import type { Editor } from "../state/editor.svelte";
+import { shownPath } from "../state/parameter-value";
+
+/** Change how a track is played; null takes a field back to its default. */
+export function setTrack(editor: Editor, path: string, says: string, changes: Changes): void {
+  if (editor.track(path) !== null) editor.edit(says, [{ edit: "change_track", parameter: path, changes }]);
+}
+
+export function muteTrack(editor: Editor, path: string): void {
+  const muted = editor.track(path)?.muted !== true;
+  setTrack(editor, path, muted ? "Track muted" : "Track on", { muted });
+}
+
+export function soloTrack(editor: Editor, path: string): void {
+  const solo = editor.track(path)?.solo !== true;
+  setTrack(editor, path, solo ? "Solo" : "Solo off", { solo });
+}
+
+/** Mute all tracks of a group; all on where all are muted. */
+export function muteGroup(editor: Editor, paths: readonly string[]): void {
+  const tracks = paths.flatMap((path) => editor.track(path) ?? []);
+  const muted = !tracks.every((track) => track.muted === true);
+  const edits = tracks
+    .filter((track) => (track.muted === true) !== muted)
+    .map((track): Edit => ({ edit: "change_track", parameter: track.parameter, changes: { muted } }));
+  editor.edit(muted ? "Group muted" : "Group on", edits);
+}
+
+export function removeTrack(editor: Editor, path: string): void {
+  if (editor.track(path) === null) return;
+  editor.edit(`Track ${shownPath(path)} removed`, [{ edit: "remove_track", parameter: path }]);
+  if (editor.active === path) editor.look(null);
+}

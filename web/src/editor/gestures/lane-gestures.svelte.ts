@@ -1,0 +1,304 @@
+import { counted, retime } from "../commands/keys";
+import { moveMarker } from "../commands/markers";
+import { headHeight, type Layout } from "../canvas/layout";
+import type { Editor } from "../state/editor.svelte";
+import { movedBy, stretched, type Retiming } from "../state/spans";
+import { hitAt, keysInBox, type Hit, type KeyName } from "./hit";
+import { Seeking } from "./seeking";
+import { Touches } from "./touches";
+
+/** A pointer's event, with its place in the timeline, pixels. */
+export interface Press {
+  readonly x: number;
+  readonly y: number;
+  readonly id: number;
+  readonly touch: boolean;
+  readonly button: number;
+  readonly adds: boolean;
+  readonly alt: boolean;
+}
+
+export interface Box {
+  readonly x0: number;
+  readonly y0: number;
+  readonly x1: number;
+  readonly y1: number;
+}
+
+type Gesture =
+  | { readonly kind: "seek"; readonly seeking: Seeking }
+  | { readonly kind: "keys"; readonly anchor: number; readonly begin: Press; readonly alone: readonly KeyName[] | null; moved: boolean }
+  | { readonly kind: "stretch"; readonly held: number; readonly from: number }
+  | { readonly kind: "marker"; readonly index: number; readonly begin: Press; moved: boolean }
+  | { readonly kind: "box"; readonly begin: Press; readonly from: number; readonly top: number; readonly hit: Hit; moved: boolean }
+  | { readonly kind: "pan"; readonly begin: Press; readonly hit: Hit | null; last: Press; moved: boolean };
+
+/** From here on a press is a drag, pixels. */
+const DRAG = 3;
+const DRAG_TOUCH = 8;
+const LONG_PRESS_MS = 420;
+/** This near to an edge, a drag moves the window on, pixels. */
+const EDGE = 18;
+const REACH = 8;
+const REACH_TOUCH = 18;
+
+/** What pointers do on the timeline: seek, choose, move, stretch, pan and zoom. */
+export class LaneGestures {
+  readonly #editor: Editor;
+  readonly #layout: () => Layout;
+  readonly #touches = new Touches();
+  #gesture: Gesture | null = null;
+  #longPress: ReturnType<typeof setTimeout> | undefined;
+  box = $state.raw<Box | null>(null);
+  /** Where a marker is while the pointer holds it, song time, seconds. */
+  heldMarker = $state.raw<{ readonly index: number; readonly time: number } | null>(null);
+
+  constructor(editor: Editor, layout: () => Layout) {
+    this.#editor = editor;
+    this.#layout = layout;
+  }
+
+  get busy(): boolean {
+    return this.#gesture !== null;
+  }
+
+  hit(press: Press): Hit {
+    return hitAt(this.#editor, this.#layout(), press.x, press.y, press.touch ? REACH_TOUCH : REACH);
+  }
+
+  down(press: Press): void {
+    if (press.touch) {
+      this.#touches.down(press.id, press.x, press.y);
+      if (this.#touches.count > 1) {
+        this.cancel();
+        return;
+      }
+    }
+    if (press.button === 1) this.#gesture = { kind: "pan", begin: press, hit: null, last: press, moved: false };
+    if (press.button !== 0) return;
+    const hit = this.hit(press);
+    this.#gesture = this.#begin(press, hit);
+    if (press.touch && this.#gesture?.kind === "pan") {
+      this.#longPress = setTimeout(() => {
+        navigator.vibrate(12);
+        this.#gesture = this.#beginBox(press, hit);
+      }, LONG_PRESS_MS);
+    }
+  }
+
+  move(press: Press): void {
+    if (press.touch) {
+      const pinch = this.#touches.move(press.id, press.x, press.y);
+      if (pinch !== null) {
+        this.#editor.window.zoom(pinch.factor, pinch.x);
+        this.#editor.window.pan(-pinch.dx);
+        this.#scroll(-pinch.dy);
+        return;
+      }
+    }
+    const gesture = this.#gesture;
+    if (gesture === null) return;
+    const { window } = this.#editor;
+    switch (gesture.kind) {
+      case "seek":
+        gesture.seeking.to(this.#editor.snap(window.timeAt(press.x), press.alt, 5));
+        break;
+      case "keys":
+        if (this.#hasMoved(gesture, press) && this.#editor.editable) this.#moveKeys(gesture.anchor, gesture.begin, press);
+        break;
+      case "stretch":
+        this.#editor.moving = this.#stretching(gesture, press);
+        break;
+      case "marker":
+        if (this.#hasMoved(gesture, press) && this.#editor.editable) {
+          this.heldMarker = { index: gesture.index, time: this.#editor.snap(Math.max(window.timeAt(press.x), 0), press.alt) };
+        }
+        break;
+      case "box":
+        if (this.#hasMoved(gesture, press)) this.#drawBox(gesture, press);
+        break;
+      case "pan":
+        if (!this.#hasMoved(gesture, press)) break;
+        clearTimeout(this.#longPress);
+        window.pan(gesture.last.x - press.x);
+        this.#scroll(gesture.last.y - press.y);
+        gesture.last = press;
+        break;
+    }
+  }
+
+  up(press: Press): void {
+    clearTimeout(this.#longPress);
+    if (press.touch) this.#touches.up(press.id);
+    const gesture = this.#gesture;
+    this.#gesture = null;
+    if (gesture === null) return;
+    switch (gesture.kind) {
+      case "seek":
+        gesture.seeking.end();
+        break;
+      case "keys":
+        if (gesture.moved) this.#place("moved");
+        else if (gesture.alone !== null) this.#editor.selection.set(gesture.alone);
+        break;
+      case "stretch":
+        this.#place("stretched");
+        break;
+      case "marker":
+        if (this.heldMarker !== null) moveMarker(this.#editor, gesture.index, this.heldMarker.time);
+        else if (this.#editor.view.canControl) void this.#editor.view.seek(this.#editor.markerTimes[gesture.index] ?? 0);
+        this.heldMarker = null;
+        break;
+      case "box":
+        this.#chooseBox(gesture, press);
+        break;
+      case "pan":
+        if (!gesture.moved && gesture.hit?.kind === "row") this.#tapRow(gesture.hit, press);
+        break;
+    }
+  }
+
+  /** Let go of everything and leave the show as it is; returns whether there was anything. */
+  cancel(): boolean {
+    clearTimeout(this.#longPress);
+    const was = this.#gesture !== null;
+    this.#gesture = null;
+    this.#editor.moving = null;
+    this.box = null;
+    this.heldMarker = null;
+    return was;
+  }
+
+  /** The wheel: along the time with Shift or sideways, up and down the rows; with Ctrl, or by a pinch, it zooms. */
+  wheel(event: { deltaX: number; deltaY: number; ctrlKey: boolean; metaKey: boolean; shiftKey: boolean }, x: number, y: number): void {
+    const { window } = this.#editor;
+    if (event.ctrlKey || event.metaKey) { window.zoom(Math.exp(-event.deltaY * 0.004), x); return; }
+    const alongTime = event.shiftKey || y < headHeight(this.#layout());
+    if (event.deltaX !== 0) window.pan(event.deltaX);
+    if (alongTime) window.pan(event.deltaY);
+    else this.#scroll(event.deltaY);
+  }
+
+  #begin(press: Press, hit: Hit): Gesture | null {
+    const editor = this.#editor;
+    const { window, span } = editor;
+    switch (hit.kind) {
+      case "ruler": {
+        if (!editor.view.canControl) return null;
+        const seeking = new Seeking(editor.view);
+        seeking.to(editor.snap(Math.max(window.timeAt(press.x), 0), press.alt, 5));
+        return { kind: "seek", seeking };
+      }
+      case "marker":
+        editor.marker = hit.index;
+        return { kind: "marker", index: hit.index, begin: press, moved: false };
+      case "grip":
+        if (span === null || !editor.editable) return null;
+        return hit.side === "end"
+          ? { kind: "stretch", held: span.start, from: span.end }
+          : { kind: "stretch", held: span.end, from: span.start };
+      case "span":
+        return { kind: "keys", anchor: span?.start ?? 0, begin: press, alone: null, moved: false };
+      case "key":
+        return this.#beginKeys(press, hit);
+      case "row":
+        if (press.touch) return { kind: "pan", begin: press, hit, last: press, moved: false };
+        return this.#beginBox(press, hit);
+    }
+  }
+
+  #beginKeys(press: Press, hit: Hit & { kind: "key" }): Gesture | null {
+    const { selection } = this.#editor;
+    const all = hit.keys.every(([path, key]) => selection.has(path, key));
+    if (hit.row.kind === "track") this.#editor.look(hit.row.track.parameter);
+    if (press.adds) {
+      selection.toggle(hit.keys);
+      return null;
+    }
+    if (!all) selection.set(hit.keys);
+    return { kind: "keys", anchor: hit.time, begin: press, alone: all ? hit.keys : null, moved: false };
+  }
+
+  #beginBox(press: Press, hit: Hit): Gesture {
+    const top = press.y - headHeight(this.#layout()) + this.#editor.scrollTop;
+    return { kind: "box", begin: press, from: this.#editor.window.timeAt(press.x), top, hit, moved: false };
+  }
+
+  #hasMoved(gesture: { readonly begin: Press; moved: boolean }, press: Press): boolean {
+    const far = press.touch ? DRAG_TOUCH : DRAG;
+    gesture.moved ||= Math.hypot(press.x - gesture.begin.x, press.y - gesture.begin.y) >= far;
+    return gesture.moved;
+  }
+
+  #moveKeys(anchor: number, begin: Press, press: Press): void {
+    const editor = this.#editor;
+    const { window, axis, span } = editor;
+    if (press.x < EDGE) window.pan(-6);
+    else if (press.x > window.width - EDGE) window.pan(6);
+    const wanted = anchor + (press.x - begin.x) / window.scale;
+    // Nothing stands before the music begins.
+    const least = anchor - (span?.start ?? 0);
+    editor.moving = movedBy(axis, anchor, Math.max(editor.snap(wanted, press.alt), least));
+  }
+
+  #stretching(gesture: Gesture & { kind: "stretch" }, press: Press): Retiming {
+    const { window, axis } = this.#editor;
+    const to = this.#editor.snap(Math.max(window.timeAt(press.x), 0), press.alt);
+    return stretched(axis, gesture.held, gesture.from, to);
+  }
+
+  #place(done: string): void {
+    const { moving } = this.#editor;
+    this.#editor.moving = null;
+    if (moving !== null) retime(this.#editor, counted(this.#editor.chosen.length, done), moving);
+  }
+
+  #drawBox(gesture: Gesture & { kind: "box" }, press: Press): void {
+    const { window, scrollTop } = this.#editor;
+    const head = headHeight(this.#layout());
+    if (press.y > this.#bottom - EDGE) this.#scroll(8);
+    else if (press.y < head + EDGE) this.#scroll(-8);
+    this.box = { x0: window.xOf(gesture.from), y0: gesture.top + head - scrollTop, x1: press.x, y1: Math.max(press.y, head) };
+  }
+
+  #chooseBox(gesture: Gesture & { kind: "box" }, press: Press): void {
+    this.box = null;
+    if (!gesture.moved) {
+      if (gesture.hit.kind === "row") this.#tapRow(gesture.hit, press);
+      return;
+    }
+    const { window, selection, scrollTop, mode } = this.#editor;
+    if (mode === "curves") return;
+    const times = [gesture.from, window.timeAt(press.x)];
+    const heights = [gesture.top, press.y - headHeight(this.#layout()) + scrollTop];
+    const keys = keysInBox(this.#editor, this.#layout(), {
+      from: Math.min(...times),
+      to: Math.max(...times),
+      top: Math.min(...heights),
+      bottom: Math.max(...heights),
+    });
+    if (press.adds) selection.add(keys);
+    else selection.set(keys);
+    this.#editor.said = `${selection.size} keyframes chosen`;
+  }
+
+  #tapRow({ row }: Hit & { kind: "row" }, press: Press): void {
+    if (!press.adds) this.#editor.selection.clear();
+    if (this.#editor.mode === "curves") return;
+    if (row?.kind === "track") this.#editor.look(row.track.parameter);
+    else this.#editor.marker = null;
+  }
+
+  /** Height of the whole timeline, pixels; set by what draws it. */
+  #bottom = 0;
+
+  set height(pixels: number) {
+    this.#bottom = pixels;
+  }
+
+  #scroll(pixels: number): void {
+    const room = this.#bottom - headHeight(this.#layout());
+    const most = Math.max(this.#editor.rows.length * this.#layout().row - room, 0);
+    this.#editor.scrollTop = Math.min(Math.max(this.#editor.scrollTop + pixels, 0), most);
+  }
+}
