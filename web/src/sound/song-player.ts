@@ -28,6 +28,8 @@ interface Voice {
 /** From planning a start to its sound being computed. */
 const LEAD_S = 0.06;
 const FADE_S = 0.012;
+/** How much is heard of a place that is passed in a paused song. */
+const SCRUB_S = 0.14;
 /** Less than this before the song's end is not worth a start. */
 const SHORTEST_START_S = 0.25;
 /** After a start the output timestamp needs a moment to be true. */
@@ -49,6 +51,7 @@ export class SongPlayer {
   #song: AudioBuffer | null = null;
   #transport: TransportState | null = null;
   #voice: Voice | null = null;
+  #scrubbed: GainNode | null = null;
   #songs = 0;
   #checkFrom = 0;
   #state: SoundState = "silent";
@@ -94,6 +97,31 @@ export class SongPlayer {
     // An edit of the show raises the epoch too; the sound need not stutter for it.
     if (before !== null && this.#voice !== null && sameMotion(before, transport)) return;
     this.#restart();
+  }
+
+  /** Play a moment of the song from a place, seconds, unless it plays already; the moment before ends at once. */
+  scrub(position: number): void {
+    if (this.#song === null || this.#transport?.playing === true || position >= this.#song.duration) return;
+    if (this.#context.state !== "running") {
+      void this.#context.resume();
+      return;
+    }
+    const now = this.#context.currentTime;
+    this.#scrubbed?.gain.cancelScheduledValues(now);
+    this.#scrubbed?.gain.setTargetAtTime(0, now, FADE_S / 3);
+    const source = new AudioBufferSourceNode(this.#context, { buffer: this.#song });
+    const gain = new GainNode(this.#context, { gain: 0 });
+    gain.gain.setValueAtTime(0, now);
+    gain.gain.linearRampToValueAtTime(1, now + FADE_S);
+    gain.gain.setValueAtTime(1, now + SCRUB_S - FADE_S);
+    gain.gain.linearRampToValueAtTime(0, now + SCRUB_S);
+    source.connect(gain).connect(this.#master);
+    source.start(now, Math.max(position, 0), SCRUB_S);
+    this.#scrubbed = gain;
+    source.onended = () => {
+      gain.disconnect();
+      if (this.#scrubbed === gain) this.#scrubbed = null;
+    };
   }
 
   /** Let sound out; to be called from a click or a key. */

@@ -5,6 +5,7 @@ import { neighbouringBarLine } from "./score-time";
 import { keepsKey, shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames } from "./storage";
+import type { CameraView } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -22,7 +23,10 @@ export interface DeckHands {
   dollyCamera(factor: number): void;
   toggleFullscreen(): void;
   openFilePicker(): void;
-  addKeyframe(): void;
+  /** The view that is seen, as a show's camera keys hold it. */
+  currentView(): CameraView;
+  /** Take a key press while the show is open; returns whether it was the editor's. */
+  pressInShow(event: KeyboardEvent): boolean;
 }
 
 /** What lies over the stage: which panels are open, and what each action does. */
@@ -66,7 +70,6 @@ export class Deck {
     piece: () => this.togglePiece(),
     show: () => this.toggleShow(),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
-    keyframe: () => this.hands.addKeyframe?.(),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
   };
@@ -86,8 +89,9 @@ export class Deck {
   /** Take a key press; returns whether it was one of the page's own. */
   press(event: KeyboardEvent): boolean {
     if (isTyping(event.target) || event.defaultPrevented) return false;
-    if (event.key === "Escape") return this.#escape();
     if ((event.key === "Enter" || event.key === " ") && isPressable(event.target)) return false;
+    if (this.hands.pressInShow?.(event) === true) return true;
+    if (event.key === "Escape") return this.#escape();
     if (event.target instanceof HTMLInputElement && keepsKey(event.target.type, event.key)) return false;
     const shortcut = shortcutOf(event, event.target instanceof HTMLCanvasElement);
     if (shortcut === null) return false;

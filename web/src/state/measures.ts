@@ -1,4 +1,5 @@
 import { HEADER_SIZE } from "../generated/protocol";
+import type { ShowMeasures } from "../editor/state/show-measures";
 import type { Stage } from "../scene";
 import type { SessionView } from "./session-view.svelte";
 
@@ -30,6 +31,8 @@ export interface PageMeasures {
   readonly soundAhead: number | null;
   /** Where the camera stood in the picture that was drawn last, in the world, metres. */
   readonly drawnFrom: readonly [number, number, number];
+  /** What the show's editor says about itself, while it is open. */
+  show?: ShowMeasures;
   /** Local joint rotations as three.js has them, x y z w. */
   boneQuaternions(): Record<string, [number, number, number, number]>;
   /** A parameter's floats in the frame that was drawn last; null where the session streams none of that path. */

@@ -5,6 +5,7 @@ import type {
   ServerMessage,
   Session,
   SessionChange,
+  ShowChanged,
   TransportCommand,
   TransportState,
   WireNote,
@@ -45,8 +46,8 @@ export class SessionView {
   /** The share of the song's making that is done, while it is being made; null once it is there. */
   soundShare = $state<number | null>(0);
   soundError = $state<string | null>(null);
-  /** Raised by every change of the show that the server tells of. */
-  showRevision = $state(0);
+  /** The last change of the show that the server told of. */
+  showTold = $state.raw<ShowChanged | null>(null);
 
   /** How long the music lasts, seconds. */
   duration = $state(0);
@@ -167,6 +168,11 @@ export class SessionView {
     });
   }
 
+  /** Let a moment of the song be heard where nothing plays: for a pointer on a timeline. */
+  scrub(songTime: number): void {
+    this.#player.scrub(songTime);
+  }
+
   /** Let the sound out; call it from a click or a key. */
   unlockSound(): Promise<void> {
     return this.#player.unlock();
@@ -217,7 +223,7 @@ export class SessionView {
         this.#loadSong(message.song.href);
         break;
       case "show_changed":
-        this.showRevision += 1;
+        this.showTold = message;
         break;
       case "song_ready":
         this.#loadSong(message.song.href);

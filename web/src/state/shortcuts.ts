@@ -26,7 +26,6 @@ export type Action =
   | "piece"
   | "show"
   | "names"
-  | "keyframe"
   | "open"
   | "help";
 
@@ -65,7 +64,6 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },
   { action: "names", keys: ["n"], shown: "N", says: "Name notes as written, or as they sound" },
-  { action: "keyframe", keys: ["Enter"], shown: "Enter", says: "Keyframe here, on the chosen track", controls: true },
   { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },
   { action: "help", keys: ["?"], shown: "?", says: "This list" },
 ];

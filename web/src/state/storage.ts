@@ -10,6 +10,13 @@ export interface Remembered {
   readonly muted: boolean;
   readonly pieceOpen: boolean;
   readonly showOpen: boolean;
+  /** Height of the show's editor, pixels; 0 for what suits the window. */
+  readonly editorHeight: number;
+  /** Groups of tracks that are folded up. */
+  readonly closedGroups: readonly string[];
+  /** Whether keyframes are drawn to places, and to which. */
+  readonly snapping: boolean;
+  readonly snaps: readonly ("bars" | "beats" | "keys" | "markers" | "frames")[];
   /** Notes are called as written for the trumpet, or as they sound. */
   readonly noteNames: NoteNames;
   /** Somebody has pressed Play here before: the welcome has done its work. */
@@ -26,6 +33,10 @@ const NOTHING: Remembered = {
   muted: false,
   pieceOpen: false,
   showOpen: false,
+  editorHeight: 0,
+  closedGroups: [],
+  snapping: true,
+  snaps: ["bars", "beats", "keys", "markers"],
   noteNames: "written",
   hasPlayed: false,
 };
