@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 from tests.e2e.opened import Opened
+from tests.e2e.shows import WINDOW, ShowPage, made_session, remembering
 from tests.integration.server import Running, serve
 
 if TYPE_CHECKING:
@@ -36,6 +38,8 @@ window.AudioContext = class extends AudioContext {
 };
 """
 """What browsers do outside of tests, where a script that the driver runs counts as its user's own doing."""
+EXPECTED = ("409", "412", "ERR_FAILED")
+"""What the browser says of a write that came too late, and of one that a test let get lost."""
 SMALL = (760, 430)
 """Width and height of the window: software GL draws a picture of this size in about a tenth of a second."""
 
@@ -66,12 +70,39 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
+def storing(remembers: dict[str, Any]) -> str:
+    """A script that puts into the page's storage what it kept from an earlier visit, where it is empty."""
+    return f"localStorage.reina ??= {json.dumps(json.dumps(remembers))};"
+
+
+@pytest.fixture(scope="session")
+def one_show(browser: Browser, server: Running, client: httpx.Client) -> Iterator[ShowPage]:
+    """A page with the show's editor, for one test after another: to load a stage takes seconds."""
+    session = made_session(client)
+    context = browser.new_context(viewport={"width": WINDOW[0], "height": WINDOW[1]})
+    context.add_init_script(storing(remembering(session)))
+    opened = Opened(context.new_page(), server.address)
+    opened.go(f"/s/{session['id']}")
+    opened.until_drawn()
+    yield ShowPage(opened, client).open()
+    context.close()
+
+
+@pytest.fixture
+def show(one_show: ShowPage) -> Iterator[ShowPage]:
+    """The show's editor over a small show, as it is opened first; the page says no error but EXPECTED."""
+    one_show.opened.errors.clear()
+    yield one_show.afresh()
+    assert [error for error in one_show.opened.errors if not any(code in error for code in EXPECTED)] == []
+
+
 @pytest.fixture
 def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
     """Opens pages of the server, each in a browser profile of its own unless `beside` another.
 
     Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
-    `refusals`. With `sound_waits` the browser lets no sound out before a click or a key.
+    `refusals`. With `sound_waits` the browser lets no sound out before a click or a key; `remembers` is what
+    the page has kept in its storage from an earlier visit.
     """
     opened: list[Opened] = []
 
@@ -82,6 +113,7 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
         beside: Opened | None = None,
         refusals: tuple[str, ...] = (),
         sound_waits: bool = False,
+        remembers: dict[str, Any] | None = None,
     ) -> Opened:
         if beside is None:
             context = browser.new_context(viewport={"width": size[0], "height": size[1]})
@@ -89,6 +121,8 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
             context = beside.page.context
         if sound_waits:
             context.add_init_script(SOUND_WAITS)
+        if remembers is not None:
+            context.add_init_script(storing(remembers))
         one = Opened(context.new_page(), server.address, refusals)
         opened.append(one)
         one.go(path)

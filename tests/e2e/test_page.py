@@ -141,26 +141,6 @@ def test_without_the_token_one_watches(visit: Visit) -> None:
     watcher.until("window.reina.songTime > 7")
 
 
-def test_a_keyframe_set_in_the_page_reaches_the_show(visit: Visit, client: httpx.Client) -> None:
-    opened = open_scale(visit)
-    opened.page.keyboard.press("s")
-    opened.page.get_by_label("Add a track").select_option("stage/exposure")
-    opened.page.get_by_label("Value", exact=True).wait_for()
-    opened.page.get_by_label("Value", exact=True).fill("0.25")
-    opened.page.get_by_label("Value", exact=True).press("Enter")
-    opened.page.get_by_role("button", name="Remove the keyframe").wait_for()
-    path = f"/api/v1/sessions/{opened.session}/show/tracks/stage/exposure/keyframes"
-
-    def values() -> list[float]:
-        return [keyframe["value"] for keyframe in client.get(path).json()["keyframes"]]
-
-    for _ in range(100):
-        if values() == [0.25]:
-            break
-        opened.page.wait_for_timeout(50)
-    assert values() == [0.25]
-
-
 def test_the_picture_shows_a_player_with_brass_in_her_hands(visit: Visit) -> None:
     opened = visit()
     opened.until_drawn()
