@@ -1,4 +1,4 @@
-/** Music stands and chairs at the back of the room, for depth. */
+/** Music stands and chairs: a row on the riser, and a few left about the room. */
 
 import {
   BoxGeometry,
@@ -10,24 +10,35 @@ import {
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
+import { type Patch } from "./contact_shade";
+import { RISERS } from "./plan";
 import { createSurface, type RoomLight } from "./surface";
 
-/** x, z and heading about +y of each, metres and radians. */
-type Place = readonly [x: number, z: number, heading: number];
+/** x, z, heading about +y and height of what it stands on, metres and radians. */
+type Place = readonly [x: number, z: number, heading: number, y?: number];
+
+const RISER = RISERS[0].height;
 
 const STANDS: readonly Place[] = [
-  [-0.95, -2.45, 0.2],
-  [-2.5, -2.1, 0.5],
+  [-1.95, -2.52, 0.32, RISER],
+  [-1.1, -2.5, 0.18, RISER],
+  [-0.2, -2.56, 0.02, RISER],
   [3.55, -0.1, -0.9],
   [-3.6, -0.9, 0.9],
+  [-3.15, -1.75, 0.65],
+  [2.75, -1.7, -0.5],
 ];
 
 const CHAIRS: readonly Place[] = [
-  [-1.1, -3.05, 0.2],
-  [-2.8, -2.65, 0.5],
+  [-2.0, -3.1, 0.32, RISER],
+  [-1.2, -3.12, 0.16, RISER],
+  [-0.35, -3.16, -0.03, RISER],
   [4.0, -0.45, -0.9],
   [-4.0, -1.25, 0.9],
-  [2.35, -3.1, -0.3],
+  [-3.55, -2.15, 0.65],
+  [3.1, -2.15, -0.5],
+  [3.75, 1.9, -1.35],
+  [-3.8, 1.6, 1.4],
 ];
 
 function rod(from: [number, number, number], to: [number, number, number], radius: number): BufferGeometry {
@@ -67,7 +78,7 @@ function chairGeometry(): BufferGeometry {
 function place(geometry: BufferGeometry, material: Material, places: readonly Place[]): InstancedMesh {
   const mesh = new InstancedMesh(geometry, material, places.length);
   const matrix = new Matrix4();
-  places.forEach(([x, z, heading], i) => mesh.setMatrixAt(i, matrix.makeRotationY(heading).setPosition(x, 0, z)));
+  places.forEach(([x, z, heading, y = 0], i) => mesh.setMatrixAt(i, matrix.makeRotationY(heading).setPosition(x, y, z)));
   mesh.castShadow = true;
   mesh.receiveShadow = true;
   mesh.computeBoundingSphere();
@@ -80,3 +91,9 @@ export function createFurniture(light: RoomLight): InstancedMesh[] {
   const wood = createSurface({ color: 0x4a2c1a, roughness: 0.7, envMapIntensity: 0.5 }, light, {});
   return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, CHAIRS)];
 }
+
+/** What lies in the shade of stands and chairs. */
+export const FURNITURE_SHADE: readonly Patch[] = [
+  ...STANDS.map(([x, z, , y]): Patch => [x, z, 0.62, 0.62, y ?? 0]),
+  ...CHAIRS.map(([x, z, , y]): Patch => [x, z, 0.78, 0.78, y ?? 0]),
+];

@@ -5,8 +5,12 @@ import { Color, Group } from "three";
 import type { TierSettings } from "../tiers";
 import { createFloor, type Floor } from "./floor";
 import { Feet } from "./feet";
-import { createFurniture } from "./furniture";
+import { createContactShade, type Patch } from "./contact_shade";
+import { createFittings } from "./fittings";
+import { createFurniture, FURNITURE_SHADE } from "./furniture";
+import { RESTING_SHADE } from "./instruments_at_rest";
 import { FloorMirror } from "./mirror";
+import { RISERS } from "./plan";
 import { createShafts } from "./shafts";
 import type { RoomLight } from "./surface";
 import { createWalls } from "./walls";
@@ -27,6 +31,9 @@ export interface Room {
   readonly daylight: { value: number };
 }
 
+/** A step's front darkens the floor before it. */
+const RISER_SHADE = RISERS.map(({ left, right, front }): Patch => [(left + right) / 2, front, right - left + 0.3, 0.5]);
+
 /** The room, in the light that the lights keep up to date. */
 export function createRoom(light: RoomLight, tier: TierSettings): Room {
   const keyColor = new Color(3, 2.4, 1.7);
@@ -35,7 +42,8 @@ export function createRoom(light: RoomLight, tier: TierSettings): Room {
   const mirror = tier.mirrorScale > 0 ? new FloorMirror(tier.mirrorScale) : null;
   const { mesh: floor } = createFloor(light, mirror, feet);
   const object = new Group();
-  object.add(floor, createWalls(light, keyColor, daylight), ...createFurniture(light));
+  object.add(floor, createWalls(light, keyColor, daylight), createFittings(light), ...createFurniture(light));
+  object.add(createContactShade([...RISER_SHADE, ...RESTING_SHADE, ...FURNITURE_SHADE]));
   const shafts = tier.shafts ? createShafts(light.toKey, keyColor) : null;
   if (shafts !== null) object.add(shafts.mesh);
   return { object, floor, mirror, feet, haze: shafts?.density ?? null, keyColor, daylight };

@@ -18,3 +18,6 @@ export const WINDOWS = {
 
 /** Height of the wooden panelling on the walls. */
 export const PANELLING = 1.02;
+
+/** Steps at the back of the room on which rows sit, metres. */
+export const RISERS = [{ left: -2.3, right: 1.95, back: ROOM.back, front: -2.3, height: 0.2 }] as const;

@@ -44,7 +44,7 @@ float windowLight(vec3 place, vec3 toKey) {
   float along = (side * ${f(ROOM.halfWidth)} - place.x) / (side * max(abs(toKey.x), 0.05) );
   vec3 crossing = place + toKey * along;
   crossing.z -= playerShift(toKey);
-  float pattern = windowPattern(crossing.zy, 0.012 + 0.017 * along);
+  float pattern = windowPattern(crossing.zy, 0.012 + 0.010 * along);
   // A key that comes from the front is a lamp in the room, not the sun.
   return mix(1.0, pattern, smoothstep(0.12, 0.35, abs(toKey.x)));
 }
