@@ -1,7 +1,7 @@
 import { PerspectiveCamera, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
-import { fitFrame, type Insets, SHOW_ASPECT, widen } from "./framing";
+import { fitFrame, type Insets, keptWidth, SHOW_ASPECT, widen } from "./framing";
 
 const DEGREES = 180 / Math.PI;
 const FOVS = [0.1, 0.26, 0.5, 1.0, 1.6];
@@ -15,15 +15,16 @@ const WINDOWS: readonly [width: number, height: number][] = [
 ];
 const PANELS: readonly Insets[] = [NONE, { top: 56, right: 0, bottom: 190, left: 0 }, { top: 0, right: 320, bottom: 160, left: 0 }];
 
-/** Where the corners of the show's frame fall in a window, pixels from its top left. */
+/** Where the corners of the part that is kept of the show's frame fall in a window, pixels from its top left. */
 function frameCorners(fov: number, width: number, height: number, insets: Insets): Vector3[] {
   const { widening, shiftX, shiftY } = fitFrame(width, height, insets);
   const camera = new PerspectiveCamera(widen(fov, widening) * DEGREES, width / height);
   camera.setViewOffset(width, height, -shiftX, -shiftY, width, height);
   const up = Math.tan(fov / 2);
+  const across = SHOW_ASPECT * keptWidth((width - insets.left - insets.right) / (height - insets.top - insets.bottom));
   return [-1, 1].flatMap((x) =>
     [-1, 1].map((y) => {
-      const seen = new Vector3(x * up * SHOW_ASPECT, y * up, -1).applyMatrix4(camera.projectionMatrix);
+      const seen = new Vector3(x * up * across, y * up, -1).applyMatrix4(camera.projectionMatrix);
       return new Vector3(((1 + seen.x) / 2) * width, ((1 - seen.y) / 2) * height, 0);
     }),
   );
@@ -35,7 +36,7 @@ describe("fitFrame", () => {
     expect(fitFrame(2560, 1080, NONE).widening).toBe(1);
   });
 
-  it("keeps the whole frame in what is free, and touches two of its sides", () => {
+  it("keeps its part of the frame in what is free, and touches two of its sides", () => {
     for (const fov of FOVS) {
       for (const [width, height] of WINDOWS) {
         for (const insets of PANELS) {
@@ -54,6 +55,13 @@ describe("fitFrame", () => {
         }
       }
     }
+  });
+
+  it("gives up sides in narrow windows alone, and never more than a third of the width", () => {
+    expect(keptWidth(SHOW_ASPECT)).toBe(1);
+    expect(keptWidth(3)).toBe(1);
+    expect(keptWidth(4 / 3)).toBeGreaterThan(0.8);
+    expect(keptWidth(0.5)).toBeCloseTo(0.66, 12);
   });
 
   it("leaves the picture a part of the window, whatever lies over it", () => {

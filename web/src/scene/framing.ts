@@ -1,4 +1,8 @@
-/** The show frames its pictures for 16:9; another window sees more, never less. */
+/**
+ * The show frames its pictures for 16:9. A wider window sees more. A narrower one sees more above and below and
+ * gives up a little at the sides, down to the middle two thirds: what a camera looks at stands in the middle, and a
+ * whole frame on an upright phone would leave the player as tall as a thumbnail.
+ */
 
 export const SHOW_ASPECT = 16 / 9;
 
@@ -32,12 +36,21 @@ function freeStretch(length: number, before: number, after: number): [start: num
   return [before * share, length - (before + after) * share];
 }
 
-/** The largest 16:9 frame in what is free of a window, in the middle of it. */
+/** The least share of the frame's width that a narrow window keeps. */
+const LEAST_WIDTH = 0.66;
+
+/** The share of the frame's width that a window of an aspect keeps: all from 16:9 on, the least at a square and beyond. */
+export function keptWidth(aspect: number): number {
+  const wideness = Math.min(1, Math.max(0, (aspect - 1) / (SHOW_ASPECT - 1)));
+  return LEAST_WIDTH + (1 - LEAST_WIDTH) * wideness;
+}
+
+/** The largest 16:9 frame, less what a narrow window gives up of its sides, in the middle of what is free of a window. */
 export function fitFrame(width: number, height: number, insets: Insets): Fit {
   const [left, freeWidth] = freeStretch(width, insets.left, insets.right);
   const [top, freeHeight] = freeStretch(height, insets.top, insets.bottom);
   return {
-    widening: Math.max(1, height / Math.min(freeHeight, freeWidth / SHOW_ASPECT)),
+    widening: Math.max(1, height / Math.min(freeHeight, freeWidth / (SHOW_ASPECT * keptWidth(freeWidth / freeHeight)))),
     shiftX: left + freeWidth / 2 - width / 2,
     shiftY: top + freeHeight / 2 - height / 2,
   };
