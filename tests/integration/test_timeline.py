@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import struct
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
-from tests.integration.scores import scale
+from tests.integration.scores import scale, song
 from tests.integration.server import upload
 
 if TYPE_CHECKING:
     import httpx
     from tests.integration.server import Owned
 
+ROOT = Path(__file__).parents[2]
 LIGHT, COLOR, RIM = "lights/key/intensity", "blocks/color", "lights/rim/intensity"
 SHOW: dict[str, Any] = {
     "version": 1,
@@ -156,6 +159,43 @@ def test_the_musics_time_turns_units_into_one_another(owned: Owned) -> None:
     assert all(len(knots[unit]) == len(knots["beats"]) for unit in ("seconds", "bars"))
     assert [4 * bar for bar in knots["bars"]] == pytest.approx(knots["beats"])
     assert [beat / 2 for beat in knots["beats"]] == pytest.approx(knots["seconds"])
+
+
+def test_the_musics_time_follows_pickup_and_tempo(client: httpx.Client) -> None:
+    """The carnival has a pickup of an eighth, bars of 6/8, and another tempo from beat 24 on."""
+    score = (ROOT / "examples/scores/carnival-of-venice.mid").read_bytes()
+    session = upload(client, score, song=("song.wav", song()))
+    try:
+        music = client.get(f"{session.path}/time").raise_for_status().json()
+        drawn = client.get(f"{session.path}/score").raise_for_status().json()
+        knots = {unit: np.array(at, dtype=np.float64) for unit, at in music["knots"].items()}
+        assert music["bars_s"] == drawn["bar_lines_s"]
+        for bar, second in enumerate(music["bars_s"]):
+            assert np.interp(bar, knots["bars"], knots["seconds"]) == pytest.approx(second)
+        for beat, second in enumerate(music["beats_s"]):
+            assert np.interp(beat, knots["beats"], knots["seconds"]) == pytest.approx(second)
+        played = [note for note in drawn["notes"] if note["part"] == drawn["part"]]
+        for note in played:
+            at = float(np.interp(note["onset_s"], knots["seconds"], knots["beats"]))
+            assert at == pytest.approx(note["onset_beats"], abs=1e-6)
+        assert music["onsets_s"] == sorted({note["onset_s"] for note in played})
+        assert len(drawn["tempi"]) == 2
+        # A curve in bars is that curve: half of bar 10 is over a quarter of the way from 9 to 11.
+        track = {
+            "parameter": LIGHT,
+            "time": "bars",
+            "keyframes": [{"time": 9, "value": 0}, {"time": 11, "value": 4}],
+        }
+        moment = float(np.interp(9.5, knots["bars"], knots["seconds"]))
+        answer = session.change(
+            "POST",
+            "/show/curves",
+            json={"track": track},
+            params={"start_s": moment, "end_s": moment, "points": 1},
+        )
+        assert line(answer)["keys"]["values"] == [[pytest.approx(1.0, abs=1e-6)]]
+    finally:
+        session.change("DELETE")
 
 
 def test_peaks_fill_the_song(owned: Owned) -> None:

@@ -74,7 +74,8 @@ def _changes(edit: Json, place: Place) -> Json:
 def _add_keyframe(draft: ShowDraft, edit: Json) -> None:
     parameter = _parameter(edit["parameter"], draft.registry)
     replaces = Place(parameter.path).flag(edit, "replace")
-    draft.track_or_new(parameter).add(edit["keyframe"], replaces=replaces)
+    track = draft.track_or_new(parameter)
+    track.add(edit["keyframe"], replaces=replaces, time_map=draft.time_map)
 
 
 def _change_keyframe(draft: ShowDraft, edit: Json) -> None:

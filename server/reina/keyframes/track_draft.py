@@ -7,14 +7,17 @@ from typing import Any, cast
 import numpy as np
 
 from reina.keyframes.arrays import FloatArray
+from reina.keyframes.curves import sample_track
 from reina.keyframes.errors import KeyNotFoundError, ShowError
 from reina.keyframes.keyframe import Keyframe
 from reina.keyframes.parameter import Parameter
-from reina.keyframes.place import Json
+from reina.keyframes.place import Json, Place
 from reina.keyframes.show_reader import KEYFRAME_FIELDS, read_keyframe, read_track
-from reina.keyframes.show_writer import keyframe_document, track_document
+from reina.keyframes.show_writer import json_value, keyframe_document, track_document
 from reina.keyframes.time_map import TimeMap, TimeUnit
 from reina.keyframes.track import Track
+from reina.keyframes.track_plan import TrackPlan
+from reina.keyframes.triggers import Triggers
 
 SAME_TIME = 1e-6
 """Keys that are nearer than this, in their track's unit, stand at one time for a person."""
@@ -53,13 +56,19 @@ class TrackDraft:
         """
         return replace(self._head, keyframes=tuple(self._keyframes.values()))
 
-    def add(self, document: object, *, replaces: bool) -> None:
+    def add(self, document: object, *, replaces: bool, time_map: TimeMap) -> None:
         """Add a keyframe from JSON; without a key it gets the next free one.
 
         Args:
-            document: The keyframe.
+            document: The keyframe. Without a value it gets the one that the keyframes have at its time, or
+                the parameter's default.
             replaces: Whether one that stands at its time gives way, and leaves it its key.
+            time_map: How the music's time runs.
         """
+        if isinstance(document, Mapping) and "value" not in document and "time" in document:
+            given = cast("Json", document)
+            time = Place(self.parameter.path).number(given, "time")
+            document = {**given, "value": self._value_at(time, time_map)}
         free = (f"k{n}" for n in range(1, len(self._keyframes) + 2) if f"k{n}" not in self._keyframes)
         added = read_keyframe(document, self.parameter, free)
         if replaces:
@@ -180,6 +189,13 @@ class TrackDraft:
             replace(keyframe, value=_held(keyframe.value, parameter)) for keyframe in self._keyframes.values()
         )
         return TrackDraft(replace(self._head, parameter=parameter.path, keyframes=keyframes), parameter)
+
+    def _value_at(self, time: float, time_map: TimeMap) -> Any:
+        """What the keyframes say at a time of the track, as JSON has it."""
+        track = replace(self._head, keyframes=tuple(self._keyframes.values()))
+        times_s = time_map.to_seconds(np.array([time]), track.time)
+        curve, _ = sample_track(TrackPlan.make(track, self.parameter), times_s, time_map, Triggers())
+        return json_value(self.parameter.value(curve.values[0]))
 
     def _standing_at(self, times: list[float]) -> list[str]:
         """The keys of the keyframes that stand at one of some times."""

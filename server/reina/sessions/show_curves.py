@@ -81,8 +81,9 @@ def music_time(production: Production, duration_s: float) -> MusicTime:
     times, triggers = production.show_plan.time_map, production.show_plan.triggers
     lines = bar_lines_beats(production.score)
     changes = production.score.tempo_map.onset_beats
-    # One knot beyond all of them, from which on everything runs straight.
-    beyond = max(float(times.bar_lines_beats[-1]), float(changes[-1])) + 1.0
+    # One knot beyond all of them and beyond the end; everything runs straight from there on.
+    end = float(times.from_seconds(np.array([duration_s]), "beats")[0])
+    beyond = max(float(times.bar_lines_beats[-1]), float(changes[-1]), end) + 1.0
     beats = np.unique(np.concatenate([changes, lines, times.bar_lines_beats, [beyond]]))
     seconds = times.to_seconds(beats, "beats")
     return MusicTime(

@@ -264,6 +264,23 @@ def test_a_key_can_be_set_where_one_stands() -> None:
     assert _times(_edited(edit | {"keyframe": here | {"time": 4}}), LIGHT)["k4"] == 4
 
 
+def test_a_key_without_a_value_takes_the_one_that_stands_there() -> None:
+    def added(parameter: str, time: float) -> Any:
+        keyframe = {"key": "here", "time": time}
+        edited = _edited({"edit": "add_keyframe", "parameter": parameter, "keyframe": keyframe})
+        return edited.track(parameter).keyframe("here").value
+
+    assert added(LIGHT, -1) == 1
+    # 3 beats at 60 a minute; the spline leaves with 0 (no slope is given) and comes with 0.5 a beat.
+    assert added(LIGHT, 1.5) == pytest.approx(1.5 - 3 * 0.5 / 8)
+    assert added(POSITION, 0.25) == pytest.approx((0.25, 1, 2))
+    assert added("camera/fov", 5) == pytest.approx(REGISTRY["camera/fov"].default)
+    assert added("look/style", 5) == REGISTRY["look/style"].default
+    assert added("blocks/visible", 5) is True
+    color = added("blocks/color", 5)
+    assert color == pytest.approx(REGISTRY["blocks/color"].floats(REGISTRY["blocks/color"].default).tolist())
+
+
 def test_a_track_is_changed_beside_its_keys() -> None:
     def change(**changes: Any) -> Show:
         return _edited({"edit": "change_track", "parameter": POSITION, "changes": changes})
