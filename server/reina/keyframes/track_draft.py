@@ -65,18 +65,17 @@ class TrackDraft:
             replaces: Whether one that stands at its time gives way, and leaves it its key.
             time_map: How the music's time runs.
         """
-        if isinstance(document, Mapping) and "value" not in document and "time" in document:
-            given = cast("Json", document)
+        given: Json = cast("Json", document) if isinstance(document, Mapping) else {}
+        if "time" in given and "value" not in given:
             time = Place(self.parameter.path).number(given, "time")
-            document = {**given, "value": self._value_at(time, time_map)}
+            given = {**given, "value": self._value_at(time, time_map)}
         free = (f"k{n}" for n in range(1, len(self._keyframes) + 2) if f"k{n}" not in self._keyframes)
-        added = read_keyframe(document, self.parameter, free)
+        added = read_keyframe(given or document, self.parameter, free)
         if replaces:
-            named = isinstance(document, Mapping) and "key" in document
             for key in self._standing_at([added.time]):
                 if key != added.key:
                     del self._keyframes[key]
-                    added = added if named else replace(added, key=key)
+                    added = added if "key" in given else replace(added, key=key)
         if added.key in self._keyframes and not replaces:
             raise ShowError(
                 f"the key {added.key} is given twice; every key of a track has its own",
