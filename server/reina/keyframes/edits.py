@@ -73,9 +73,12 @@ def _changes(edit: Json, place: Place) -> Json:
 
 def _add_keyframe(draft: ShowDraft, edit: Json) -> None:
     parameter = _parameter(edit["parameter"], draft.registry)
-    replaces = Place(parameter.path).flag(edit, "replace")
+    place = Place(parameter.path)
+    replaces = place.flag(edit, "replace")
+    if not isinstance(edit["keyframe"], Mapping):
+        raise place.error("a keyframe is a JSON object", "keyframe")
     track = draft.track_or_new(parameter)
-    track.add(edit["keyframe"], replaces=replaces, time_map=draft.time_map)
+    track.add(cast("Json", edit["keyframe"]), replaces=replaces, time_map=draft.time_map)
 
 
 def _change_keyframe(draft: ShowDraft, edit: Json) -> None:

@@ -1,6 +1,6 @@
 """A track while it is being edited: of its keyframes only those that change are read again."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, cast
 
@@ -56,7 +56,7 @@ class TrackDraft:
         """
         return replace(self._head, keyframes=tuple(self._keyframes.values()))
 
-    def add(self, document: object, *, replaces: bool, time_map: TimeMap) -> None:
+    def add(self, document: Json, *, replaces: bool, time_map: TimeMap) -> None:
         """Add a keyframe from JSON; without a key it gets the next free one.
 
         Args:
@@ -65,17 +65,16 @@ class TrackDraft:
             replaces: Whether one that stands at its time gives way, and leaves it its key.
             time_map: How the music's time runs.
         """
-        given: Json = cast("Json", document) if isinstance(document, Mapping) else {}
-        if "time" in given and "value" not in given:
-            time = Place(self.parameter.path).number(given, "time")
-            given = {**given, "value": self._value_at(time, time_map)}
+        if "time" in document and "value" not in document:
+            time = Place(self.parameter.path).number(document, "time")
+            document = {**document, "value": self._value_at(time, time_map)}
         free = (f"k{n}" for n in range(1, len(self._keyframes) + 2) if f"k{n}" not in self._keyframes)
-        added = read_keyframe(given or document, self.parameter, free)
+        added = read_keyframe(document, self.parameter, free)
         if replaces:
             for key in self._standing_at([added.time]):
                 if key != added.key:
                     del self._keyframes[key]
-                    added = added if "key" in given else replace(added, key=key)
+                    added = added if "key" in document else replace(added, key=key)
         if added.key in self._keyframes and not replaces:
             raise ShowError(
                 f"the key {added.key} is given twice; every key of a track has its own",
