@@ -22,7 +22,7 @@ import numpy as np
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import Show, TimeMap, stage_registry
 from reina.music import read_score
-from reina.performance import PLAYER_PARAMETERS, Performance
+from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
 from reina.protocol import build_manifest, encode_block
 from reina.skeleton import load_hold, load_rig
 
@@ -52,7 +52,9 @@ def part(notes: int) -> bytes:
 def performance(notes: int) -> Performance:
     """A performance of such a part."""
     registry = stage_registry()
-    registry = registry.extended([p for p in PLAYER_PARAMETERS if p.path not in registry])
+    registry = registry.extended(
+        [p for p in (*PLAYER_PARAMETERS, *POSE_PARAMETERS) if p.path not in registry]
+    )
     numbers = [p for p in registry if p.type == "number"][:12]
     tracks = [
         {

@@ -33,8 +33,16 @@ SIGNALS: tuple[str, ...] = (
     "gaze_left",
     "gaze_up",
     "vibrato",
+    "torso_bow",
+    "torso_turn",
+    "torso_tip",
+    "head_bow",
+    "head_turn",
+    "head_tip",
+    "eyes_left",
+    "eyes_up",
 )
-"""The rows of the matrix."""
+"""The rows of the matrix; the last eight are keyed by a show, in radians."""
 
 TRUNK: tuple[str, ...] = (
     "hips",
@@ -111,6 +119,14 @@ TURNS: dict[str, dict[str, Vector]] = {
     },
     "gaze_left": {"leftEye": (0.0, 0.22, 0.0), "rightEye": (0.0, 0.22, 0.0)},
     "gaze_up": {"leftEye": (-0.10, 0.0, 0.0), "rightEye": (-0.10, 0.0, 0.0)},
+    "torso_bow": {"spine": (0.40, 0.0, 0.0), "chest": (0.35, 0.0, 0.0), "upperChest": (0.25, 0.0, 0.0)},
+    "torso_turn": {"spine": (0.0, 0.40, 0.0), "chest": (0.0, 0.35, 0.0), "upperChest": (0.0, 0.25, 0.0)},
+    "torso_tip": {"spine": (0.0, 0.0, 0.40), "chest": (0.0, 0.0, 0.35), "upperChest": (0.0, 0.0, 0.25)},
+    "head_bow": {"neck": (0.45, 0.0, 0.0), "head": (0.55, 0.0, 0.0)},
+    "head_turn": {"neck": (0.0, 0.45, 0.0), "head": (0.0, 0.55, 0.0)},
+    "head_tip": {"neck": (0.0, 0.0, 0.45), "head": (0.0, 0.0, 0.55)},
+    "eyes_left": {"leftEye": (0.0, 1.0, 0.0), "rightEye": (0.0, 1.0, 0.0)},
+    "eyes_up": {"leftEye": (-1.0, 0.0, 0.0), "rightEye": (-1.0, 0.0, 0.0)},
 }
 """Signal -> joint (or the instrument, about the lips) -> turn."""
 

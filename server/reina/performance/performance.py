@@ -15,6 +15,7 @@ from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, Skele
 from reina.performance.gesture_planners import GESTURE_PLANNERS
 from reina.performance.idle_motion import IdleMotion
 from reina.performance.player_body import PlayerBody
+from reina.performance.pose_keys import PoseKeys
 from reina.performance.slide_finger import SLIDE_FINGERS
 from reina.performance.stance_choice import StanceChoice
 from reina.performance.stances import Stances
@@ -74,6 +75,7 @@ class Performance:
         self._stance_choice = StanceChoice(show_plan)
         self._stances = Stances(player_rig)
         self._amounts = Amounts(registry)
+        self._pose_keys = PoseKeys(registry)
         self._idle = IdleMotion(score, seed)
         self._body = PlayerBody(player_rig, instrument_rig, hold)
         self._still = np.concatenate([self._body.held, instrument_rig.skeleton.rest_rotations]).astype(
@@ -146,7 +148,7 @@ class Performance:
         slides = {name: curves[row] for name, row in self._slide_rows.items()}
         stood = self._stance_choice.weights(times) * amounts["stance/amount"][:, None]
         stance = self._stances.evaluate(times, stood)
-        signals = self._body_signals(times, gestures, amounts)
+        signals = self._body_signals(times, gestures, amounts, self._pose_keys.read(shown))
         pose = self._body.solve(signals, lowered, valves, lifts, slides, stance)
 
         rotations = np.empty((len(times), *self._still.shape), dtype=np.float32)
@@ -161,7 +163,11 @@ class Performance:
         return FrameBlock(first_frame, self.layout.fps, song_time_s, rotations, roots, parameters, cuts)
 
     def _body_signals(
-        self, times: FloatArray, gestures: dict[str, FloatArray], amounts: dict[str, FloatArray]
+        self,
+        times: FloatArray,
+        gestures: dict[str, FloatArray],
+        amounts: dict[str, FloatArray],
+        keyed: dict[str, FloatArray],
     ) -> FloatArray:
         """Rows in the order of `body_table.SIGNALS`."""
         idle = self._idle
@@ -181,6 +187,7 @@ class Performance:
             "gaze_left": gaze[0],
             "gaze_up": gaze[1],
             "vibrato": vibrato * amounts["vibrato"],
+            **keyed,
         }
         return np.stack([rows[name] for name in body_table.SIGNALS])
 

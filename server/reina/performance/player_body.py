@@ -24,7 +24,7 @@ from reina.rotations import (
 from reina.skeleton import Point, RigError, forward_kinematics
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import Hold, Rig
@@ -88,6 +88,7 @@ class PlayerBody:
         self._held: FloatArray = rotations[self._turned]
         self._matrix = body_matrix(rig, [*trunk, *eyes])
         self._eyes = slice(len(trunk), len(trunk) + len(eyes)) if eyes else None
+        self._sight = _sight(rig, eyes)
         self._root = root
         self._head = trunk.index("head")
         self._chest = self._carrier(
@@ -192,7 +193,7 @@ class PlayerBody:
         moved = (signals.T @ self._matrix).reshape(signals.shape[1], -1, 3)
         turns = exp(moved[:, :-2])
         if self._eyes is not None:
-            turns[:, self._eyes] = _glance(moved[:, self._eyes.start])[:, None]
+            turns[:, self._eyes] = _glance(moved[:, self._eyes.start], self._sight)[:, None]
         hips = self._root + moved[:, -2]
         if stance is None:
             local = multiply(self._held, turns[:, :-1])
@@ -265,9 +266,20 @@ class PlayerBody:
         )
 
 
-def _glance(turn: FloatArray) -> FloatArray:
+def _sight(rig: Rig, eyes: Sequence[str]) -> FloatArray:
+    """How far the eyes turn about x and y, from and to, ``(2, 2)``, radians."""
+    sight = np.array([[-np.pi, -np.pi], [np.pi, np.pi]])
+    for name in eyes:
+        limits = rig.limits.get(rig.skeleton.index(name))
+        if limits is not None:
+            sight[0] = np.maximum(sight[0], limits.minimum[:2])
+            sight[1] = np.minimum(sight[1], limits.maximum[:2])
+    return sight
+
+
+def _glance(turn: FloatArray, sight: FloatArray) -> FloatArray:
     """Eyes turned to the side, then up or down: Ry Rx ``(F, 4)`` of turns ``(F, 3)``; they never roll."""
-    half = 0.5 * turn
+    half = 0.5 * np.minimum(np.maximum(turn[:, :2], sight[0]), sight[1])
     up, side = np.sin(half[:, 0]), np.sin(half[:, 1])
     level, ahead = np.cos(half[:, 0]), np.cos(half[:, 1])
     return np.stack([ahead * up, side * level, -side * up, ahead * level], axis=-1)

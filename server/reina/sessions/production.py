@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import ParameterRegistry, Show, ShowError, ShowPlan, stage_registry, write_default_show
-from reina.performance import PLAYER_PARAMETERS, Performance
+from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.skeleton import Hold, Rig, load_hold, load_rig
@@ -58,7 +58,7 @@ class Stage:
             player_rig=load_rig(rigs_dir / PLAYER_RIG),
             instrument_rig=load_rig(rigs_dir / instrument.rig),
             hold=load_hold(rigs_dir / PLAYER_RIG, instrument.rig),
-            registry=stage_registry().extended(PLAYER_PARAMETERS),
+            registry=stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS]),
         )
 
 

@@ -3,6 +3,7 @@
 import io
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import mido
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import ParameterRegistry, Show, TimeMap, stage_registry
 from reina.music import read_score
-from reina.performance import PLAYER_PARAMETERS, Performance
+from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
 from reina.skeleton import Hold, Rig, load_hold, load_rig
 
 RIGS = Path(__file__).parents[3] / "rigs"
@@ -40,7 +41,7 @@ def hold() -> Hold:
 @pytest.fixture(scope="session")
 def registry() -> ParameterRegistry:
     known = stage_registry()
-    return known.extended([parameter for parameter in PLAYER_PARAMETERS if parameter.path not in known])
+    return known.extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS])
 
 
 def midi(notes: Sequence[NoteBeats], velocity: int) -> bytes:
@@ -62,22 +63,23 @@ def midi(notes: Sequence[NoteBeats], velocity: int) -> bytes:
 
 @pytest.fixture(scope="session")
 def perform(player_rig: Rig, trumpet_rig: Rig, hold: Hold, registry: ParameterRegistry) -> Perform:
-    """Make a performance of notes; ``values`` are constant values of show parameters."""
+    """Make a performance of notes; ``values`` are constant values of parameters, ``tracks`` a show's own."""
 
     def make(
         notes: Sequence[NoteBeats],
         *,
-        values: Mapping[str, float] | None = None,
+        values: Mapping[str, Any] | None = None,
+        tracks: Sequence[Mapping[str, Any]] = (),
         velocity: int = 90,
         seed: int = 0,
     ) -> Performance:
         score = read_score(midi(notes, velocity))
         instrument = INSTRUMENTS["trumpet"]
-        tracks = [
+        constant = [
             {"parameter": path, "keyframes": [{"time": 0, "value": value}]}
             for path, value in (values or {}).items()
         ]
-        show = Show.from_document({"version": 1, "tracks": tracks}, registry)
+        show = Show.from_document({"version": 1, "tracks": [*constant, *tracks]}, registry)
         return Performance(
             score=score,
             played=instrument.play(score, 0),

@@ -1,11 +1,12 @@
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 
 from reina import rotations as r
 from reina.keyframes import ParameterRegistry, Show, TimeMap
-from reina.performance import BLOCK_FRAMES, FrameBlock, Performance
+from reina.performance import BLOCK_FRAMES, POSE_PARAMETERS, FrameBlock, Performance
 from reina.skeleton import Hold, Point, Rig, forward_kinematics
 
 NoteBeats = tuple[float, float, int]
@@ -57,12 +58,40 @@ def most(
     perform: Perform, tune: list[NoteBeats], registry: ParameterRegistry, player_rig: Rig, trumpet_rig: Rig
 ) -> Frames:
     """Every amount at its greatest."""
-    values = {p.path: p.maximum for p in registry if p.path.startswith("player/") and p.type == "number"}
+    values = greatest_amounts(registry)
     assert len(values) == 14
     return Frames(perform(tune, values=values), player_rig, trumpet_rig)
 
 
-@pytest.fixture(params=["played", "most"])
+def greatest_amounts(registry: ParameterRegistry) -> dict[str, float]:
+    amounts = [p for p in registry if p.path.startswith("player/") and p.type == "number"]
+    return {p.path: p.maximum or 0.0 for p in amounts if not p.path.startswith("player/pose/")}
+
+
+@pytest.fixture(scope="module")
+def posed(
+    perform: Perform, tune: list[NoteBeats], registry: ParameterRegistry, player_rig: Rig, trumpet_rig: Rig
+) -> Frames:
+    """Head, torso and eyes keyed from one corner of what they may turn to another, on top of all that."""
+    rng = np.random.default_rng(11)
+    tracks: list[dict[str, Any]] = []
+    for parameter in POSE_PARAMETERS:
+        corners = rng.choice([-1.0, 1.0], size=(BLOCKS // 2 + 1, parameter.length)) * (
+            parameter.maximum or 0.0
+        )
+        keyframes = [
+            {
+                "time": 2.0 * place,
+                "value": corner.tolist() if parameter.length > 1 else corner[0],
+                "interpolation": "sine_in_out",
+            }
+            for place, corner in enumerate(corners)
+        ]
+        tracks.append({"parameter": parameter.path, "time": "seconds", "keyframes": keyframes})
+    return Frames(perform(tune, values=greatest_amounts(registry), tracks=tracks), player_rig, trumpet_rig)
+
+
+@pytest.fixture(params=["played", "most", "posed"])
 def frames(request: pytest.FixtureRequest) -> Frames:
     return request.getfixturevalue(request.param)
 
@@ -184,17 +213,15 @@ def test_no_joint_leaves_its_limits(frames: Frames) -> None:
     for joint, limits in frames.player.limits.items():
         from_rest = r.multiply(r.conjugate(skeleton.rest_rotations[joint]), frames.local[:, joint])
         euler = r.to_euler(from_rest, limits.order)
-        first, middle, last = euler[:, 0], euler[:, 1], euler[:, 2]
-        folded = np.abs(first) > 0.5 * np.pi  # the same rotation has two sets of angles
-        sets = [
-            np.where(folded, first - np.copysign(np.pi, first), first),
-            np.where(folded, np.copysign(np.pi, middle) - middle, middle),
-            np.where(folded, last - np.copysign(np.pi, last), last),
+        # The same rotation has two sets of angles; the joint is where the one that fits says.
+        other = np.stack([euler[:, 0] + np.pi, np.pi - euler[:, 1], euler[:, 2] + np.pi], axis=1)
+        axes = ["xyz".index(letter) for letter in limits.order]
+        low, high = np.array(limits.minimum)[axes], np.array(limits.maximum)[axes]
+        beyond = [
+            np.maximum(low - angles, angles - high).max(axis=1)
+            for angles in (euler, (other + np.pi) % (2.0 * np.pi) - np.pi)
         ]
-        for angle, letter in zip(sets, limits.order, strict=True):
-            axis = "xyz".index(letter)
-            assert angle.min() > limits.minimum[axis] - 2e-5, (skeleton.names[joint], letter)
-            assert angle.max() < limits.maximum[axis] + 2e-5, (skeleton.names[joint], letter)
+        assert np.minimum(*beyond).max() < 2e-5, skeleton.names[joint]
 
 
 def test_nothing_jumps(frames: Frames) -> None:
