@@ -99,8 +99,9 @@ def _move_keyframes(draft: ShowDraft, edit: Json) -> None:
     stretch = place.fields(edit.get("stretch", {}), ("about", "factor"), what="stretch")
     about = _number(stretch.get("about", 0.0), "stretch/about")
     factor = _number(stretch.get("factor", 1.0), "stretch/factor")
-    if factor <= 0.0:
-        raise place.error(f"{factor:g} would turn time back; it is greater than 0", "stretch/factor")
+    if not LEAST_FACTOR <= factor <= 1.0 / LEAST_FACTOR:
+        lies = f"it is greater than 0, and lies within {LEAST_FACTOR:g} and {1.0 / LEAST_FACTOR:g}"
+        raise place.error(f"{factor:g} is no factor; {lies}", "stretch/factor")
     for path, keys in cast("Json", edit["keyframes"]).items():
         parameter = _parameter(path, draft.registry, "keyframes")
         draft.track(parameter).move(
@@ -161,6 +162,8 @@ def _change_show(draft: ShowDraft, edit: Json) -> None:
     draft.change_head(Place().fields(_changes(edit, Place()), CHANGED_OF_SHOW, what="what can be changed"))
 
 
+LEAST_FACTOR = 1e-6
+"""Nothing is stretched further than so far, or than its inverse."""
 CHANGED_OF_TRACK = ("time", "before", "after", "color_space", "muted", "solo", "events")
 CHANGED_OF_SHOW = ("title", "description", "markers")
 

@@ -11,6 +11,9 @@ from reina.keyframes.outside import Outside
 from reina.keyframes.spaces import ColorSpace
 from reina.keyframes.time_map import TimeUnit
 
+NEAREST = 1e-9
+"""Keys that are nearer than this stand at one time: a slope between them would be beyond all measure."""
+
 
 @dataclass(frozen=True)
 class Track:
@@ -45,7 +48,7 @@ class Track:
         ordered = tuple(sorted(self.keyframes, key=lambda keyframe: keyframe.time))
         seen: set[str] = set()
         for index, keyframe in enumerate(ordered):
-            if index and ordered[index - 1].time == keyframe.time:
+            if index and keyframe.time - ordered[index - 1].time < NEAREST:
                 raise ShowError(
                     f"{ordered[index - 1].key} stands at {keyframe.time:g} {self.time} already;"
                     " keys have times of their own, and a step makes a jump",

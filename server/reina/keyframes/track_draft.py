@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from reina.keyframes.time_map import TimeMap, TimeUnit
 from reina.keyframes.track import Track
 from reina.keyframes.track_plan import TrackPlan
 from reina.keyframes.triggers import Triggers
+from reina.keyframes.value_types import LARGEST
 
 SAME_TIME = 1e-6
 """Keys that are nearer than this, in their track's unit, stand at one time for a person."""
@@ -136,8 +137,7 @@ class TrackDraft:
         chosen = [self.keyframe(key) for key in dict.fromkeys(keys)]
         times = np.array([keyframe.time for keyframe in chosen])
         placed = _in_unit(times, self.time, unit, time_map)
-        placed = about + factor * (placed - about) + by
-        moved = np.round(_in_unit(placed, unit, self.time, time_map), DIGITS).tolist()
+        moved = self._turned(about + factor * (placed - about) + by, unit, self.time, time_map)
         for keyframe in chosen:
             del self._keyframes[keyframe.key]
         for key in self._standing_at(moved):
@@ -162,7 +162,7 @@ class TrackDraft:
         head = read_track(document, self.parameter, show_time, may_be_empty=True)
         if head.time != self.time:
             times = np.array([keyframe.time for keyframe in self._keyframes.values()])
-            turned = np.round(_in_unit(times, self.time, head.time, time_map), DIGITS).tolist()
+            turned = self._turned(times, self.time, head.time, time_map)
             self._keyframes = {
                 key: replace(keyframe, time=time)
                 for (key, keyframe), time in zip(self._keyframes.items(), turned, strict=True)
@@ -197,7 +197,7 @@ class TrackDraft:
 
     def _standing_at(self, times: list[float]) -> list[str]:
         """The keys of the keyframes that stand at one of some times."""
-        if not self._keyframes:
+        if not self._keyframes or not times:
             return []
         wanted = np.sort(np.asarray(times, dtype=np.float64))
         own = np.array([keyframe.time for keyframe in self._keyframes.values()])
@@ -205,6 +205,19 @@ class TrackDraft:
         gap = np.minimum(np.abs(wanted[after] - own), np.abs(wanted[np.maximum(after - 1, 0)] - own))
         keys = list(self._keyframes)
         return [keys[index] for index in np.flatnonzero(gap < SAME_TIME)]
+
+    def _turned(self, times: FloatArray, unit: TimeUnit, wanted: TimeUnit, time_map: TimeMap) -> list[float]:
+        """Times in another unit, as they are written.
+
+        Raises:
+            ShowError: One is further away than a show may say.
+        """
+        turned = np.round(_in_unit(times, unit, wanted, time_map), DIGITS)
+        if np.any(np.abs(turned) > LARGEST):
+            raise ShowError(
+                f"keyframes would stand beyond ±{LARGEST:g} {wanted}", track=self.parameter.path, field="time"
+            )
+        return turned.tolist()
 
     def _value_moved(self, value: Any, by: float | tuple[float, ...]) -> Any:
         moved = np.round(np.asarray(value, dtype=np.float64) + np.asarray(by), DIGITS)
@@ -233,9 +246,8 @@ def _in_unit(times: FloatArray, unit: TimeUnit, wanted: TimeUnit, time_map: Time
 
 
 def _scaled(slope: Any, factor: float) -> Any:
-    if isinstance(slope, tuple):
-        return tuple(factor * part for part in cast("tuple[float, ...]", slope))
-    return factor * slope
+    scaled = np.clip(factor * np.asarray(slope, dtype=np.float64), -LARGEST, LARGEST)
+    return float(scaled) if scaled.ndim == 0 else tuple(scaled.tolist())
 
 
 def _held(value: Any, parameter: Parameter) -> Any:
@@ -244,7 +256,7 @@ def _held(value: Any, parameter: Parameter) -> Any:
         return value
     held = np.clip(
         np.asarray(value, dtype=np.float64),
-        -np.inf if parameter.minimum is None else parameter.minimum,
-        np.inf if parameter.maximum is None else parameter.maximum,
+        -LARGEST if parameter.minimum is None else parameter.minimum,
+        LARGEST if parameter.maximum is None else parameter.maximum,
     )
     return float(held) if held.ndim == 0 else tuple(held.tolist())

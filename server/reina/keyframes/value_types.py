@@ -4,7 +4,6 @@ Everything about a type stands in one row of `VALUE_TYPES`.
 """
 
 import math
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, cast
@@ -42,17 +41,21 @@ class ValueType:
     interpolates: bool = True
 
 
+LARGEST = 1e12
+"""No number of a show is larger: products of those that are would soon be infinite."""
+
+
 def parse_number(value: object) -> float:
     """A finite number from JSON.
 
     Raises:
-        ValueError: It is none.
+        ValueError: It is none, or larger than `LARGEST`.
     """
     if not isinstance(value, bool) and isinstance(value, int | float):
-        # JSON has whole numbers of any length; those that no float holds are infinite here.
-        number = float(value) if abs(value) <= sys.float_info.max else math.inf
-        if math.isfinite(number):
-            return number
+        if abs(value) <= LARGEST:
+            return float(value)
+        if not isinstance(value, float) or math.isfinite(value):
+            raise ValueError(f"{_shown(value)} is too large; numbers lie within ±{LARGEST:g}")
     raise ValueError(f"{_shown(value)} is no number; write a finite number, as 0.5")
 
 
