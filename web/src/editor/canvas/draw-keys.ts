@@ -23,27 +23,91 @@ export interface KeysView {
   readonly from: number;
   readonly scale: number;
   readonly width: number;
-  /** Where chosen keyframes are while the pointer holds them. */
-  readonly retiming: ((songTime: number) => number) | null;
 }
 
-/** Nearer than this, two keyframes that are not chosen are one mark. */
-const LEAST_GAP = 2;
+/** Where a keyframe is drawn whose song time this is. */
+type Placing = (songTime: number) => number;
 
-/** Draw one row's keyframes: only those on screen. */
-export function drawKeys(context: CanvasRenderingContext2D, view: KeysView, row: KeyRow): void {
-  const { times, chosen } = row;
-  const reach = (DIAMOND + 2) / view.scale;
-  const first = firstFrom(times, view.from - reach);
-  const beyond = firstFrom(times, view.from + view.width / view.scale + reach);
-  context.globalAlpha = row.silent ? 0.38 : 1;
+/** Nearer to each other than this, keyframes are one band: their marks would be one anyway. */
+const DENSE = 3.5;
+
+/** Draw a row's keyframes that are not chosen: only those on screen. */
+export function drawPlainKeys(context: CanvasRenderingContext2D, view: KeysView, row: KeyRow): void {
+  context.globalAlpha = row.silent ? 0.4 : 1;
   if (!row.small) drawLine(context, view, row);
-  drawPlain(context, view, row, first, beyond);
-  if (chosen !== null) {
-    if (view.retiming === null) drawChosen(context, view, row, first, beyond);
-    else drawChosen(context, view, row, 0, times.length);
-  }
+  const flags = row.chosen === null ? null : chosenFlags(row.track, row.chosen);
+  const [first, beyond] = onScreen(view, row);
+  const size = row.small ? DIAMOND - 2 : DIAMOND;
+  context.fillStyle = row.small ? INK.faint : INK.paper;
+  drawMarks(context, view, row, size, first, beyond, (index) => flags?.[index] !== 1);
   context.globalAlpha = 1;
+}
+
+/** Draw a row's chosen keyframes, where `placing` takes them; null where they rest. */
+export function drawChosenKeys(context: CanvasRenderingContext2D, view: KeysView, row: KeyRow, placing: Placing | null): void {
+  if (row.chosen === null) return;
+  const flags = chosenFlags(row.track, row.chosen);
+  // What is moved may come from outside of the screen.
+  const [first, beyond] = placing === null ? onScreen(view, row) : [0, row.times.length];
+  context.fillStyle = INK.brass;
+  context.strokeStyle = INK.paper;
+  context.lineWidth = 1.5;
+  const size = row.small ? DIAMOND - 1.5 : DIAMOND + 1;
+  drawMarks(context, view, { ...row, isColor: false }, size, first, beyond, (index) => flags[index] === 1, placing, true);
+}
+
+function drawMarks(
+  context: CanvasRenderingContext2D,
+  view: KeysView,
+  { track, times, isColor, small, y }: KeyRow,
+  size: number,
+  first: number,
+  beyond: number,
+  counts: (index: number) => boolean,
+  placing: Placing | null = null,
+  outlined = false,
+): void {
+  /** The band that is open: where it began, where it has come to, and its first keyframe. */
+  let [begin, end, opened] = [-Infinity, -Infinity, -1];
+  const close = (): void => {
+    if (opened < 0) return;
+    const keyframe = track.keyframes[opened];
+    if (end - begin > DENSE) context.rect(begin - size * 0.7, y - size * 0.7, end - begin + size * 1.4, size * 1.4);
+    else if (isColor && !small) outline(context, begin, y, size, keyframe?.interpolation, hexOf(keyframe?.value));
+    else shape(context, begin, y, size, keyframe?.interpolation);
+  };
+  context.beginPath();
+  for (let index = first; index < beyond; index += 1) {
+    if (!counts(index)) continue;
+    const time = times[index] ?? 0;
+    const x = ((placing === null ? time : placing(time)) - view.from) * view.scale;
+    if (x < -size || x > view.width + size) continue;
+    if (x - end < DENSE) {
+      end = x;
+      continue;
+    }
+    close();
+    [begin, end, opened] = [x, x, index];
+  }
+  close();
+  context.fill();
+  if (outlined) context.stroke();
+}
+
+function onScreen(view: KeysView, { times }: KeyRow): readonly [number, number] {
+  const reach = (DIAMOND + 2) / view.scale;
+  return [firstFrom(times, view.from - reach), firstFrom(times, view.from + view.width / view.scale + reach)];
+}
+
+const flagged = new WeakMap<ShowTrack, { readonly chosen: ReadonlySet<string>; readonly flags: Uint8Array }>();
+
+/** Which keyframes of a track are chosen, 0 or 1; looked up once for a track and a choice. */
+function chosenFlags(track: ShowTrack, chosen: ReadonlySet<string>): Uint8Array {
+  const known = flagged.get(track);
+  if (known?.chosen === chosen) return known.flags;
+  const flags = Uint8Array.from(track.keyframes, ({ key }) => Number(chosen.has(key)));
+  flagged.set(track, { chosen, flags });
+  return flags;
 }
 
 /** From the first keyframe to the last the track is in the show's hand. */
@@ -56,48 +120,6 @@ function drawLine(context: CanvasRenderingContext2D, view: KeysView, { times, y 
   if (to > from) context.fillRect(from, y - 0.5, to - from, 1);
 }
 
-function drawPlain(context: CanvasRenderingContext2D, view: KeysView, row: KeyRow, first: number, beyond: number): void {
-  const { track, times, chosen, isColor, y } = row;
-  const size = row.small ? DIAMOND - 2 : DIAMOND;
-  let drawnTo = -Infinity;
-  context.beginPath();
-  context.fillStyle = row.small ? INK.faint : INK.paper;
-  for (let index = first; index < beyond; index += 1) {
-    const x = ((times[index] ?? 0) - view.from) * view.scale;
-    if (x - drawnTo < LEAST_GAP) continue;
-    const keyframe = track.keyframes[index];
-    if (keyframe === undefined || chosen?.has(keyframe.key) === true) continue;
-    drawnTo = x;
-    if (isColor && !row.small) {
-      outline(context, x, y, size, keyframe.interpolation, hexOf(keyframe.value));
-      continue;
-    }
-    shape(context, x, y, size, keyframe.interpolation);
-  }
-  if (!isColor || row.small) context.fill();
-}
-
-function drawChosen(context: CanvasRenderingContext2D, view: KeysView, row: KeyRow, first: number, beyond: number): void {
-  const { track, times, chosen, y } = row;
-  const size = row.small ? DIAMOND - 1.5 : DIAMOND + 1;
-  context.beginPath();
-  let drawnTo = -Infinity;
-  for (let index = first; index < beyond; index += 1) {
-    const keyframe = track.keyframes[index];
-    if (keyframe === undefined || chosen?.has(keyframe.key) !== true) continue;
-    const time = times[index] ?? 0;
-    const x = ((view.retiming === null ? time : view.retiming(time)) - view.from) * view.scale;
-    if (x < -size || x > view.width + size || Math.abs(x - drawnTo) < 1) continue;
-    drawnTo = x;
-    shape(context, x, y, size, keyframe.interpolation);
-  }
-  context.fillStyle = INK.brass;
-  context.fill();
-  context.lineWidth = 1.5;
-  context.strokeStyle = INK.paper;
-  context.stroke();
-}
-
 function outline(
   context: CanvasRenderingContext2D,
   x: number,
@@ -106,6 +128,7 @@ function outline(
   way: string | undefined,
   color: string,
 ): void {
+  const before = context.fillStyle;
   context.beginPath();
   shape(context, x, y, size, way);
   context.fillStyle = color;
@@ -113,6 +136,8 @@ function outline(
   context.lineWidth = 1.25;
   context.strokeStyle = INK.paper;
   context.stroke();
+  context.fillStyle = before;
+  context.beginPath();
 }
 
 /** A diamond; a square where the value jumps there. */

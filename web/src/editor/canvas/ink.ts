@@ -2,7 +2,7 @@
 export const INK = {
   paper: "#f4efe6",
   soft: "rgb(244 239 230 / 0.76)",
-  faint: "rgb(244 239 230 / 0.42)",
+  faint: "rgb(244 239 230 / 0.58)",
   line: "rgb(244 239 230 / 0.09)",
   bar: "rgb(244 239 230 / 0.17)",
   stripe: "rgb(244 239 230 / 0.045)",

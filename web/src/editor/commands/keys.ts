@@ -7,9 +7,6 @@ import { byTrack } from "../state/selection.svelte";
 import type { ShowTrack } from "../state/show-document";
 import { movedBy, stretched, type Retiming } from "../state/spans";
 
-/** Nearer than this to the playhead, a keyframe is changed instead of a new one made, seconds. */
-const SAME_PLACE_S = 1 / 120;
-
 /** What was copied last, on whatever session. */
 let clipboard: Copied | null = null;
 
@@ -20,7 +17,7 @@ export function copiedCount(): number {
 
 /** Put a keyframe of each parameter at the playhead; one that stands there takes the value instead. */
 function keysHere(editor: Editor, values: readonly (readonly [path: string, value: unknown])[]): void {
-  const at = editor.view.songTime;
+  const at = editor.playhead;
   const { document } = editor.store;
   if (document === null) return;
   const keys: [string, string][] = [];
@@ -40,11 +37,12 @@ function keysHere(editor: Editor, values: readonly (readonly [path: string, valu
   editor.selection.set(keys);
 }
 
+/** The keyframe within half a frame of a song time. */
 function keyNear(editor: Editor, track: ShowTrack, at: number): string | null {
   const times = editor.times.of(track);
   const index = nearest(times, at);
   const time = times[index];
-  return time !== undefined && Math.abs(time - at) < SAME_PLACE_S ? (track.keyframes[index]?.key ?? null) : null;
+  return time !== undefined && Math.abs(time - at) < 0.5 / editor.fps ? (track.keyframes[index]?.key ?? null) : null;
 }
 
 /** A new keyframe is come to as the one before it is; the first straight, or by a step where nothing else is possible. */
@@ -86,8 +84,7 @@ function short(value: number): number {
 }
 
 export function selectAll(editor: Editor): void {
-  const tracks = editor.store.document?.tracks ?? [];
-  editor.selection.set(tracks.flatMap(({ parameter, keyframes }) => keyframes.map(({ key }) => [parameter, key] as const)));
+  editor.selection.set(editor.known.flatMap(({ parameter, keyframes }) => keyframes.map(({ key }) => [parameter, key] as const)));
   editor.said = `${editor.selection.size} keyframes chosen`;
 }
 
@@ -112,7 +109,7 @@ export function cutKeys(editor: Editor): void {
 }
 
 /** Put what was copied at the playhead: on the track that is looked at where it came from one of the same type. */
-export function pasteKeys(editor: Editor, at = editor.view.songTime, from = clipboard, ontoActive = true): void {
+export function pasteKeys(editor: Editor, at = editor.playhead, from = clipboard, ontoActive = true): void {
   const { document } = editor.store;
   if (document === null || from === null) return;
   const source = from.tracks[0] === undefined ? null : editor.parameter(from.tracks[0].parameter);

@@ -6,7 +6,7 @@ export function addMarker(editor: Editor): void {
   const { document } = editor.store;
   if (document === null) return;
   const markers = document.markers ?? [];
-  const time = editor.axis.toTrackTime(document.time, editor.view.songTime);
+  const time = editor.axis.toTrackTime(document.time, editor.playhead);
   const marker = { time, name: `Marker ${markers.length + 1}` };
   put(editor, "Marker added", [...markers, marker]);
   editor.marker = (editor.store.document?.markers ?? []).findIndex((each) => each.time === time);

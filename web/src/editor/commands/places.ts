@@ -4,6 +4,8 @@ import type { Editor } from "../state/editor.svelte";
 import { firstFrom } from "../state/key-times";
 import { shownPath } from "../state/parameter-value";
 
+/** Less than this is never shown by itself, seconds. */
+const ALONE_S = 4;
 /** Nearer than this, the playhead stands on a keyframe, seconds. */
 const ON_KEY_S = 1e-3;
 
@@ -11,7 +13,7 @@ const ON_KEY_S = 1e-3;
 export function goToKey(editor: Editor, direction: 1 | -1): void {
   const active = editor.track(editor.active);
   const tracks = active === null ? (editor.store.document?.tracks ?? []) : [active];
-  const at = editor.chosen.length === 1 && editor.span !== null ? editor.span.start : editor.view.songTime;
+  const at = editor.chosen.length === 1 && editor.span !== null ? editor.span.start : editor.playhead;
   let found: { path: string; key: string; time: number } | null = null;
   for (const track of tracks) {
     const times = editor.times.of(track);
@@ -51,5 +53,9 @@ export function placeName(editor: Editor, songTime: number): string {
 export function showChosen(editor: Editor): void {
   const { span } = editor;
   if (span === null) editor.window.showAll();
-  else editor.window.show(span.start, Math.max(span.end, span.start + 0.5));
+  else {
+    // One keyframe alone is shown with the music around it.
+    const air = Math.max((ALONE_S - (span.end - span.start)) / 2, 0);
+    editor.window.show(span.start - air, span.end + air);
+  }
 }

@@ -61,7 +61,7 @@ function hitSpan(editor: Editor, x: number, reach: number): Hit | null {
 function hitKeys(editor: Editor, row: Row, x: number, reach: number): Hit | null {
   const at = editor.window.timeAt(x);
   const within = reach / editor.window.scale;
-  const tracks = row.kind === "track" ? [row.track] : row.tracks;
+  const tracks = (row.kind === "track" ? [row.track] : row.tracks).filter(({ parameter }) => editor.parameter(parameter) !== null);
   let best: number | null = null;
   for (const track of tracks) {
     const times = editor.times.of(track);
@@ -95,6 +95,7 @@ export function keysInBox(
     return row.open ? [] : row.tracks;
   });
   return tracks.flatMap((track) => {
+    if (editor.parameter(track.parameter) === null) return [];
     const times = editor.times.of(track);
     return track.keyframes
       .filter((_, index) => (times[index] ?? -1) >= box.from && (times[index] ?? -1) <= box.to)

@@ -79,6 +79,12 @@ export class Editor {
     return this.store.editable;
   }
 
+  /** Where the playhead stands, song time, seconds: exactly while it rests, else as the picture has it. */
+  get playhead(): number {
+    const { transport, songTime } = this.view;
+    return transport.playing ? songTime : transport.song_time_s;
+  }
+
   get fps(): number {
     return this.view.hello?.fps ?? 60;
   }
@@ -86,6 +92,11 @@ export class Editor {
   parameter(path: string): ShowParameter | null {
     return this.#parameters.get(path) ?? null;
   }
+
+  /** Tracks whose keyframes can be edited: the server keeps those of unknown parameters as they are. */
+  readonly known: readonly ShowTrack[] = $derived.by(() =>
+    (this.store.document?.tracks ?? []).filter(({ parameter }) => this.#parameters.has(parameter)),
+  );
 
   track(path: string | null): ShowTrack | null {
     return path === null ? null : trackOf(this.store.document, path);
