@@ -246,7 +246,11 @@ def test_every_gesture_has_an_amount_that_frames_obey(client: httpx.Client) -> N
         url = f"/api/v1/sessions/{made['id']}/show"
         client.put(url, headers=headers, json={"version": 1, "tracks": tracks}).raise_for_status()
         one = take(client, made["id"], 0.0, 14.0, fps=24)
-        seen = {path: value for path, value in one.parameters.items() if path.startswith("face/")}
+        seen = {
+            path: value
+            for path, value in one.parameters.items()
+            if path.startswith("face/") or path == "trumpet/mute"
+        }
         return seen | {"joints": one.local["player"].reshape(len(one.raw), -1)}
 
     shown = frames()
@@ -257,6 +261,8 @@ def test_every_gesture_has_an_amount_that_frames_obey(client: httpx.Client) -> N
         assert others, path
         assert entry["documentation"], path
         for value in others:
+            if value == "open":
+                continue  # as this score has it
             found = frames({"parameter": path, "keyframes": [{"time": 0, "value": value}]})
             assert max(np.abs(found[name] - shown[name]).max() for name in shown) > 5e-4, (path, value)
     client.delete(f"/api/v1/sessions/{made['id']}", headers=headers).raise_for_status()

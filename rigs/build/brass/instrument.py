@@ -8,6 +8,7 @@ from brass import measures as m
 from brass.body_tubes import build_body
 from brass.metals import Metals
 from brass.moving_parts import first_slide, mouthpiece, second_slide, third_slide, tuning_slide, valve
+from brass.mute import straight_mute
 from brass.obstacles import trumpet_capsules
 from common.glb import GlbWriter
 from common.rig_file import write_json
@@ -49,6 +50,7 @@ def write_model(path: Path, detail: float) -> None:
         "slide2": second_slide(detail, metals),
         "slide3": third_slide(detail, metals),
         "mouthpiece": mouthpiece(detail, metals),
+        "mute": straight_mute(detail, metals),
     }
     children = [
         writer.node(name, mesh=writer.mesh(name, piece.primitives(writer))) for name, piece in pieces.items()
@@ -66,6 +68,7 @@ def rig_content() -> dict[str, Any]:
         {"node": f"valve{k}", "parameter": f"trumpet/valve/{k}", "travel": travel} for k in (1, 2, 3)
     ]
     parts.append({"node": "slide3", "parameter": "trumpet/slide/3", "travel": [0.0, 0.0, m.SLIDE3_TRAVEL]})
+    parts.append({"node": "mute", "parameter": "trumpet/mute", "shown_from": 0.5})
     buttons = [
         {"valve": k, "effector": effector, "position": [0.0, m.STEM_Y + m.BUTTON_TOP, z], "travel": travel}
         for k, (effector, z) in enumerate(zip(BUTTON_EFFECTORS, m.VALVE_Z, strict=True), start=1)

@@ -17,6 +17,8 @@ class Metals:
     silver: int
     felt: int
     pearl: int
+    aluminium: int
+    cork: int
 
     @classmethod
     def into(cls, writer: GlbWriter) -> Metals:
@@ -40,4 +42,8 @@ class Metals:
             pearl=writer.material(
                 "pearl", metallic=0.0, roughness=0.12, colour=(0.93, 0.91, 0.88), extensions=shell
             ),
+            aluminium=writer.material(
+                "aluminium", metallic=1.0, roughness=0.34, colour=(0.78, 0.79, 0.81), doubleSided=True
+            ),
+            cork=writer.material("cork", metallic=0.0, roughness=0.9, colour=(0.50, 0.32, 0.17)),
         )

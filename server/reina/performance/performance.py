@@ -14,6 +14,7 @@ from reina.performance.face import Face
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
 from reina.performance.gesture_planners import GESTURE_PLANNERS
 from reina.performance.idle_motion import IdleMotion
+from reina.performance.mute import Mute, mute_parameter
 from reina.performance.player_body import PlayerBody
 from reina.performance.pose_keys import PoseKeys
 from reina.performance.slide_finger import SLIDE_FINGERS
@@ -82,6 +83,7 @@ class Performance:
             np.float32
         )
         self._face = Face(player_rig)
+        self._mute = Mute(score, played.part, played.line.end_s, registry)
         self._end_s = score.duration_s + TAIL_S
 
         curves = GESTURE_PLANNERS[instrument.name](played, seed=seed)
@@ -109,7 +111,12 @@ class Performance:
                 SkeletonLayout("player", player_rig.name, player_rig.skeleton.names),
                 SkeletonLayout(instrument.name, instrument_rig.name, instrument_rig.skeleton.names),
             ),
-            parameters=(*registry, *instrument.parameters, *self._face.parameters),
+            parameters=(
+                *registry,
+                *instrument.parameters,
+                mute_parameter(instrument.name),
+                *self._face.parameters,
+            ),
         )
         """What every frame holds."""
 
@@ -159,7 +166,10 @@ class Performance:
         roots[:, 0] = pose.root_positions
         roots[:, 1] = pose.instrument_positions
         weights = self._face.evaluate(self._face_signals(times, gestures, amounts, lowered))
-        parameters = np.concatenate([shown, curves[self._streamed_rows].T, weights], axis=1, dtype=np.float32)
+        mute = self._mute.evaluate(times, shown)[:, None]
+        parameters = np.concatenate(
+            [shown, curves[self._streamed_rows].T, mute, weights], axis=1, dtype=np.float32
+        )
         return FrameBlock(first_frame, self.layout.fps, song_time_s, rotations, roots, parameters, cuts)
 
     def _body_signals(

@@ -197,14 +197,16 @@ def _read_chains(document: Node, skeleton: Skeleton, effectors: dict[str, Point]
 
 def _read_part(entry: Node) -> MovingPart:
     travel, axis, angle = entry.get("travel"), entry.get("axis"), entry.get("angle")
-    if travel is None and (axis is None or angle is None):
-        raise entry.fail("a part needs 'travel', or 'axis' and 'angle'")
+    shown_from = entry.get("shown_from")
+    if travel is None and (axis is None or angle is None) and shown_from is None:
+        raise entry.fail("a part needs 'travel', or 'axis' and 'angle', or 'shown_from'")
     return MovingPart(
         node=entry["node"].text(),
         parameter=entry["parameter"].text(),
         travel=None if travel is None else travel.numbers(3),
         axis=None if axis is None else axis.numbers(3),
         angle_rad=None if angle is None else angle.number(),
+        shown_from=None if shown_from is None else shown_from.number(),
     )
 
 

@@ -104,14 +104,15 @@ class Capsule:
 
 @dataclass(frozen=True, eq=False)
 class MovingPart:
-    """A node of an instrument's model that a parameter moves.
+    """A node of an instrument's model that a parameter moves, or shows.
 
     Attributes:
         node: The node's name in the model.
         parameter: ``trumpet/valve/1``.
-        travel: Metres from 0 to 1 in the instrument's frame ``(3,)``; None for parts that turn.
+        travel: Metres from 0 to 1 in the instrument's frame ``(3,)``; None for other parts.
         axis: Unit axis that it turns about ``(3,)``, or None.
         angle_rad: Angle from 0 to 1, or None.
+        shown_from: The value from which on the part is there at all, or None.
     """
 
     node: str
@@ -119,6 +120,7 @@ class MovingPart:
     travel: FloatArray | None = None
     axis: FloatArray | None = None
     angle_rad: float | None = None
+    shown_from: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ export const PARTS: Readonly<Record<string, RegExp | null>> = {
   head: /^(skin|lashes|eyes|hair)/i,
   uniform: /^(shirt|blazer|skirt|tights|shoes|lapels|buttons|collar|ribbon)/i,
   "body without clothes": /^(skin|lashes|eyes)/i,
-  instrument: /^(body|slide|mouthpiece|valve)/i,
+  instrument: /^(body|slide|mouthpiece|valve|mute)/i,
   valves: /^valve/i,
   slides: /^slide/i,
 };
@@ -73,6 +73,12 @@ export const FINISHES: Readonly<Record<string, Overrides>> = {
   "as the show has it": {},
   lacquer: { "trumpet/finish": [0] },
   silver: { "trumpet/finish": [1] },
+};
+
+export const MUTES: Readonly<Record<string, Overrides>> = {
+  "as the score has it": {},
+  open: { "trumpet/mute": [0] },
+  straight: { "trumpet/mute": [1] },
 };
 
 export const LENSES: Readonly<Record<string, Overrides>> = {

@@ -7,7 +7,7 @@ import "../styles/page.css";
 import "./gallery.css";
 
 import { Stage, type Tier } from "../scene";
-import { FINISHES, LENSES, LIGHTS, type Overrides, PARTS, STYLES } from "./choices";
+import { FINISHES, LENSES, LIGHTS, MUTES, type Overrides, PARTS, STYLES } from "./choices";
 import { SessionFrames } from "./frames";
 
 /** What is shown; what is left out stays as it is. */
@@ -18,6 +18,7 @@ export interface GalleryView {
   readonly camera: string;
   readonly style: string;
   readonly finish: string;
+  readonly mute: string;
   readonly lens: string;
 }
 
@@ -79,6 +80,7 @@ async function open(): Promise<Gallery> {
     camera: asked.get("camera") ?? "three_quarter",
     style: asked.get("style") ?? "as the show has it",
     finish: asked.get("finish") ?? "as the show has it",
+    mute: asked.get("mute") ?? "as the score has it",
     lens: asked.get("lens") ?? "as the show has it",
   };
 
@@ -88,6 +90,7 @@ async function open(): Promise<Gallery> {
       ...LIGHTS[view.light],
       ...STYLES[view.style],
       ...FINISHES[view.finish],
+      ...MUTES[view.mute],
       ...LENSES[view.lens],
     };
     stage.isolate(PARTS[view.part] ?? null);
@@ -106,6 +109,7 @@ async function open(): Promise<Gallery> {
   addChoice(form, "Camera", cameras, view.camera, (camera) => void show({ camera }));
   addChoice(form, "Style", Object.keys(STYLES), view.style, (style) => void show({ style }));
   addChoice(form, "Finish", Object.keys(FINISHES), view.finish, (finish) => void show({ finish }));
+  addChoice(form, "Mute", Object.keys(MUTES), view.mute, (mute) => void show({ mute }));
   addChoice(form, "Lens", Object.keys(LENSES), view.lens, (lens) => void show({ lens }));
   await show({});
   return { show, duration: manifest.duration_s };

@@ -14,10 +14,11 @@ export interface RigJoint {
   readonly node: string;
 }
 
-/** A GLB node that one parameter moves: along `travel`, or by `angle` about `axis`. */
+/** A GLB node that one parameter moves: along `travel`, or by `angle` about `axis`; or that is there from a value on. */
 export type RigPart =
   | { readonly node: string; readonly parameter: string; readonly travel: Vector }
-  | { readonly node: string; readonly parameter: string; readonly axis: Vector; readonly angle: number };
+  | { readonly node: string; readonly parameter: string; readonly axis: Vector; readonly angle: number }
+  | { readonly node: string; readonly parameter: string; readonly shown_from: number };
 
 export interface RigMorph {
   readonly parameter: string;

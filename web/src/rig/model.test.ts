@@ -6,7 +6,7 @@ import { readRigDocument } from "./document";
 import type { LoadedRig } from "./load";
 import { RigModel } from "./model";
 
-const PARAMETERS = ["trumpet/valve/1", "slide/turn", "face/smile", "players/2/trumpet/valve/1"].map((path, i) => ({
+const PARAMETERS = ["trumpet/valve/1", "slide/turn", "face/smile", "players/2/trumpet/valve/1", "trumpet/mute"].map((path, i) => ({
   path,
   type: "number" as const,
   offset: 72 + 4 * i,
@@ -40,6 +40,7 @@ function figure() {
   const valve = named("valve1", root);
   valve.position.set(0.1, 0.2, 0.3);
   const turning = named("turning", root);
+  const mute = named("mute", root);
   const meshes = [face(scene), face(scene)];
   const rest = { translation: [0, 0, 0], rotation: [0, 0, 0, 1] };
   const document = readRigDocument(
@@ -54,18 +55,19 @@ function figure() {
       parts: [
         { node: "valve1", parameter: "trumpet/valve/1", travel: [0, -0.0165, 0] },
         { node: "turning", parameter: "slide/turn", axis: [0, 0, 2], angle: Math.PI },
+        { node: "mute", parameter: "trumpet/mute", shown_from: 0.5 },
       ],
       morphs: [{ parameter: "face/smile", target: "mouthSmile" }],
       contacts: [{ name: "bell", joint: "tip", offset: [0, 0, 1] }],
     },
     "figure",
   );
-  const rig: LoadedRig = { document, scene, joints: [tip, root], parts: [valve, turning] };
+  const rig: LoadedRig = { document, scene, joints: [tip, root], parts: [valve, turning, mute] };
   return { rig, root, tip, valve, turning, meshes };
 }
 
 /** root and tip rotations, root position, padding, parameters. */
-const FLOATS = new Float32Array([0.1, 0.2, 0.3, 0.9, 0.5, 0.5, 0.5, 0.5, 1, 2, 3, 0, 1, 0.5, 0.25, 0.75]);
+const FLOATS = new Float32Array([0.1, 0.2, 0.3, 0.9, 0.5, 0.5, 0.5, 0.5, 1, 2, 3, 0, 1, 0.5, 0.25, 0.75, 1]);
 
 describe("RigModel", () => {
   it("sets each joint by name, and the root's position", () => {
@@ -90,6 +92,16 @@ describe("RigModel", () => {
     model.pose(FLOATS.map((value, i) => (i < 12 ? value : 0)));
     expect(valve.position.toArray()).toEqual([0.1, 0.2, 0.3]);
     expect(turning.quaternion.w).toBeCloseTo(1, 9);
+  });
+
+  it("shows a part from its value on, and takes it away below", () => {
+    const { rig } = figure();
+    const model = new RigModel(rig, LAYOUT, new ParameterIndex(PARAMETERS));
+    const mute = rig.scene.getObjectByName("mute");
+    model.pose(FLOATS.map((value, i) => (i === 16 ? 0 : value)));
+    expect(mute?.visible).toBe(false);
+    model.pose(FLOATS);
+    expect(mute?.visible).toBe(true);
   });
 
   it("sets a morph on every mesh that has it", () => {

@@ -23,12 +23,14 @@ interface MorphBinding {
 
 const turn = new Quaternion();
 
-/** A part at value 0 stands as in the model, at 1 at the end of its travel or angle. */
+/** A part at value 0 stands as in the model, at 1 at the end of its travel or angle; others are shown from a value on. */
 function movePart(binding: PartBinding, value: number): void {
   const { node, part, restPosition, restRotation } = binding;
   if ("travel" in part) {
     const [x, y, z] = part.travel;
     node.position.set(restPosition.x + x * value, restPosition.y + y * value, restPosition.z + z * value);
+  } else if ("shown_from" in part) {
+    node.visible = value >= part.shown_from;
   } else {
     node.quaternion.copy(restRotation).multiply(turn.setFromAxisAngle(binding.axis, part.angle * value));
   }

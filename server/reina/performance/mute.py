@@ -1,0 +1,78 @@
+"""The mute in the bell: where the score asks for a muted trumpet, or as a show has it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.keyframes import Parameter
+
+if TYPE_CHECKING:
+    from reina.keyframes import ParameterRegistry
+    from reina.music.score import Score
+    from reina.rotations.arrays import FloatArray
+
+MUTED_TRUMPET = 59
+"""General MIDI's program, counted from 0."""
+
+CHOICES = ("as_scored", "open", "straight")
+
+MUTE_CHOICE = Parameter(
+    path="player/mute",
+    type="choice",
+    default="as_scored",
+    choices=CHOICES,
+    blend=False,
+    documentation="Which mute is in the bell: what the score asks for (program 59), none, or a straight one.",
+)
+
+
+def mute_parameter(instrument: str) -> Parameter:
+    """What every frame holds of an instrument's mute."""
+    return Parameter(
+        path=f"{instrument}/mute",
+        type="boolean",
+        default=False,
+        blend=False,
+        documentation="Whether the mute is in the bell.",
+    )
+
+
+class Mute:
+    """Whether the mute is in, at any times: a pure function of score and show.
+
+    It goes in and out at the end of the last note before the program changes, while nothing sounds.
+
+    Args:
+        score: Its program changes ask for the mute.
+        part: Index of the part that is played.
+        ends_s: Ends of the part's notes ``(M,)``, seconds, increasing.
+        registry: The show's parameters; where `MUTE_CHOICE` is not among them the score decides.
+    """
+
+    def __init__(self, score: Score, part: int, ends_s: FloatArray, registry: ParameterRegistry) -> None:
+        of_part = score.parts[part]
+        changes = [
+            (control.onset_s, control.value)
+            for control in score.controls
+            if control.kind == "program" and control.channel == of_part.channel
+        ]
+        alone = sum(other.channel == of_part.channel for other in score.parts) == 1
+        if not changes or not alone:
+            changes = [(0.0, of_part.program if of_part.program is not None else 0)]
+        times = np.array([onset_s for onset_s, _ in changes])
+        before = np.searchsorted(ends_s, times, side="right") - 1
+        self._from_s: FloatArray = np.where(before < 0, 0.0, ends_s[before]) if len(ends_s) else times
+        self._scored = np.array([float(program == MUTED_TRUMPET) for _, program in changes])
+        path = MUTE_CHOICE.path
+        self._column = registry.layout()[path][0] if path in registry else None
+
+    def evaluate(self, times_s: FloatArray, shown: FloatArray) -> FloatArray:
+        """0 away, 1 in the bell, ``(F,)``, from song times ``(F,)`` and a show's values ``(F, P)``."""
+        change = np.searchsorted(self._from_s, times_s, side="right") - 1
+        scored = self._scored[np.maximum(change, 0)]
+        if self._column is None:
+            return scored
+        choice = shown[:, self._column]
+        return np.where(choice == 0.0, scored, choice == CHOICES.index("straight"))
