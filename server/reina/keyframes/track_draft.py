@@ -22,6 +22,8 @@ from reina.keyframes.value_types import LARGEST
 
 SAME_TIME = 1e-6
 """Keys that are nearer than this, in their track's unit, stand at one time for a person."""
+RATE_STEP = 1e-4
+"""Of a unit: over so much of the time the tempo at a keyframe is measured."""
 DIGITS = 9
 """Decimals of times that are worked out, so that 0.1 + 0.2 is written as 0.3."""
 
@@ -145,9 +147,8 @@ class TrackDraft:
         for keyframe, time in zip(chosen, moved, strict=True):
             changes: dict[str, Any] = {"time": time}
             for tangent in ("in_tangent", "out_tangent"):
-                slope = getattr(keyframe, tangent)
-                if factor != 1.0 and slope is not None:
-                    changes[tangent] = _scaled(slope, 1.0 / factor)
+                if factor != 1.0:
+                    changes[tangent] = _scaled(getattr(keyframe, tangent), 1.0 / factor)
             if value_by is not None:
                 changes["value"] = self._value_moved(keyframe.value, value_by)
             self._keyframes[keyframe.key] = replace(keyframe, **changes)
@@ -155,19 +156,36 @@ class TrackDraft:
     def change_head(self, changes: Json, show_time: TimeUnit, time_map: TimeMap) -> None:
         """Change what a track has beside its keyframes; null takes a field back to its default.
 
-        With another unit the keyframes stay where they are in the music, and get other numbers.
+        With another unit the keyframes stay where they are in the music, and get other numbers. So do their
+        slopes, and the lengths of the answer to events unless that is changed too, by the tempo where they
+        stand.
         """
         document = track_document(replace(self._head, keyframes=()), show_time) | dict(changes)
         document = {name: value for name, value in document.items() if value is not None}
         head = read_track(document, self.parameter, show_time, may_be_empty=True)
-        if head.time != self.time:
-            times = np.array([keyframe.time for keyframe in self._keyframes.values()])
-            turned = self._turned(times, self.time, head.time, time_map)
-            self._keyframes = {
-                key: replace(keyframe, time=time)
-                for (key, keyframe), time in zip(self._keyframes.items(), turned, strict=True)
+        before, self._head = self._head, head
+        if head.time == before.time:
+            return
+        times = np.array([keyframe.time for keyframe in self._keyframes.values()])
+        turned = self._turned(times, before.time, head.time, time_map)
+        arriving, leaving = (_rates(times, before.time, head.time, time_map, way=way) for way in (-1.0, 1.0))
+        for keyframe, time, comes, goes in zip(
+            list(self._keyframes.values()), turned, arriving.tolist(), leaving.tolist(), strict=True
+        ):
+            self._keyframes[keyframe.key] = replace(
+                keyframe,
+                time=time,
+                in_tangent=_scaled(keyframe.in_tangent, 1.0 / comes),
+                out_tangent=_scaled(keyframe.out_tangent, 1.0 / goes),
+            )
+        if head.events is not None and "events" not in changes:
+            begin = times[:1] if times.size else np.zeros(1)
+            rate = float(_rates(begin, before.time, head.time, time_map, way=1.0)[0])
+            events = head.events
+            scaled = {
+                field: round(getattr(events, field) * rate, DIGITS) for field in ("attack", "hold", "decay")
             }
-        self._head = head
+            self._head = replace(head, events=replace(events, **scaled))
 
     def copied_to(self, parameter: Parameter) -> "TrackDraft":
         """The same for another parameter of the same type; values are held within its range.
@@ -245,7 +263,18 @@ def _in_unit(times: FloatArray, unit: TimeUnit, wanted: TimeUnit, time_map: Time
     return time_map.from_seconds(time_map.to_seconds(times, unit), wanted)
 
 
+def _rates(
+    times: FloatArray, unit: TimeUnit, wanted: TimeUnit, time_map: TimeMap, *, way: float
+) -> FloatArray:
+    """How many of the wanted units pass in one, at times: just after them for way 1, before them for -1."""
+    step = way * np.maximum(RATE_STEP, 1e-7 * np.abs(times))
+    turned = _in_unit(np.stack([times, times + step]), unit, wanted, time_map)
+    return (turned[1] - turned[0]) / step
+
+
 def _scaled(slope: Any, factor: float) -> Any:
+    if slope is None:
+        return None
     scaled = np.clip(factor * np.asarray(slope, dtype=np.float64), -LARGEST, LARGEST)
     return float(scaled) if scaled.ndim == 0 else tuple(scaled.tolist())
 

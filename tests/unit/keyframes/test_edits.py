@@ -1,5 +1,6 @@
 from typing import Any
 
+import numpy as np
 import pytest
 
 from reina.keyframes import (
@@ -8,6 +9,7 @@ from reina.keyframes import (
     ShowError,
     ShowHistory,
     TimeMap,
+    Triggers,
     stage_registry,
     with_edits,
 )
@@ -303,6 +305,51 @@ def test_a_track_is_changed_beside_its_keys() -> None:
         )
         == MIXED
     )
+
+
+@pytest.mark.parametrize("unit", ["seconds", "bars"])
+def test_in_another_unit_a_track_is_the_same_curve(unit: str) -> None:
+    document = {
+        "version": 1,
+        "time": "beats",
+        "tracks": [
+            {
+                "parameter": LIGHT,
+                "events": {
+                    "on": "bars",
+                    "attack": 0.25,
+                    "hold": 0.5,
+                    "decay": 1,
+                    "amount": 2,
+                    "blend": "add",
+                },
+                "keyframes": [
+                    {"time": 0, "value": 1, "out_tangent": 3},
+                    {
+                        "time": 3.5,
+                        "value": 2,
+                        "interpolation": "cubic_spline",
+                        "in_tangent": -2,
+                        "out_tangent": 1,
+                    },
+                    {"time": 6, "value": 3, "interpolation": "cubic_spline"},
+                    {"time": 8, "value": 1, "interpolation": "automatic"},
+                ],
+            }
+        ],
+    }
+    before = Show.from_document(document, REGISTRY)
+    time_map = TimeMap.steady(beats_per_minute=90, beats_per_bar=3)
+    edit = {"edit": "change_track", "parameter": LIGHT, "changes": {"time": unit}}
+    after = with_edits(before, [edit], REGISTRY, time_map)
+    assert after.track(LIGHT).time == unit
+    assert after.track(LIGHT) != before.track(LIGHT)
+    times_s = np.arange(400) / 60.0
+    triggers = Triggers(end_s=8.0)
+    values = [
+        show.plan(REGISTRY, time_map, triggers=triggers).evaluate(times_s)[0] for show in (before, after)
+    ]
+    np.testing.assert_allclose(values[0], values[1], atol=1e-6)
 
 
 def test_a_track_is_copied_to_another_of_its_type() -> None:
