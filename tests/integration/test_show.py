@@ -174,3 +174,27 @@ def test_every_parameter_is_described(owned: Owned) -> None:
     assert intensity["documentation"]
     assert {"step", "linear", "quad_in"} <= set(intensity["interpolations"])
     assert {"step", "linear", "quad_in"} <= {i["name"] for i in described["interpolations"]}
+
+
+def test_every_parameter_says_what_it_is_and_how_far_it_goes(owned: Owned) -> None:
+    described = owned.client.get("/api/v1/parameters").json()
+    groups = {parameter["path"].partition("/")[0] for parameter in described["parameters"]}
+    assert groups >= {"camera", "lights", "stage", "blocks", "player", "look"}
+    for parameter in described["parameters"]:
+        path = parameter["path"]
+        assert parameter["documentation"].endswith("."), path
+        assert bool(parameter["choices"]) == (parameter["type"] == "choice"), path
+        if parameter["type"] in ("number", "vector"):
+            values = np.atleast_1d(parameter["default"])
+            assert np.all(parameter["minimum"] <= values), path
+            assert np.all(values <= parameter["maximum"]), path
+        # What is told as the default can be keyed as it stands, with any of the interpolations told.
+        keyframes = [
+            {"time": n, "value": parameter["default"], "interpolation": name}
+            for n, name in enumerate(parameter["interpolations"])
+        ]
+        answer = owned.change("PUT", f"/show/tracks/{path}", json={"keyframes": keyframes})
+        assert answer.status_code == 200, answer.text
+    for interpolation in described["interpolations"]:
+        assert interpolation["documentation"].endswith("."), interpolation["name"]
+        assert all(option["documentation"] for option in interpolation["options"])
