@@ -24,6 +24,8 @@ CASES = [
     *((score, show) for score in SCORES for show in SHOWS if show.stem == score.stem),
     (EXAMPLES / "scores/ode-to-joy.json", EXAMPLES / "shows/default.json"),
 ]
+CUT = 4
+"""The flag of a frame that is a cut."""
 WITHIN = 0.8
 """Of the way from the middle of the picture to its edge."""
 
@@ -64,5 +66,27 @@ def test_while_she_plays_her_fingers_are_in_the_picture(
         beyond = frames.sounding & (out > WITHIN)
         assert frames.sounding.any()
         assert not beyond.any(), f"{out[beyond].max():.2f}, first at {frames.song_time_s[beyond][0]:.1f} s"
+    finally:
+        session.change("DELETE")
+
+
+@pytest.mark.parametrize("score", ["carnival-of-venice.mid", "amazing-grace.json"])
+def test_the_first_show_cuts_on_bar_lines_and_the_faster_the_music_the_sooner(
+    client: httpx.Client, score: str
+) -> None:
+    data = (EXAMPLES / "scores" / score).read_bytes()
+    session = upload(client, data, score, song=("song.wav", song()))
+    try:
+        drawn = client.get(f"{session.path}/score").json()
+        frames = take(client, session.id, 0.0, session.body["duration_s"])
+        cuts_s = frames.song_time_s[(frames.raw[:, 2] & CUT) > 0]
+        lines_s = np.array(drawn["bar_lines_s"], dtype=np.float64)
+        # The first frame at or after a bar line.
+        after_s = cuts_s[:, None] - lines_s
+        assert np.all(np.any((after_s > -1e-6) & (after_s < 1 / 60), axis=1))
+        lengths_s = np.diff(np.concatenate([[0.0], cuts_s, [drawn["duration_s"]]]))
+        assert cuts_s.size >= 3
+        assert 2.9 < lengths_s.min() <= lengths_s.max() < 14.0
+        assert (lengths_s.mean() < 5.0) == (score == "carnival-of-venice.mid")
     finally:
         session.change("DELETE")
