@@ -54,6 +54,7 @@ export class Stage {
   #models: RigModel[] = [];
   #bell: Bell | null = null;
   #drawnIndex = -1;
+  #pictures = 0;
   readonly #drawnFrom = new Vector3();
   #epoch = -1;
   #songTime = 0;
@@ -108,6 +109,11 @@ export class Stage {
   /** Index of the frame that was last drawn; -1 before the first. */
   get drawnIndex(): number {
     return this.#drawnIndex;
+  }
+
+  /** How many pictures have been drawn. */
+  get pictures(): number {
+    return this.#pictures;
   }
 
   /** Draw calls and triangles of the last picture. */
@@ -213,6 +219,7 @@ export class Stage {
     this.#picture.finish(camera, this.#camera.targetDistance);
     this.#drawnFrom.copy(camera.position);
     this.#changed = false;
+    this.#pictures += 1;
     if (this.#camera.moving) this.#drawSoon();
     return true;
   }

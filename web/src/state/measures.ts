@@ -29,6 +29,9 @@ export interface PageMeasures {
   readonly sync: { readonly readings: number; readonly mean: number; readonly p95: number };
   /** Seconds by which what is heard is ahead of the server's song time; null while nothing is. */
   readonly soundAhead: number | null;
+  /** Pictures drawn since the page was opened, and the draw calls of the last. */
+  readonly pictures: number;
+  readonly drawCalls: number;
   /** Where the camera stood in the picture that was drawn last, in the world, metres. */
   readonly drawnFrom: readonly [number, number, number];
   /** What the show's editor says about itself, while it is open. */
@@ -84,6 +87,12 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     get soundAhead() {
       return view()?.soundAhead ?? null;
+    },
+    get pictures() {
+      return stage.pictures;
+    },
+    get drawCalls() {
+      return stage.cost.calls;
     },
     get drawnFrom() {
       return stage.drawnFrom;
