@@ -56,13 +56,13 @@ def resting_plan(parameter: Parameter) -> TrackPlan:
 def _sample(plan: TrackPlan, times_s: FloatArray, time_map: TimeMap, triggers: Triggers) -> Curve:
     # Jumps are looked for in all that interpolates, whether a page blends it or not.
     parameter = replace(plan.parameter, blend=plan.parameter.interpolates)
-    step_s = float(times_s[1] - times_s[0]) if times_s.size > 1 else 1.0
+    step_s = float(times_s[1] - times_s[0]) if times_s.size > 1 else 0.0
     show_plan = ShowPlan(
         (replace(plan, parameter=parameter),),
         ParameterRegistry((parameter,)),
         time_map,
         triggers=triggers,
-        fps=1.0 / step_s,
+        fps=1.0 / step_s if step_s > 0.0 else 1.0,
     )
     values, cuts = show_plan.evaluate(times_s)
     if not parameter.interpolates:

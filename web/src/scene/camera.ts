@@ -70,9 +70,9 @@ export class StageCamera {
     return this.#taken;
   }
 
-  /** On its way to another view, so that pictures are due without frames. */
+  /** On its way to another view, so that pictures are due without frames; it ends with the picture from there. */
   get moving(): boolean {
-    return performance.now() - this.#movedAt < MOVE_MS;
+    return this.#movedAt > Number.NEGATIVE_INFINITY;
   }
 
   /** How far what is looked at lies from the camera, metres. */
@@ -190,6 +190,7 @@ export class StageCamera {
       camera.quaternion.slerpQuaternions(this.#fromRotation, goal.quaternion, share);
       fov = this.#fromFov + (wanted.fov - this.#fromFov) * share;
     } else if (!this.#taken) {
+      this.#movedAt = Number.NEGATIVE_INFINITY;
       aim(camera, show);
     } else if (this.#movedAt > 0) {
       this.#arrive();

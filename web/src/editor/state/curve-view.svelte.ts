@@ -2,6 +2,7 @@ import type { ShowParameter } from "../../generated/protocol";
 import { componentsOf, hasCurve } from "./component-values";
 import type { SampledCurve } from "./curves.svelte";
 import type { Editor } from "./editor.svelte";
+import { FollowedCurves } from "./followed-curves.svelte";
 import type { ShowTrack } from "./show-document";
 
 /** A track whose curve is drawn, with the span of values that its room shows. */
@@ -15,8 +16,6 @@ export interface CurvedTrack {
 }
 
 const MOST_TRACKS = 8;
-/** After a change of what is on screen, the curves are asked for this much later. */
-const PATIENCE_MS = 70;
 /** A preview while a handle is held, at most one in so many milliseconds. */
 const PREVIEW_MS = 60;
 const POINTS_PER_PIXEL = 0.75;
@@ -24,17 +23,16 @@ const POINTS_PER_PIXEL = 0.75;
 /** The curves of the chosen tracks, as the server samples them. */
 export class CurveView {
   readonly #editor: Editor;
-  #sampled = $state.raw<ReadonlyMap<string, SampledCurve>>(new Map());
+  readonly #curves: FollowedCurves;
   #preview = $state.raw<{ readonly path: string; readonly curve: SampledCurve } | null>(null);
   #previewing = false;
-  /** What is drawn is the show as the server has it. */
-  settled = false;
   #previewWanted: ShowTrack | null = null;
   /** While something is held, values keep their place on screen. */
   #frozen = $state.raw<ReadonlyMap<string, readonly [number, number]> | null>(null);
 
   constructor(editor: Editor) {
     this.#editor = editor;
+    this.#curves = new FollowedCurves(editor, POINTS_PER_PIXEL);
   }
 
   /** The track that is looked at, and those that chosen keyframes stand on. */
@@ -54,38 +52,23 @@ export class CurveView {
     this.#shown.map((shown) => {
       const path = shown.track.parameter;
       const held = this.#preview?.path === path ? this.#preview.curve : null;
-      const curve = held ?? this.#sampled.get(path) ?? null;
+      const curve = held ?? this.#curves.sampled.get(path) ?? null;
       const [low, high] = this.#frozen?.get(path) ?? rangeOf(shown.track, shown.parameter, curve);
       return { ...shown, curve, low, high };
     }),
   );
 
-  /** Ask for what is on screen, with half as much again on either side; returns what calls that off. */
+  /** Whether what is drawn is the show as the server has it. */
+  get settled(): boolean {
+    return this.#curves.settled;
+  }
+
+  /** Ask for what is on screen; returns what calls that off. */
   follow(): () => void {
-    const { window, curves, reina, store } = this.#editor;
     const paths = this.#shown.map(({ track }) => track.parameter);
-    const [from, to, points] = [window.from, window.to, window.width * POINTS_PER_PIXEL];
-    this.settled = false;
-    // What waits to be saved is not yet in the server's curves.
-    if (paths.length === 0 || store.waiting > 0) return () => undefined;
-    const ended = new AbortController();
-    const spare = (to - from) / 4;
-    const timer = setTimeout(() => {
-      curves.read({ paths, from: from - spare, to: to + spare, points: points * 1.5 }, ended.signal).then(
-        (read) => {
-          this.#sampled = read;
-          this.settled = true;
-          if (this.#frozen === null) this.#preview = null;
-        },
-        (error: unknown) => {
-          if (!ended.signal.aborted) reina.tell(error);
-        },
-      );
-    }, PATIENCE_MS);
-    return () => {
-      clearTimeout(timer);
-      ended.abort();
-    };
+    return this.#curves.follow(paths, () => {
+      if (this.#frozen === null) this.#preview = null;
+    });
   }
 
   hold(): void {
