@@ -49,6 +49,29 @@ def test_the_mouse_chooses_moves_stretches_and_removes_and_undo_walks_back(show:
     assert show.times(EXPOSURE)["k2"] == 1.25
 
 
+def test_the_ruler_seeks_and_the_wheel_zooms_at_the_pointer_and_pans(show: ShowPage) -> None:
+    page = show.page
+    show.drag(show.ruler(1.0), show.ruler(5.95))
+    # Drawn to the bar line that it came near.
+    show.opened.until("Math.abs(window.reina.songTime - 6) < 0.02")
+    x, y = show.ruler(6.0)
+    begin, end = show.measure("window")
+    page.mouse.move(x, y + 120)
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -300)
+    page.keyboard.up("Control")
+    nearer = "(span) => { const [from, to] = window.reina.show.window; return to - from < 0.5 * span; }"
+    show.opened.until(nearer, end - begin)
+    assert show.ruler(6.0)[0] == pytest.approx(x, abs=0.5)
+    before = show.measure("window")[0]
+    page.keyboard.down("Shift")
+    page.mouse.wheel(0, 80)
+    page.keyboard.up("Shift")
+    show.opened.until("(from) => window.reina.show.window[0] > from + 0.1", before)
+    page.keyboard.press("0")
+    assert show.measure("window") == pytest.approx([begin, end], abs=1e-3)
+
+
 def test_everything_goes_by_keyboard(show: ShowPage) -> None:
     page = show.page
     show.seek(3 * BAR_S)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 
 BAR_S = 2.0
+BESIDE = (740, 560)
+"""A second window: the smaller, the sooner it is drawn."""
 
 
 def nudge(show: ShowPage, path: str, key: str, press: str = "Shift+ArrowRight") -> None:
@@ -40,7 +42,7 @@ def test_two_browsers_see_each_others_edits_and_who_watches_only_sees(
     show: ShowPage, visit: Visit, client: httpx.Client
 ) -> None:
     one, session = show, show.session
-    other = open_show(visit, client, session)
+    other = open_show(visit, client, session, size=BESIDE)
     nudge(one, EXPOSURE, "k3")
     drawn_at(other, EXPOSURE, "k3", 3 * BAR_S)
     nudge(other, HAZE, "h1")
@@ -53,7 +55,7 @@ def test_two_browsers_see_each_others_edits_and_who_watches_only_sees(
     drawn_at(one, EXPOSURE, "k3", 2 * BAR_S)
     other.opened.page.close()
 
-    watching = open_show(visit, client, session, token=False)
+    watching = open_show(visit, client, session, size=BESIDE, token=False)
     assert watching.page.get_by_text("You are watching: only whoever opened this session").is_visible()
     before = one.times(EXPOSURE)
     x, y = watching.key(EXPOSURE, "k2")

@@ -146,6 +146,21 @@ describe("SongPlayer", () => {
     expect(player.heardSongTime()).toBeNull();
   });
 
+  it("lets a moment be heard where the song rests, one after another, and none while it plays", async () => {
+    const player = await playing();
+    player.scrub(7);
+    expect(sources).toHaveLength(1);
+    player.follow((transport = { ...transport, playing: false, epoch: 2 }));
+    player.scrub(7);
+    player.scrub(8);
+    expect(sources.slice(1).map(({ started }) => started)).toEqual([
+      [now, 7],
+      [now, 8],
+    ]);
+    player.scrub(20);
+    expect(sources, "behind the song's end there is nothing to hear").toHaveLength(3);
+  });
+
   it("loops sample by sample where the song is long enough", async () => {
     await playing({ loop: { start_s: 2, end_s: 9 } });
     expect(lastSource()).toMatchObject({ loop: true, loopStart: 2, loopEnd: 9 });
