@@ -28,6 +28,10 @@ export function begin(canvas: HTMLCanvasElement, width: number, height: number):
   if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
   const context = canvas.getContext("2d");
   context?.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context?.clearRect(0, 0, width, height);
+  if (context === null) return null;
+  context.clearRect(0, 0, width, height);
+  // Chromium may go on showing a canvas that was cleared and then drawn nothing: this is too faint to be seen.
+  context.fillStyle = "rgb(0 0 0 / 0.004)";
+  context.fillRect(0, 0, 1, 1);
   return context;
 }
