@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from tests.e2e.shows import EXPOSURE, HAZE, ShowPage, made_session, open_show
+from tests.e2e.shows import COLOR, EXPOSURE, HAZE, ShowPage, made_session, open_show
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -121,6 +121,16 @@ def test_fingers_drag_pan_and_zoom(visit: Visit, client: httpx.Client) -> None:
         touch("touchMove", (x + part * BAR_S * 3 * pixels_a_second, y))
     touch("touchEnd")
     assert show.times(EXPOSURE)["k2"] == 4
+
+    # A finger that rests begins a box.
+    below = show.key(COLOR, "c1")[1] + 25
+    edge = show.ruler(9.0)[0]
+    touch("touchStart", (edge, below))
+    show.page.wait_for_selector(".lanes[data-boxing=true]")
+    touch("touchMove", (edge - 20, below - 60))
+    touch("touchMove", (show.ruler(0.5)[0], show.key(EXPOSURE, "k2")[1] - 12))
+    touch("touchEnd")
+    assert sorted(show.measure("chosen")) == [[HAZE, "h1"], [EXPOSURE, "k2"], [EXPOSURE, "k3"]]
 
     begin, end = show.measure("window")
     middle = (show.ruler(begin)[0] + show.ruler(end)[0]) / 2

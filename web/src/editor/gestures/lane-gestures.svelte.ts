@@ -37,6 +37,7 @@ type Gesture =
 const DRAG = 3;
 const DRAG_TOUCH = 8;
 const LONG_PRESS_MS = 420;
+const FINGER = 22;
 /** This near to an edge, a drag moves the window on, pixels. */
 const EDGE = 18;
 const REACH = 8;
@@ -82,6 +83,8 @@ export class LaneGestures {
       this.#longPress = setTimeout(() => {
         navigator.vibrate(12);
         this.#gesture = this.#beginBox(press, hit);
+        // A box around the finger says that it has begun.
+        this.box = { x0: press.x - FINGER, y0: press.y - FINGER, x1: press.x + FINGER, y1: press.y + FINGER };
       }, LONG_PRESS_MS);
     }
   }
