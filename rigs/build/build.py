@@ -1,6 +1,7 @@
 """Build the rigs: fetch the source, make the models, reduce and compress them, validate them, write rig.json.
 
-`python rigs/build/build.py` writes rigs/trumpeter and rigs/trumpet; the same input gives the same bytes. How
+`python rigs/build/build.py` writes a rig for each file of figures/, and the trumpet; the same
+input gives the same bytes. How
 the player holds the instrument is committed data and solved apart, by solve_hold.py.
 """
 
@@ -12,7 +13,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from body.player import NAME as PLAYER
+from body.figure_file import figure_files
 from body.player import build_player
 from brass.instrument import NAME as INSTRUMENT
 from brass.instrument import build_instrument
@@ -20,13 +21,12 @@ from common.rig_file import write_json
 from common.source import default_cache, fetch
 
 HERE = Path(__file__).resolve().parent
-TRIANGLES = {  # at most this many in a tier; 0 keeps what the scripts made
-    PLAYER: {"full": 0, "medium": 40_000, "low": 11_800},
-    INSTRUMENT: {"full": 0, "medium": 20_000, "low": 7_500},
-}
+# At most so many triangles in a tier; 0 keeps what the scripts made.
+PLAYER_TRIANGLES = {"full": 0, "medium": 40_000, "low": 11_800}
+INSTRUMENT_TRIANGLES = {"full": 0, "medium": 20_000, "low": 7_500}
 
 
-def pack(raw: Path, rigs: Path) -> dict[str, dict[str, int]]:
+def pack(raw: Path, rigs: Path, wanted: dict[str, dict[str, int]]) -> dict[str, dict[str, int]]:
     """Reduce, compress and validate every model; what each came to, by rig/tier.
 
     A model with issues stops the build.
@@ -34,7 +34,7 @@ def pack(raw: Path, rigs: Path) -> dict[str, dict[str, int]]:
     if not (HERE / "node_modules").exists():
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=HERE, check=True)
     results: dict[str, dict[str, int]] = {}
-    for rig, tiers in TRIANGLES.items():
+    for rig, tiers in wanted.items():
         for tier, triangles in tiers.items():
             target = rigs / rig / f"{tier}.glb"
             command = ["node", "tiers.mjs", str(raw / f"{rig}.{tier}.glb"), str(target), str(triangles)]
@@ -60,13 +60,16 @@ def main() -> None:
     raw = HERE / ".work"
     shutil.rmtree(raw, ignore_errors=True)
     raw.mkdir()
-    for rig in (PLAYER, INSTRUMENT):
+    figures = figure_files()
+    triangles = {figure.name: PLAYER_TRIANGLES for figure in figures} | {INSTRUMENT: INSTRUMENT_TRIANGLES}
+    for rig in triangles:
         (arguments.rigs / rig).mkdir(parents=True, exist_ok=True)
-    build_player(data, raw, arguments.rigs / PLAYER)
+    for figure in figures:
+        build_player(data, raw, arguments.rigs / figure.name, figure)
     build_instrument(raw, arguments.rigs / INSTRUMENT)
+    models = pack(raw, arguments.rigs, triangles)
     write_json(
-        arguments.rigs / "validation.json",
-        {"validator": "gltf-validator 2.0.0-dev.3.10", "models": pack(raw, arguments.rigs)},
+        arguments.rigs / "validation.json", {"validator": "gltf-validator 2.0.0-dev.3.10", "models": models}
     )
 
 

@@ -1,6 +1,6 @@
-"""Make the player's motion clips: three ways of standing, as BVH files that loop.
+"""Make the players' motion clips: three ways of standing, as BVH files that loop.
 
-`python rigs/build/clips.py` writes rigs/trumpeter/clips; the same input gives the same bytes. A clip begins
+`python rigs/build/clips.py` writes rigs/<player>/clips; the same input gives the same bytes. A clip begins
 and ends in the same neutral stance, so that what it does beside its first frame can be laid under playing.
 Trunk and arms are written here, as waves of the time; legs are solved, so that the feet stay where they are.
 """
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
 
 RIGS = Path(__file__).resolve().parents[1]
-PLAYER = "trumpeter"
 FPS = 24
 DECIMALS = 5
 LEGS = ("leftLeg", "rightLeg")
@@ -285,14 +284,16 @@ def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rigs", type=Path, default=RIGS, help="where the rigs are")
-    folder: Path = parser.parse_args().rigs / PLAYER
+    parser.add_argument("--player", default="trumpeter", help="the player's rig")
+    arguments = parser.parse_args()
+    folder: Path = arguments.rigs / arguments.player
     rig = load_rig(folder)
     (folder / "clips").mkdir(exist_ok=True)
     for name, stance in STANCES.items():
         clip = make(rig, stance)
         path = folder / "clips" / f"{name}.bvh"
         path.write_text(write_bvh(clip, decimals=DECIMALS), encoding="utf-8", newline="\n")
-        print(f"{PLAYER}/clips/{path.name}: {len(clip)} frames, {path.stat().st_size} bytes")
+        print(f"{arguments.player}/clips/{path.name}: {len(clip)} frames, {path.stat().st_size} bytes")
 
 
 if __name__ == "__main__":

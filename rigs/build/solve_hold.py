@@ -1,4 +1,4 @@
-"""Solve how the trumpeter holds the trumpet, and write rigs/trumpeter/holds/trumpet.json.
+"""Solve how a player holds the trumpet, and write rigs/<player>/holds/trumpet.json.
 
 Slow, and not part of a normal build: its result is committed as data. Run it after a change of either rig.
 """
@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 RIGS = Path(__file__).resolve().parents[1]
 PITCH_DOWN_DEG = 8.0
 STARTS = 6
+"""Searches from scattered starts; the best counts."""
 
 
 def place_trumpet(player: Rig, trumpet: Rig, stance: Stance) -> tuple[Array, Array]:
@@ -45,11 +46,11 @@ def place_trumpet(player: Rig, trumpet: Rig, stance: Stance) -> tuple[Array, Arr
     return rotation, place + head @ offset - rotation @ trumpet.contact("mouthpiece")[1]
 
 
-def search(residuals: Callable[[Array], Array], start: Array, label: str) -> Array:
+def search(residuals: Callable[[Array], Array], start: Array, label: str, starts: int) -> Array:
     """The best of several least-squares searches from scattered starts; the same every run."""
     rng = np.random.default_rng(3)
     best = None
-    for attempt in range(STARTS):
+    for attempt in range(starts):
         spread = np.r_[np.full(3, 0.006), np.full(3, 0.12), 0.2, 0.02, 0.02, np.full(len(start) - 9, 0.12)]
         guess = start + (rng.normal(0, 1, len(start)) * spread if attempt else 0)
         found = least_squares(residuals, guess, method="trf", x_scale=np.maximum(spread, 0.02), max_nfev=120)
@@ -60,11 +61,11 @@ def search(residuals: Callable[[Array], Array], start: Array, label: str) -> Arr
     return np.asarray(best.x)
 
 
-def solve_right(grip: Grip, trumpet: Rig) -> Pose:
+def solve_right(grip: Grip, trumpet: Rig, starts: int) -> Pose:
     """The right arm and hand."""
     buttons = np.array([b["position"] for b in trumpet.content["buttons"]])
     hand = RightHand(grip, buttons, trumpet.contact("thumb_right")[1], trumpet.contact("hook")[1])
-    x = search(hand.residuals, right_hand.START, "right")
+    x = search(hand.residuals, right_hand.START, "right", starts)
     rotation, position, arm = grip.reach(x)
     angles, lacking = hand.fingers(rotation, position)
     print("right hand", np.round(x, 4).tolist())
@@ -81,13 +82,13 @@ def solve_right(grip: Grip, trumpet: Rig) -> Pose:
     return grip.pose(arm, [rows[0] for rows in angles], x[9:14])
 
 
-def solve_left(grip: Grip, trumpet: Rig) -> Pose:
+def solve_left(grip: Grip, trumpet: Rig, starts: int) -> Pose:
     """The left arm and hand."""
     ring, saddle = trumpet.contact("ring")[1], trumpet.contact("saddle")[1]
     third = trumpet.content["buttons"][2]["position"]
     casing = trumpet.contact("grip_left")[1][0]
     hand = LeftHand(grip, ring, saddle, np.array([-0.004, -0.034, 0.040]), third[2], casing)
-    x = search(hand.residuals, left_hand.START, "left")
+    x = search(hand.residuals, left_hand.START, "left", starts)
     arm = grip.reach(x)[2]
     print("left hand", np.round(x, 4).tolist())
     print(
@@ -105,18 +106,22 @@ def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rigs", type=Path, default=RIGS, help="the folder of rigs")
-    folder = parser.parse_args().rigs
-    player, trumpet = Rig.read(folder / "trumpeter" / "rig.json"), Rig.read(folder / "trumpet" / "rig.json")
+    parser.add_argument("--player", default="trumpeter", help="the player's rig")
+    parser.add_argument("--starts", type=int, default=STARTS, help="how many searches for each hand")
+    arguments = parser.parse_args()
+    folder: Path = arguments.rigs
+    holds = folder / arguments.player / "holds"
+    player, trumpet = Rig.read(holds.parent / "rig.json"), Rig.read(folder / "trumpet" / "rig.json")
     stance = stand(player)
     instrument = place_trumpet(player, trumpet, stance)
     obstacles = Obstacles(trumpet.content["capsules"])
     pose = dict(stance.pose)
-    pose.update(solve_right(Grip(player, "right", stance, instrument, obstacles), trumpet))
-    pose.update(solve_left(Grip(player, "left", stance, instrument, obstacles), trumpet))
+    pose.update(solve_right(Grip(player, "right", stance, instrument, obstacles), trumpet, arguments.starts))
+    pose.update(solve_left(Grip(player, "left", stance, instrument, obstacles), trumpet, arguments.starts))
     quaternions = whole_pose(player, pose)
     hold = {
         "instrument": "trumpet",
-        "player": "trumpeter",
+        "player": arguments.player,
         "pose": quaternions,
         "instrument_pose": {
             "position": instrument[1].tolist(),
@@ -124,8 +129,8 @@ def main() -> None:
         },
         "hips": stance.hips.tolist(),
     }
-    (folder / "trumpeter" / "holds").mkdir(exist_ok=True)
-    write_json(folder / "trumpeter" / "holds" / "trumpet.json", hold)
+    holds.mkdir(exist_ok=True)
+    write_json(holds / "trumpet.json", hold)
     report(player, trumpet, hold)
 
 

@@ -68,3 +68,13 @@ def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
     beside.page.keyboard.press("p")
     assert beside.page.get_by_role("switch", name="Fit the octave").is_disabled()
     assert beside.page.get_by_role("switch", name="Fit the octave").is_checked()
+
+
+def test_another_player_is_chosen_in_the_page(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(size=(1100, 620)).open_files(*COLLECTION)
+    path = f"/api/v1/sessions/{opened.session}"
+    opened.page.keyboard.press("p")
+    drawn = opened.measure("pictures")
+    opened.page.get_by_role("combobox", name="Player").select_option(label="Soloist")
+    opened.until("(drawn) => reina.pictures > drawn && reina.rigs[0] === 'soloist'", drawn)
+    assert client.get(path).json()["player"] == "soloist"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from body.images import eye_picture, jpeg
+from body.images import jpeg
 from body.joint_names import SIDES
 from common.meshes import Mesh, joined
 from common.parts import Part, Surface
@@ -15,12 +15,13 @@ from common.shapes import grid_faces
 
 if TYPE_CHECKING:
     from body.figure import Figure
+    from body.images import Picture
     from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
 
-def eyes(figure: Figure, skeleton: Skeleton, rings: int, sectors: int) -> Part:
+def eyes(figure: Figure, skeleton: Skeleton, picture: Picture, rings: int, sectors: int) -> Part:
     """Both eyes as one part; each is weighted wholly to its joint."""
     meshes: list[Mesh] = []
     all_normals: list[Array] = []
@@ -33,7 +34,7 @@ def eyes(figure: Figure, skeleton: Skeleton, rings: int, sectors: int) -> Part:
         vertices = skeleton.positions[f"{side}Eye"] + directions * (radius * bulge)[:, None]
         meshes.append(Mesh(vertices, weights, grid_faces(rings + 1, sectors + 1, flip=True), uv))
         all_normals.append(directions)
-    surface = Surface("eyes", 0.08, image=jpeg(eye_picture(), 90))
+    surface = Surface("eyes", 0.08, image=jpeg(picture, 90))
     return Part("Eyes", joined(meshes), surface, np.vstack(all_normals))
 
 

@@ -1,4 +1,4 @@
-"""The player's shape: which of MakeHuman's targets make her, and her mesh in metres."""
+"""A player's shape: MakeHuman's targets as the figure's file takes them, and the mesh in metres."""
 
 from __future__ import annotations
 
@@ -13,45 +13,12 @@ from body.makehuman import BODY_VERTEX_COUNT, BaseMesh
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from body.figure_file import FigureFile
+
 Array = NDArray[np.float64]
 
 METRES_PER_DECIMETRE = 0.1
 SOLE_M = 0.0165  # how far the shoes hold the bare feet off the floor
-
-RACES = {"caucasian": 0.45, "asian": 0.55}
-SHAPE = {"muscle": 0.45, "weight": 0.40, "height": 0.56, "proportions": 0.95, "cup": 0.2, "firmness": 0.8}
-BOTH_SIDES = {
-    "eyes/{}-eye-scale-incr": 1.45,
-    "eyes/{}-eye-height2-incr": 0.75,
-    "eyes/{}-eye-corner2-up": 0.10,
-    "cheek/{}-cheek-bones-decr": 0.35,
-    "cheek/{}-cheek-volume-incr": 0.12,
-    "hands/{}-hand-fingers-length-incr": 0.22,
-}
-DETAILS = {
-    "arms/measure-upperarm-length-incr": 0.42,
-    "arms/measure-lowerarm-length-incr": 0.32,
-    "nose/nose-scale-horiz-decr": 0.5,
-    "nose/nose-scale-vert-decr": 0.35,
-    "nose/nose-point-up": 0.25,
-    "nose/nose-volume-decr": 0.35,
-    "nose/nose-nostrils-width-decr": 0.3,
-    "mouth/mouth-scale-horiz-decr": 0.55,
-    "mouth/mouth-angles-up": 0.3,
-    "mouth/mouth-lowerlip-height-decr": 0.35,
-    "mouth/mouth-upperlip-height-decr": 0.2,
-    "mouth/mouth-lowerlip-volume-decr": 0.3,
-    "chin/chin-width-decr": 0.45,
-    "chin/chin-triangle": 0.5,
-    "chin/chin-height-decr": 0.35,
-    "chin/chin-bones-decr": 0.4,
-    "chin/chin-prominent-decr": 0.15,
-    "head/head-age-decr": 0.5,
-    "head/head-oval": 0.35,
-    "neck/neck-scale-horiz-decr": 0.25,
-    "neck/neck-scale-depth-decr": 0.2,
-    "forehead/forehead-scale-vert-incr": 0.1,
-}
 
 # The morph's name in the models, the face targets that make it, and how strongly.
 MORPHS: dict[str, tuple[tuple[str, ...], float]] = {
@@ -90,14 +57,14 @@ class Figure:
         return mean
 
 
-def shape_figure(data: Path) -> Figure:
-    """Read the base mesh, apply the player's targets, and bring all to metres with the floor at zero."""
+def shape_figure(data: Path, file: FigureFile) -> Figure:
+    """Read the base mesh, apply the figure's targets, and bring all to metres with the floor at zero."""
     mesh = BaseMesh(data)
-    mesh.apply_macro(RACES, SHAPE)
-    for pattern, weight in BOTH_SIDES.items():
+    mesh.apply_macro(file.sex, file.races, file.shape)
+    for pattern, weight in file.both_sides.items():
         for side in "lr":
             mesh.apply(pattern.format(side), weight)
-    for name, weight in DETAILS.items():
+    for name, weight in file.details.items():
         mesh.apply(name, weight)
     floor = np.array([0.0, mesh.vertices[:BODY_VERTEX_COUNT, 1].min() - SOLE_M / METRES_PER_DECIMETRE, 0.0])
     bones = mesh.bones()

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageFilter
+
+if TYPE_CHECKING:
+    from body.figure_file import Colour
 
 Picture = NDArray[np.floating[Any]]
 
@@ -34,7 +37,7 @@ def mixed(picture: Picture, colour: tuple[float, float, float], amount: Picture)
     return result
 
 
-def hair_picture(width: int = 256, height: int = 512) -> Picture:
+def hair_picture(tint: Colour, width: int = 256, height: int = 512) -> Picture:
     """Strands along v, lighter in a band where the crown catches the light; the last rows dark."""
     rng = np.random.default_rng(11)
     strands = np.zeros(width)
@@ -45,11 +48,11 @@ def hair_picture(width: int = 256, height: int = 512) -> Picture:
     t = np.linspace(0, 1, height)[:, None]
     shade = 0.80 + 0.38 * np.exp(-(((t - 0.40) / 0.12) ** 2)) + 0.10 * t
     grey = shade * (1 + 0.16 * strands[None]) * np.where(t > 0.98, 0.12, 1.0)
-    return (grey[..., None] * np.array([0.252, 0.162, 0.1352])).astype(np.float32)
+    return (grey[..., None] * np.array(tint)).astype(np.float32)
 
 
-def eye_picture(size: int = 512) -> Picture:
-    """An eye seen from the front: white, brown iris, pupil and two lights."""
+def eye_picture(inner: Colour, outer: Colour, size: int = 512) -> Picture:
+    """An eye seen from the front: white, iris from its inner to its outer colour, pupil and two lights."""
     rng = np.random.default_rng(5)
     steps = np.arange(size, dtype=np.float64)
     x, y = np.meshgrid(steps, steps)
@@ -63,9 +66,7 @@ def eye_picture(size: int = 512) -> Picture:
     picture: Picture = np.ones((size, size, 3)) * [0.96, 0.955, 0.95]
     picture *= 1 - 0.18 * np.clip(r - 0.55, 0, 1)[..., None] * np.array([0.6, 1, 1])
     t = np.clip((r - pupil) / (iris - pupil), 0, 1)
-    brown: Picture = (
-        np.array([0.17, 0.09, 0.05]) * (1 - t)[..., None] + np.array([0.40, 0.24, 0.13]) * t[..., None]
-    )
+    brown: Picture = np.array(inner) * (1 - t)[..., None] + np.array(outer) * t[..., None]
     brown *= (0.75 + 0.5 * spokes[..., None]) * (1.15 - 0.55 * np.clip((half - y) / (size * 0.23), -1, 1))[
         ..., None
     ]

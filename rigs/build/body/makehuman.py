@@ -83,21 +83,21 @@ class BaseMesh:
         indices, offsets = read_target(self.data / "targets" / f"{name}.target.gz")
         self.vertices[indices] += weight * offsets
 
-    def apply_macro(self, races: Mapping[str, float], shape: Mapping[str, float]) -> None:
-        """Apply a young woman's macro targets.
+    def apply_macro(self, sex: str, races: Mapping[str, float], shape: Mapping[str, float]) -> None:
+        """Apply a young person's macro targets.
 
-        `shape` holds muscle, weight, height, proportions, cup, firmness in 0…1.
+        `shape` holds muscle, weight, height, proportions, and of a woman cup and firmness, in 0…1.
         """
         muscle = _thirds(shape["muscle"], "minmuscle", "averagemuscle", "maxmuscle")
         weight = _thirds(shape["weight"], "minweight", "averageweight", "maxweight")
         height = _thirds(shape["height"], "minheight", "", "maxheight")
         proportions = _thirds(shape["proportions"], "uncommonproportions", "", "idealproportions")
-        cup = _thirds(shape["cup"], "mincup", "averagecup", "maxcup")
-        firmness = _thirds(shape["firmness"], "minfirmness", "averagefirmness", "maxfirmness")
+        cup = _thirds(shape.get("cup", 0.5), "mincup", "averagecup", "maxcup")
+        firmness = _thirds(shape.get("firmness", 0.5), "minfirmness", "averagefirmness", "maxfirmness")
         for race, share in races.items():
-            self.apply(f"macrodetails/{race}-female-young", share)
+            self.apply(f"macrodetails/{race}-{sex}-young", share)
         for (m, m_share), (w, w_share) in itertools.product(muscle.items(), weight.items()):
-            build, share = f"female-young-{m}-{w}", m_share * w_share
+            build, share = f"{sex}-young-{m}-{w}", m_share * w_share
             self.apply(f"macrodetails/universal-{build}", share)
             for name, part in height.items():
                 if name:

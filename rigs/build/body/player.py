@@ -1,4 +1,4 @@
-"""The trumpeter as a rig: models of three tiers and rig.json."""
+"""A player as a rig: models of three tiers and rig.json."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from body.contacts import capsules, contacts
 from body.eyes import eyes
 from body.figure import MORPHS, Figure, shape_figure
-from body.images import hair_picture, jpeg
+from body.images import eye_picture, hair_picture, jpeg
 from body.limits import chains, joint_limits, twists
 from body.skeleton import Skeleton, build_skeleton
 from body.skin import bare_skin, lashes, lip_centre, paint_skin, texel_positions
@@ -19,7 +19,9 @@ from body.skinning import skin_weights
 from common.export import write_skinned
 from common.parts import Part, Surface
 from common.rig_file import write_json
+from dress.cropped_hair import cropped
 from dress.hair import bob
+from dress.suit import suit_parts
 from dress.tailor import Tailor
 from dress.trimmings import trimming_parts
 from dress.uniform import blazer, coat, uniform_parts
@@ -27,9 +29,11 @@ from dress.uniform import blazer, coat, uniform_parts
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from body.figure_file import FigureFile
+
 Array = NDArray[np.float64]
 
-NAME = "trumpeter"
+HAIR = {"bob": bob, "cropped": cropped}
 MORPH_PARAMETERS = {
     "face/blink_left": "eyeBlinkLeft",
     "face/blink_right": "eyeBlinkRight",
@@ -62,56 +66,65 @@ TIERS = {
 }
 
 
-def build_player(data: Path, raw: Path, rig_folder: Path) -> None:
-    """Write `trumpeter.<tier>.glb`, not yet compressed, into `raw`, and rig.json into `rig_folder`."""
-    figure = shape_figure(data)
+def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> None:
+    """Write `<name>.<tier>.glb`, not yet compressed, into `raw`, and rig.json into `rig_folder`."""
+    figure = shape_figure(data, file)
     skeleton = build_skeleton(figure)
     weights = skin_weights(figure, skeleton)
     positions, covered = texel_positions(figure)
     mouth = lip_centre(figure, positions, covered)
-    skin = bare_skin(figure, skeleton, weights, paint_skin(figure, skeleton, positions, covered))
+    skin = bare_skin(figure, skeleton, weights, paint_skin(file, figure, skeleton, positions, covered))
     tailor = Tailor.measure(figure, skeleton, weights)
-    hair = Surface("hair", 0.60, image=jpeg(hair_picture(), 92), both_sides=True)
+    hair = Surface("hair", 0.60, image=jpeg(hair_picture(file.hair_tint), 92), both_sides=True)
+    iris = eye_picture(file.iris_inner, file.iris_outer)
+    formal = file.outfit == "suit"
     for name, tier in TIERS.items():
         cloth = coat(tailor, tier.subdivisions)
         outer = blazer(tailor, cloth)
-        locks, hair_normals = bob(tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
+        locks, hair_normals = HAIR[file.hair](tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
+        clothes = (
+            suit_parts(tailor, tier.subdivisions, outer, file.colours)
+            if formal
+            else uniform_parts(tailor, tier.subdivisions, tier.skirt_grid, outer, file.colours)
+        )
         parts = [
             skin,
-            lashes(figure, weights),
-            eyes(figure, skeleton, *tier.eye_grid),
-            *uniform_parts(tailor, tier.subdivisions, tier.skirt_grid, outer),
-            *trimming_parts(tailor, cloth, outer, tier.collar_detail),
+            lashes(figure, weights, file.lash_length),
+            eyes(figure, skeleton, iris, *tier.eye_grid),
+            *clothes,
+            *trimming_parts(tailor, cloth, outer, tier.collar_detail, file.colours, formal=formal),
             Part("Hair", locks, hair, hair_normals),
         ]
-        write_skinned(raw / f"{NAME}.{name}.glb", NAME, skeleton, parts)
-    write_json(rig_folder / "rig.json", rig_content(figure, skeleton, weights, mouth))
+        write_skinned(raw / f"{file.name}.{name}.glb", file.name, skeleton, parts)
+    write_json(rig_folder / "rig.json", rig_content(file.name, figure, skeleton, weights, mouth))
 
 
-def rig_content(figure: Figure, skeleton: Skeleton, weights: Array, mouth: Array) -> dict[str, Any]:
+def rig_content(
+    name: str, figure: Figure, skeleton: Skeleton, weights: Array, mouth: Array
+) -> dict[str, Any]:
     """What rig.json says of the player."""
     limits = joint_limits(skeleton)
     joints: list[dict[str, Any]] = []
-    for name, parent in skeleton.parents.items():
-        translation, rotation = skeleton.local(name)
+    for joint_name, parent in skeleton.parents.items():
+        translation, rotation = skeleton.local(joint_name)
         joint = {
-            "name": name,
+            "name": joint_name,
             "parent": parent,
             "translation": translation.tolist(),
             "rotation": rotation.tolist(),
-            "node": name,
+            "node": joint_name,
         }
-        if name in limits:
-            joint["limits"] = limits[name]
+        if joint_name in limits:
+            joint["limits"] = limits[joint_name]
         joints.append(joint)
     return {
-        "name": NAME,
+        "name": name,
         "licence": "CC0-1.0",
         "models": {tier: f"{tier}.glb" for tier in TIERS},
         "joints": joints,
         "effectors": [
-            {"name": name, "joint": joint, "offset": skeleton.to_local(joint, point).tolist()}
-            for name, (joint, point) in skeleton.effectors.items()
+            {"name": effector, "joint": joint, "offset": skeleton.to_local(joint, point).tolist()}
+            for effector, (joint, point) in skeleton.effectors.items()
         ],
         "contacts": contacts(figure, skeleton, mouth),
         "capsules": capsules(figure, skeleton, weights),

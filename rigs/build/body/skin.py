@@ -19,15 +19,13 @@ from common.parts import Part, Surface
 
 if TYPE_CHECKING:
     from body.figure import Figure
+    from body.figure_file import FigureFile
     from body.makehuman import Face
     from body.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
 SIZE = 1024
-LASH_LENGTH = 0.55  # of the source's
-SKIN = (0.93, 0.745, 0.645)
-BROW = (0.24, 0.16, 0.135)
 
 
 def texel_positions(figure: Figure) -> tuple[Array, NDArray[np.bool_]]:
@@ -72,10 +70,12 @@ def lip_centre(figure: Figure, positions: Array, covered: NDArray[np.bool_]) -> 
     return centre
 
 
-def paint_skin(figure: Figure, skeleton: Skeleton, positions: Array, covered: NDArray[np.bool_]) -> Picture:
+def paint_skin(
+    file: FigureFile, figure: Figure, skeleton: Skeleton, positions: Array, covered: NDArray[np.bool_]
+) -> Picture:
     """Base tone, warmth at cheeks, nose, ears, lips, knuckles and nails, and the brows."""
     rng = np.random.default_rng(7)
-    picture: Picture = np.tile(np.array(SKIN, np.float32), (SIZE, SIZE, 1))
+    picture: Picture = np.tile(np.array(file.skin, np.float32), (SIZE, SIZE, 1))
     noise = blurred(rng.random((SIZE, SIZE)), 3)
     noise = (noise - noise.mean()) / noise.std()
     broad = blurred(rng.random((SIZE, SIZE)), 22)
@@ -107,7 +107,7 @@ def paint_skin(figure: Figure, skeleton: Skeleton, positions: Array, covered: ND
         if any(part in name for part in ("Index", "Middle", "Ring", "Little", "Thumb")):
             picture = mixed(picture, (0.90, 0.62, 0.55), 0.20 * spot(skeleton.positions[name], [0.007] * 3))
     for sign, eye in eyes.items():
-        picture = mixed(picture, BROW, 0.95 * _brow(positions, covered, eye, sign))
+        picture = mixed(picture, file.brow, 0.95 * _brow(positions, covered, eye, sign))
     return picture
 
 
@@ -167,14 +167,14 @@ def _split_at_seams(faces: list[Face]) -> tuple[list[int], list[int], NDArray[np
     return [a for a, _ in pairs], [b for _, b in pairs], np.array(triangles)
 
 
-def lashes(figure: Figure, weights: Array) -> Part:
-    """The lashes, which follow the lids' morphs."""
+def lashes(figure: Figure, weights: Array, length: float) -> Part:
+    """The lashes, which follow the lids' morphs; `length` is a share of the source's."""
     groups = ["helper-l-eyelashes-2", "helper-r-eyelashes-2"]
     faces = figure.mesh.triangles(groups)
     used = np.unique(faces)
     mesh = Mesh(figure.vertices, weights, faces).compact()
     lids = figure.body[cKDTree(figure.body).query(mesh.vertices)[1]]
-    mesh.vertices = lids + LASH_LENGTH * (mesh.vertices - lids)
+    mesh.vertices = lids + length * (mesh.vertices - lids)
     surface = Surface("lashes", 0.9, colour=(0.13, 0.085, 0.075), both_sides=True)
     return Part(
         "Lashes", mesh, surface, None, {name: offsets[used] for name, offsets in figure.morphs.items()}

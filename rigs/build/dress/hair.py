@@ -23,6 +23,15 @@ STRANDS_V = 0.96  # below it the hair's picture is dark
 TEMPLE_RAD = 0.86  # where the hair that hangs begins, from the front
 PARTING_RAD = 0.36  # on her left
 FRINGE_LOCKS = 10
+HAIRLINE = (
+    (0, 0.060),
+    (0.6, 0.055),
+    (1.0, 0.030),
+    (1.35, 0.010),
+    (1.75, -0.010),
+    (2.3, -0.06),
+    (3.2, -0.075),
+)
 STRAY_RAD = (-0.70, -0.33, 0.02, 0.66)  # a few fine strands over the fringe
 
 
@@ -206,19 +215,23 @@ def _temple_locks() -> list[Lock]:
     return locks
 
 
-def _cap(tailor: Tailor, scalp: Scalp) -> Mesh:
-    """The scalp under the locks, cut at the hairline and clear of the ears."""
+def scalp_cap(
+    tailor: Tailor, scalp: Scalp, hairline: tuple[tuple[float, float], ...], thickness_m: float
+) -> Mesh:
+    """The scalp under the locks, cut at the hairline and clear of the ears.
+
+    `hairline`: turns from the front and the edge's heights over the eyes, metres.
+    """
     figure: Figure = tailor.figure
     faces = figure.mesh.triangles(["body"])
     on_head = tailor.weights[:, tailor.column("head")] > 0.5
     mesh = Mesh(figure.vertices, tailor.weights, faces).where(on_head)
     v = mesh.vertices
     azimuth = np.arctan2(v[:, 0], v[:, 2] - scalp.centre[2])
-    turn = [0, 0.6, 1.0, 1.35, 1.75, 2.3, 3.2]
-    line = scalp.eye_y + np.interp(np.abs(azimuth), turn, [0.060, 0.055, 0.030, 0.010, -0.010, -0.06, -0.075])
+    line = scalp.eye_y + np.interp(np.abs(azimuth), [a for a, _ in hairline], [h for _, h in hairline])
     head_x = np.abs(figure.body[on_head[: len(figure.body)], 0])
     ear = (np.abs(azimuth) > 1.2) & (np.abs(azimuth) < 2.0) & (np.abs(v[:, 0]) > np.percentile(head_x, 96))
-    mesh.vertices = v + normals(v, mesh.faces) * 0.006
+    mesh.vertices = v + normals(v, mesh.faces) * thickness_m
     mesh = mesh.clipped(np.where(ear, -1, mesh.vertices[:, 1] - line))
     mesh.uv = np.c_[
         np.arctan2(mesh.vertices[:, 0], mesh.vertices[:, 2]) * 0.8, np.full(len(mesh.vertices), 0.3)
@@ -237,17 +250,21 @@ def bob(tailor: Tailor, steps: int, sides: int, share: float) -> tuple[Mesh, Arr
     locks = _locks_over_curtain(rng, share) + _fringe(rng, share) + _temple_locks()
     columns = 2 * round(48 * share) + 1
     curtain = _curtain(tailor, scalp, steps, columns)
-    meshes = [_cap(tailor, scalp), curtain, _fringe_sheet(tailor, scalp, steps, round(56 * share))]
+    meshes = [
+        scalp_cap(tailor, scalp, HAIRLINE, 0.006),
+        curtain,
+        _fringe_sheet(tailor, scalp, steps, round(56 * share)),
+    ]
     for lock in locks:
         vertices, faces, uv = lock.mesh(scalp, steps, sides)
         meshes.append(Mesh(vertices, tailor.rigid(len(vertices), head=1), faces, uv))
-    hair = _outside(joined(meshes), scalp)
+    hair = facing_outward(joined(meshes), scalp)
     lining = _lining(curtain, scalp, steps, columns)
     both = joined([hair, lining])
-    return both, np.vstack([_soft_normals(hair, scalp), normals(lining.vertices, lining.faces)])
+    return both, np.vstack([soft_normals(hair, scalp), normals(lining.vertices, lining.faces)])
 
 
-def _outside(hair: Mesh, scalp: Scalp) -> Mesh:
+def facing_outward(hair: Mesh, scalp: Scalp) -> Mesh:
     """Drop the faces that look at the head: locks hide them, and they would be lit wrongly."""
     a, b, c = (hair.vertices[hair.faces[:, k]] for k in range(3))
     facing = np.cross(b - a, c - a)
@@ -258,7 +275,7 @@ def _outside(hair: Mesh, scalp: Scalp) -> Mesh:
     return replace(hair, faces=hair.faces[product > -0.3 * lengths]).compact()
 
 
-def _soft_normals(hair: Mesh, scalp: Scalp) -> Array:
+def soft_normals(hair: Mesh, scalp: Scalp) -> Array:
     """Each strand's own normals leaned toward the head's roundness, so that the hair is lit as one body."""
     outward = hair.vertices - scalp.centre
     outward[:, 1] *= 0.6  # below the ears the hair hangs like a curtain

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
@@ -11,14 +13,18 @@ from common.parts import Part, Surface
 from common.shapes import grid_faces, tube
 from dress.collars import blazer_collar, lapels, shirt_collar
 from dress.tailor import Tailor, borrowed_weights
-from dress.uniform import SHIRT, top_button_y
+from dress.uniform import shirt_surface, top_button_y
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from body.figure_file import Colour
+
+    Colours = Mapping[str, Colour]
 
 Array = NDArray[np.float64]
 
-LAPEL = Surface("lapel", 0.75, colour=(0.13, 0.155, 0.27), both_sides=True)
-BRASS = Surface("button", 0.3, 1.0, colour=(0.85, 0.68, 0.32))
 BOW_Z_M = 0.103  # depth of the bow's knot
-RIBBON = Surface("ribbon", 0.6, colour=(0.62, 0.10, 0.14), both_sides=True)
 
 
 def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
@@ -50,8 +56,8 @@ def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
     return joined(discs)
 
 
-def bow(tailor: Tailor) -> Mesh:
-    """A ribbon bow at the collar: two loops, two tails, a knot."""
+def bow(tailor: Tailor, *, tails: bool) -> Mesh:
+    """A bow at the collar: two loops, a knot, and of a ribbon two tails."""
     knot = np.array([0.0, tailor.neck_y - 0.036, BOW_Z_M])
     t = np.linspace(0, 1, 9)
     pieces: list[Mesh] = []
@@ -60,10 +66,8 @@ def bow(tailor: Tailor) -> Mesh:
         loop = np.c_[sign * 0.048 * t, 0.004 * swell, 0.006 * swell - 0.012 * t * t]
         loop_width = 0.005 + 0.016 * np.sin(np.minimum(t * 1.15, 1) * np.pi / 2)
         tail = np.c_[sign * (0.006 + 0.020 * t), -0.075 * t, 0.002 - 0.004 * t]
-        for path, width, across in (
-            (loop, loop_width, [0, 1, 0]),
-            (tail, 0.005 + 0.009 * t, [1, 0.25 * sign, 0]),
-        ):
+        strips = [(loop, loop_width, [0, 1, 0]), (tail, 0.005 + 0.009 * t, [1, 0.25 * sign, 0])]
+        for path, width, across in strips if tails else strips[:1]:
             rows = [
                 knot + path + np.outer(width * k, across) + [0, 0, 0.004 * (1 - abs(k))] for k in (-1, 0, 1)
             ]
@@ -75,19 +79,29 @@ def bow(tailor: Tailor) -> Mesh:
     return joined(pieces)
 
 
-def trimming_parts(tailor: Tailor, cloth: Mesh, outer: Mesh, detail: float) -> list[Part]:
-    """All trimmings, made for the blazer `outer`, which is cut from the coat `cloth`.
+def trimming_parts(
+    tailor: Tailor, cloth: Mesh, outer: Mesh, detail: float, colours: Colours, *, formal: bool
+) -> list[Part]:
+    """All trimmings, made for the coat `outer`, which is cut from `cloth`.
 
-    `detail` is the part of their rows that a lower tier keeps.
+    `detail` is the part of their rows that a lower tier keeps; `formal` has a bow tie for a ribbon and
+    covered buttons for brass ones.
     """
     thick = 1 + 1.1 * (1 - detail)  # a coarser coat comes nearer to them
     turned_over = [
         lapels(tailor, cloth, round(40 * detail), thick),
         blazer_collar(tailor, cloth, round(60 * detail) + 1),
     ]
+    button = Surface("button", 0.3, 0.0 if formal else 1.0, colour=colours["button"])
+    lapel = Surface("lapel", 0.42 if formal else 0.75, colour=colours["lapel"], both_sides=True)
+    name = "tie" if formal else "ribbon"
     return [
-        Part("Lapels", joined(turned_over), LAPEL),
-        Part("Buttons", buttons(tailor, outer), BRASS),
-        Part("Collar", shirt_collar(tailor, round(72 * detail)), SHIRT),
-        Part("Ribbon", bow(tailor), RIBBON),
+        Part("Lapels", joined(turned_over), lapel),
+        Part("Buttons", buttons(tailor, outer), button),
+        Part("Collar", shirt_collar(tailor, round(72 * detail)), shirt_surface(colours)),
+        Part(
+            name.capitalize(),
+            bow(tailor, tails=not formal),
+            Surface(name, 0.6, colour=colours["bow"], both_sides=True),
+        ),
     ]

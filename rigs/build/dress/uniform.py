@@ -15,15 +15,14 @@ from common.shapes import grid_faces
 from dress.sleeves import creased, cuffs, fitted, softened
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from body.figure_file import Colour
     from dress.tailor import Tailor
 
-Array = NDArray[np.float64]
+    Colours = Mapping[str, Colour]
 
-BLAZER = Surface("blazer", 0.82, colour=(0.16, 0.19, 0.32), both_sides=True)
-SHIRT = Surface("shirt", 0.75, colour=(0.95, 0.95, 0.96), both_sides=True)
-SKIRT = Surface("skirt", 0.85, colour=(0.20, 0.215, 0.27), both_sides=True)
-TIGHTS = Surface("tights", 0.55, colour=(0.085, 0.085, 0.10))
-SHOES = Surface("shoes", 0.28, colour=(0.13, 0.075, 0.055), both_sides=True)
+Array = NDArray[np.float64]
 
 NECKLINE_M = 0.066  # radius of the blazer's neck
 NECKLINE_HEIGHT_M = ((0.0, -0.060), (0.9, -0.045), (1.25, -0.012), (1.6, 0.003), (2.2, 0.006), (np.pi, 0.001))
@@ -181,12 +180,35 @@ def shoes(tailor: Tailor, subdivisions: int) -> Mesh:
     return mesh
 
 
-def uniform_parts(tailor: Tailor, subdivisions: int, skirt_grid: tuple[int, int], outer: Mesh) -> list[Part]:
+def shirt_surface(colours: Colours) -> Surface:
+    """The shirt's cotton."""
+    return Surface("shirt", 0.75, colour=colours["shirt"], both_sides=True)
+
+
+def shirt_part(tailor: Tailor, subdivisions: int, colours: Colours) -> Part:
+    """What shows of the shirt, with its cuffs."""
+    cloth = joined([shirt(tailor, subdivisions), cuffs(tailor, 20 + 12 * subdivisions)])
+    return Part("Shirt", cloth, shirt_surface(colours))
+
+
+def shoes_part(tailor: Tailor, subdivisions: int, colours: Colours) -> Part:
+    """The shoes."""
+    surface = Surface("shoes", 0.28, colour=colours["shoes"], both_sides=True)
+    return Part("Shoes", shoes(tailor, subdivisions), surface)
+
+
+def uniform_parts(
+    tailor: Tailor, subdivisions: int, skirt_grid: tuple[int, int], outer: Mesh, colours: Colours
+) -> list[Part]:
     """All cloth but the trimmings; `outer` is the blazer, cut beforehand because trimmings lie on it."""
     return [
-        Part("Shirt", joined([shirt(tailor, subdivisions), cuffs(tailor, 20 + 12 * subdivisions)]), SHIRT),
-        Part("Blazer", outer, BLAZER),
-        Part("Skirt", skirt(tailor, *skirt_grid), SKIRT),
-        Part("Tights", tights(tailor, subdivisions), TIGHTS),
-        Part("Shoes", shoes(tailor, subdivisions), SHOES),
+        shirt_part(tailor, subdivisions, colours),
+        Part("Blazer", outer, Surface("blazer", 0.82, colour=colours["coat"], both_sides=True)),
+        Part(
+            "Skirt",
+            skirt(tailor, *skirt_grid),
+            Surface("skirt", 0.85, colour=colours["legs"], both_sides=True),
+        ),
+        Part("Tights", tights(tailor, subdivisions), Surface("tights", 0.55, colour=colours["tights"])),
+        shoes_part(tailor, subdivisions, colours),
     ]

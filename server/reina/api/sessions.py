@@ -71,6 +71,11 @@ _FORM: dict[str, Any] = {
                             "description": "which sequence of a MIDI file of format 2; "
                             "the first when left out",
                         },
+                        "player": {
+                            "type": "string",
+                            "default": "trumpeter",
+                            "description": "who plays: a rig that holds the instrument",
+                        },
                     },
                 }
             }
@@ -123,6 +128,7 @@ def _draft(folder: Path, upload: Upload) -> Draft:
         written=fields.written,
         octave_fit=fields.octave_fit,
         sequence=fields.sequence,
+        player=fields.player,
     )
 
 

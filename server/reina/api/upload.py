@@ -28,6 +28,7 @@ FIELD_LIMITS = {
     "written": 5,
     "octave_fit": 5,
     "sequence": 10,
+    "player": 200,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS
 READ_ON = 32 * MEGABYTE

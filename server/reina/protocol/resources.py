@@ -10,6 +10,7 @@ from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
 
 Title = Annotated[str, Field(min_length=1, max_length=200)]
+PlayerName = Annotated[str, Field(min_length=1, max_length=200)]
 
 
 class Fault(WireModel):
@@ -92,6 +93,10 @@ class Session(WireModel):
     """Whether the part is taken as notated for the instrument: a B♭ trumpet then sounds a tone lower."""
     octave_fit: bool
     """Whether the part is moved by the octaves that bring most of its notes into range."""
+    player: str
+    """Who plays: a rig with a hold on the instrument."""
+    players: list[str]
+    """Who could."""
     sounding_transposition: int
     """Semitones by which the part is played away from the file's pitches: all three together."""
     sequence: int
@@ -142,6 +147,7 @@ class SessionChange(WireModel):
     written: bool | None = None
     octave_fit: bool | None = None
     sequence: Annotated[int, Field(ge=0)] | None = None
+    player: PlayerName | None = None
 
 
 class SessionFields(WireModel):
@@ -154,6 +160,7 @@ class SessionFields(WireModel):
     written: bool = False
     octave_fit: bool = False
     sequence: Annotated[int, Field(ge=0)] | None = None
+    player: PlayerName = "trumpeter"
 
 
 class Tempo(WireModel):

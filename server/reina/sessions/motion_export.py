@@ -41,7 +41,8 @@ class BvhExport:
         stage = production.stage
         self._performance = production.performance
         self._index = names.index(skeleton)
-        self._skeleton = (stage.player_rig, stage.instrument_rig)[self._index].skeleton
+        player_rig = stage.player(production.player).rig
+        self._skeleton = (player_rig, stage.instrument_rig)[self._index].skeleton
         start = sum(len(layout.joints) for layout in layouts[: self._index])
         self._joints = slice(start, start + len(layouts[self._index].joints))
         self._first, self._end = first, end

@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from reina.errors import InputError
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import ParameterRegistry, Show, ShowError, ShowPlan, stage_registry, write_default_show
 from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
@@ -14,37 +15,61 @@ from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.skeleton import Hold, Rig, load_hold, load_rig
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     from reina.instruments import Instrument, PartRanking, PlayedPart
     from reina.music import Score
 
-PLAYER_RIG = "trumpeter"
+PLAYER = "trumpeter"
+"""Who plays where nobody chose."""
+
 INSTRUMENT = "trumpet"
-"""Whom every session has on its stage."""
+"""On what."""
+
+
+class UnknownPlayerError(InputError):
+    """A player was asked for that no rig is."""
+
+
+@dataclass(frozen=True)
+class Player:
+    """Somebody who can play: their rig, and how they hold the instrument."""
+
+    rig: Rig
+    hold: Hold
 
 
 @dataclass(frozen=True)
 class Stage:
-    """What all sessions share: the player, the instrument and the parameters of the show.
+    """What all sessions share: the players, the instrument and the parameters of the show.
 
     Attributes:
         instrument: How it is played.
-        player_rig: Who plays.
+        players: Who can play it, by name.
         instrument_rig: On what.
-        hold: How it is held.
         registry: Everything that a show can move.
     """
 
     instrument: Instrument
-    player_rig: Rig
+    players: Mapping[str, Player]
     instrument_rig: Rig
-    hold: Hold
     registry: ParameterRegistry
+
+    def player(self, name: str) -> Player:
+        """A player.
+
+        Raises:
+            UnknownPlayerError: There is none of that name.
+        """
+        if name not in self.players:
+            known = ", ".join(self.players)
+            raise UnknownPlayerError(f"there is no player {name!r}; there are {known}", where="player")
+        return self.players[name]
 
     @classmethod
     def load(cls, rigs_dir: Path) -> Stage:
-        """Read the rigs.
+        """Read the rigs; whoever has a hold on the instrument can play it.
 
         Args:
             rigs_dir: One folder a rig.
@@ -55,9 +80,14 @@ class Stage:
         instrument = INSTRUMENTS[INSTRUMENT]
         return cls(
             instrument=instrument,
-            player_rig=load_rig(rigs_dir / PLAYER_RIG),
+            players={
+                folder.name: Player(load_rig(folder), load_hold(folder, instrument.rig))
+                for folder in sorted(
+                    rigs_dir.iterdir(), key=lambda folder: (folder.name != PLAYER, folder.name)
+                )
+                if (folder / "holds" / f"{instrument.rig}.json").is_file()
+            },
             instrument_rig=load_rig(rigs_dir / instrument.rig),
-            hold=load_hold(rigs_dir / PLAYER_RIG, instrument.rig),
             registry=stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS]),
         )
 
@@ -81,6 +111,7 @@ class Production:
 
     Attributes:
         stage: What it is played on.
+        player: Name of who plays.
         score: What is played.
         ranking: The parts that suit the instrument, best first.
         part: The part that the player plays.
@@ -95,6 +126,7 @@ class Production:
     """
 
     stage: Stage
+    player: str
     score: Score
     ranking: tuple[PartRanking, ...]
     part: int
@@ -114,6 +146,7 @@ class Production:
         score: Score,
         show: Show | None = None,
         *,
+        player: str = PLAYER,
         part: int | None = None,
         transposition: int = 0,
         written: bool = False,
@@ -125,6 +158,7 @@ class Production:
             stage: Who plays on what.
             score: What is played.
             show: The show around it; when None, one is written from the form of the music.
+            player: Name of who plays.
             part: The part that the player plays; the one that suits the instrument best when None.
             transposition: Semitones by which it is moved.
             written: Whether it is notated for the instrument and sounds as the instrument transposes.
@@ -132,7 +166,9 @@ class Production:
 
         Raises:
             NotInScoreError: The score has no such part.
+            UnknownPlayerError: There is no such player.
         """
+        who = stage.player(player)
         ranking = stage.instrument.rank_parts(score)
         played = stage.instrument.play(
             score,
@@ -144,9 +180,10 @@ class Production:
         if show is None:
             show = _show_for(score, played)
         show_plan = show.plan(stage.registry, time_map(score), triggers=triggers(score, played))
-        performance = _performance(stage, score, played, show_plan)
+        performance = _performance(stage, who, score, played, show_plan)
         return cls(
             stage=stage,
+            player=player,
             score=score,
             ranking=ranking,
             part=played.part,
@@ -182,7 +219,8 @@ class Production:
         plan = self.show.plan(
             self.stage.registry, self.show_plan.time_map, triggers=self.show_plan.triggers, fps=fps
         )
-        performance = _performance(self.stage, self.score, self.played, plan, fps=fps)
+        who = self.stage.player(self.player)
+        performance = _performance(self.stage, who, self.score, self.played, plan, fps=fps)
         return replace(
             self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)
         )
@@ -193,15 +231,15 @@ def _show_for(score: Score, played: PlayedPart) -> Show:
 
 
 def _performance(
-    stage: Stage, score: Score, played: PlayedPart, show_plan: ShowPlan, *, fps: int = 60
+    stage: Stage, player: Player, score: Score, played: PlayedPart, show_plan: ShowPlan, *, fps: int = 60
 ) -> Performance:
     return Performance(
         score=score,
         played=played,
         instrument=stage.instrument,
-        player_rig=stage.player_rig,
+        player_rig=player.rig,
         instrument_rig=stage.instrument_rig,
-        hold=stage.hold,
+        hold=player.hold,
         show_plan=show_plan,
         registry=stage.registry,
         fps=fps,

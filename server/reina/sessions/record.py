@@ -11,6 +11,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from reina.sessions.production import PLAYER
+
 SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
 """128 random bits, base64url."""
 
@@ -40,6 +42,8 @@ class SessionRecord(BaseModel):
     transposition: int
     written: bool = False
     """Whether the part is notated for the instrument."""
+    player: str = PLAYER
+    """Who plays."""
     octave_fit: bool = False
     """Whether the part is moved into range by octaves."""
     sequence: int | None = None

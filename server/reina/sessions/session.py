@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     from reina.sessions.viewer import Viewer
 
 
+DECIDES_THE_SOUND = ("sequence", "part", "transposition", "written", "octave_fit")
+"""Fields of a record; who plays is not heard."""
+
+
 class Session:
     """One session that is loaded.
 
@@ -126,6 +130,8 @@ class Session:
             transposition=self.record.transposition,
             written=self.record.written,
             octave_fit=self.record.octave_fit,
+            player=self.record.player,
+            players=list(self.production.stage.players),
             sounding_transposition=played.transposition,
             sequence=score.sequence,
             sequences=score.sequences,
@@ -198,17 +204,24 @@ class Session:
     def change_part(self, record: SessionRecord, production: Production) -> None:
         """Let the player play another part, or the same elsewhere; a song that was rendered is made anew.
 
-        Another sequence is another piece: it begins at its beginning.
+        Another sequence is another piece: it begins at its beginning. Of another player `hello` tells again
+        what the frames hold.
         """
         another_piece = production.score.sequence != self.production.score.sequence
+        another_player = production.player != self.production.player
+        another_sound = another_piece or any(
+            getattr(record, field) != getattr(self.record, field) for field in DECIDES_THE_SOUND
+        )
         self.record = record
         self.production = production
         if another_piece:
             self.clock.set_loop(None)
             self.clock.seek(0.0)
             self.clock.set_duration(self._duration_s())
+        if another_player:
+            self.audience.announce(self.hello())
         self._replace(production, notes=_note_messages(production))
-        if record.song is None:
+        if record.song is None and another_sound:
             self.renew_song()
         self.audience.announce(
             ScoreChanged(

@@ -14,7 +14,7 @@ from reina.errors import InputError
 from reina.music import read_score
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
 from reina.sessions.kept_show import KeptShow
-from reina.sessions.production import Production, read_show
+from reina.sessions.production import PLAYER, Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import Session
 from reina.sessions.song import RenderedSong, Song, UploadedSong
@@ -37,7 +37,7 @@ LOADED = 32
 away."""
 
 
-DECIDES_WHAT_IS_PLAYED = ("sequence", "part", "transposition", "written", "octave_fit")
+DECIDES_WHAT_IS_PLAYED = ("sequence", "part", "transposition", "written", "octave_fit", "player")
 """Fields of a record."""
 
 _log = logging.getLogger(__name__)
@@ -64,6 +64,7 @@ class Draft:
         written: Whether it is notated for the instrument.
         octave_fit: Whether it is moved into range by octaves.
         sequence: Which of the score's sequences; the first when None.
+        player: Name of who plays.
     """
 
     folder: Path
@@ -78,6 +79,7 @@ class Draft:
     written: bool = False
     octave_fit: bool = False
     sequence: int | None = None
+    player: str = PLAYER
 
 
 class SessionStore:
@@ -170,6 +172,7 @@ class SessionStore:
         written: bool | None = None,
         octave_fit: bool | None = None,
         sequence: int | None = None,
+        player: str | None = None,
     ) -> None:
         """Rename a session, list it or not, or let the player play something else; None leaves as it is.
 
@@ -177,7 +180,7 @@ class SessionStore:
         show that are still those of the sequence before give way to its own.
 
         Raises:
-            InputError: There is no such part or sequence; nothing is changed then.
+            InputError: There is no such part, sequence or player; nothing is changed then.
         """
         asked = {
             "title": title,
@@ -187,6 +190,7 @@ class SessionStore:
             "written": written,
             "octave_fit": octave_fit,
             "sequence": sequence,
+            "player": player,
         }
         changes = {field: value for field, value in asked.items() if value is not None}
         async with self._edit(session):
@@ -284,6 +288,7 @@ class SessionStore:
             written=production.written,
             octave_fit=production.octave_fit,
             sequence=draft.sequence,
+            player=production.player,
             score_filename=draft.score_filename,
             song=song,
         )
@@ -333,6 +338,7 @@ class SessionStore:
             transposition=wanted.transposition,
             written=wanted.written,
             octave_fit=wanted.octave_fit,
+            player=wanted.player,
         )
 
     def _plan_other(

@@ -52,11 +52,14 @@ class Held:
         return point
 
 
+PLAYERS = tuple(sorted(path.parents[1].name for path in RIGS.glob("*/holds/trumpet.json")))
+
+
 @cache
-def held() -> Held:
-    player = json.loads((RIGS / "trumpeter" / "rig.json").read_text(encoding="utf-8"))
+def held_by(name: str) -> Held:
+    player = json.loads((RIGS / name / "rig.json").read_text(encoding="utf-8"))
     trumpet = json.loads((RIGS / "trumpet" / "rig.json").read_text(encoding="utf-8"))
-    hold = json.loads((RIGS / "trumpeter" / "holds" / "trumpet.json").read_text(encoding="utf-8"))
+    hold = json.loads((RIGS / name / "holds" / "trumpet.json").read_text(encoding="utf-8"))
     world: dict[str, tuple[Array, Array]] = {}
     for joint in player["joints"]:
         local = matrix(hold["pose"][joint["name"]])
@@ -68,8 +71,14 @@ def held() -> Held:
     return Held(player, trumpet, hold, world)
 
 
-def test_pose_names_every_joint_with_a_unit_quaternion_on_the_rest_poses_side() -> None:
-    h = held()
+@pytest.fixture(params=PLAYERS)
+def held(request: pytest.FixtureRequest) -> Held:
+    """Every player who can hold the trumpet."""
+    return held_by(request.param)
+
+
+def test_pose_names_every_joint_with_a_unit_quaternion_on_the_rest_poses_side(held: Held) -> None:
+    h = held
     assert set(h.hold["pose"]) == {joint["name"] for joint in h.player["joints"]}
     for joint in h.player["joints"]:
         quaternion = np.array(h.hold["pose"][joint["name"]])
@@ -77,31 +86,31 @@ def test_pose_names_every_joint_with_a_unit_quaternion_on_the_rest_poses_side() 
         assert quaternion @ joint["rotation"] >= 0
 
 
-def test_mouthpiece_is_at_the_lips() -> None:
-    h = held()
+def test_mouthpiece_is_at_the_lips(held: Held) -> None:
+    h = held
     lips = item(h.player["contacts"], "lips")
     rim = item(h.trumpet["contacts"], "mouthpiece")["offset"]
     assert np.linalg.norm(h.in_trumpet(lips["joint"], lips["offset"]) - rim) < 0.0002
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_feet_stand_flat_on_the_floor(side: str) -> None:
-    h = held()
+def test_feet_stand_flat_on_the_floor(held: Held, side: str) -> None:
+    h = held
     sole = item(h.player["contacts"], f"{side}Sole")
     rotation, place = h.world[sole["joint"]]
     assert (place + rotation @ np.array(sole["offset"]))[1] == pytest.approx(0, abs=0.001)
     assert rotation[1, 1] == pytest.approx(1, abs=1e-6)
 
 
-def test_bell_points_forward_and_a_little_down() -> None:
-    bell = matrix(held().hold["instrument_pose"]["rotation"])[:, 2]
+def test_bell_points_forward_and_a_little_down(held: Held) -> None:
+    bell = matrix(held.hold["instrument_pose"]["rotation"])[:, 2]
     assert 4 < np.degrees(np.arcsin(-bell[1])) < 9
     assert bell[2] > 0.98
 
 
 @pytest.mark.parametrize("valve", [1, 2, 3])
-def test_pads_lie_on_their_buttons(valve: int) -> None:
-    h = held()
+def test_pads_lie_on_their_buttons(held: Held, valve: int) -> None:
+    h = held
     button = h.trumpet["buttons"][valve - 1]
     effector = item(h.player["effectors"], button["effector"])
     assert np.linalg.norm(h.in_trumpet(effector["joint"], effector["offset"]) - button["position"]) < 0.0005
@@ -109,9 +118,11 @@ def test_pads_lie_on_their_buttons(valve: int) -> None:
 
 @pytest.mark.parametrize("valve", [1, 2, 3])
 @pytest.mark.parametrize("stroke", [-0.25, 0.0, 0.25, 0.5, 0.75, 1.0])
-def test_fingers_reach_their_buttons_within_limits_over_the_whole_stroke(valve: int, stroke: float) -> None:
+def test_fingers_reach_their_buttons_within_limits_over_the_whole_stroke(
+    held: Held, valve: int, stroke: float
+) -> None:
     """`stroke` is the valve's value; −0.25 is about 4 mm above the cap."""
-    h = held()
+    h = held
     button = h.trumpet["buttons"][valve - 1]
     name = button["effector"].removesuffix("Tip")
     joints = {joint["name"]: joint for joint in h.player["joints"]}
@@ -168,8 +179,8 @@ def coupled_angle(lengths: list[float], kappa: float, distance: float) -> float:
     return float((low + high) / 2)
 
 
-def test_every_joint_is_within_its_limits() -> None:
-    h = held()
+def test_every_joint_is_within_its_limits(held: Held) -> None:
+    h = held
     for joint in h.player["joints"]:
         limits = joint.get("limits")
         if limits:
@@ -195,14 +206,14 @@ def clearance(trumpet: dict[str, Any], point: Array) -> float:
     "pad",
     ["leftThumbTip", "leftIndexTip", "leftMiddleTip", "leftLittleTip", "rightThumbTip", "rightLittleTip"],
 )
-def test_gripping_pads_touch_the_metal(pad: str) -> None:
-    h = held()
+def test_gripping_pads_touch_the_metal(held: Held, pad: str) -> None:
+    h = held
     effector = item(h.player["effectors"], pad)
     assert abs(clearance(h.trumpet, h.in_trumpet(effector["joint"], effector["offset"]))) < 0.002
 
 
-def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring() -> None:
-    h = held()
+def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring(held: Held) -> None:
+    h = held
     thumb = item(h.player["effectors"], "leftThumbTip")
     saddle = np.array(item(h.trumpet["contacts"], "saddle")["offset"])
     assert np.linalg.norm(h.in_trumpet(thumb["joint"], thumb["offset"]) - saddle) < 0.003
@@ -218,9 +229,9 @@ def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring() -> None
 
 
 @pytest.mark.parametrize("finger", ["leftIndex", "leftMiddle", "leftLittle"])
-def test_left_fingers_wrap_the_third_casing(finger: str) -> None:
+def test_left_fingers_wrap_the_third_casing(held: Held, finger: str) -> None:
     """Round its front to its right side, every joint bent, the tip turned back toward the palm."""
-    h = held()
+    h = held
     tip = item(h.player["effectors"], f"{finger}Tip")
     pad = h.in_trumpet(tip["joint"], tip["offset"])
     outer = h.in_trumpet(f"{finger}Distal", np.zeros(3))
@@ -233,14 +244,14 @@ def test_left_fingers_wrap_the_third_casing(finger: str) -> None:
 
 
 @pytest.mark.parametrize("finger", ["rightIndex", "rightMiddle"])
-def test_pressing_fingers_are_curved(finger: str) -> None:
-    quaternion = held().hold["pose"][f"{finger}Intermediate"]
+def test_pressing_fingers_are_curved(held: Held, finger: str) -> None:
+    quaternion = held.hold["pose"][f"{finger}Intermediate"]
     assert -70 <= np.degrees(2 * np.arctan2(quaternion[2], quaternion[3])) <= -40
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_wrists_are_nearly_straight(side: str) -> None:
-    h = held()
+def test_wrists_are_nearly_straight(held: Held, side: str) -> None:
+    h = held
     rest = next(joint["rotation"] for joint in h.player["joints"] if joint["name"] == f"{side}Hand")
     turn = Rotation.from_quat(rest).inv() * Rotation.from_quat(h.hold["pose"][f"{side}Hand"])
     _, flexion, deviation = turn.as_euler("XZY", degrees=True)
@@ -249,8 +260,8 @@ def test_wrists_are_nearly_straight(side: str) -> None:
 
 
 @pytest.mark.parametrize("joint", ["leftHand", "rightHand"])
-def test_palms_stay_out_of_the_metal(joint: str) -> None:
-    h = held()
+def test_palms_stay_out_of_the_metal(held: Held, joint: str) -> None:
+    h = held
     for capsule in h.player["capsules"]:
         if capsule["joint"] == joint:
             for t in np.linspace(0, 1, 7):

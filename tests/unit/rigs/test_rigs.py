@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 RIGS = Path(__file__).resolve().parents[3] / "rigs"
-NAMES = ("trumpeter", "trumpet")
+PLAYERS = ("trumpeter", "soloist")
+NAMES = (*PLAYERS, "trumpet")
 TIERS = ("full", "medium", "low")
 FINGERS = ("Index", "Middle", "Ring", "Little")
 PHALANGES = ("Proximal", "Intermediate", "Distal")

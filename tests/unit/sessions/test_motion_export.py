@@ -54,7 +54,7 @@ def test_joints_are_where_the_frames_have_them(
     names = [layout.name for layout in at_rate.manifest.skeletons]
     index = names.index(skeleton)
     start = sum(len(layout.joints) for layout in at_rate.manifest.skeletons[:index])
-    rig = (production.stage.player_rig, production.stage.instrument_rig)[index]
+    rig = (production.stage.player(production.player).rig, production.stage.instrument_rig)[index]
     joints = len(rig.skeleton.names)
     expected, _ = forward_kinematics(
         rig.skeleton, frames["rotations"][:, start : start + joints], frames["root_positions"][:, index]

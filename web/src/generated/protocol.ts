@@ -210,6 +210,10 @@ export interface Session {
   written: boolean
   /** Whether the part is moved by the octaves that bring most of its notes into range. */
   octave_fit: boolean
+  /** Who plays: a rig with a hold on the instrument. */
+  player: string
+  /** Who could. */
+  players: string[]
   /** Semitones by which the part is played away from the file's pitches: all three together. */
   sounding_transposition: number
   /** Which of the file's sequences is played, counted from 0. */
@@ -465,6 +469,7 @@ export interface SessionChange {
   written?: boolean | null
   octave_fit?: boolean | null
   sequence?: number | null
+  player?: string | null
 }
 
 /** A track whose curve is asked for; it is not kept. */

@@ -40,6 +40,8 @@ export class RigModel {
   /** What stands in the scene. */
   readonly object = new Group();
   readonly name: string;
+  /** Name of its rig. */
+  readonly rig: string;
   readonly jointNames: readonly string[];
   readonly #nodes: readonly Object3D[];
   readonly #rotations: number;
@@ -54,6 +56,7 @@ export class RigModel {
   constructor(rig: LoadedRig, layout: SkeletonLayout, parameters: ParameterIndex) {
     this.name = layout.name;
     this.object.name = layout.name;
+    this.rig = layout.rig;
     this.object.add(rig.scene);
     this.#contacts = rig.document.contacts;
     const places = new Map(rig.document.joints.map((joint, i) => [joint.name, i]));

@@ -116,6 +116,11 @@ export class Stage {
     return this.#pictures;
   }
 
+  /** Names of the rigs whose models stand on the stage. */
+  get rigs(): readonly string[] {
+    return this.#models.map(({ rig }) => rig);
+  }
+
   /** Draw calls and triangles of the last picture. */
   get cost(): { readonly calls: number; readonly triangles: number } {
     const { calls, triangles } = this.#renderer.info.render;

@@ -32,6 +32,8 @@ export interface PageMeasures {
   /** Pictures drawn since the page was opened, and the draw calls of the last. */
   readonly pictures: number;
   readonly drawCalls: number;
+  /** The rigs whose models stand on the stage. */
+  readonly rigs: readonly string[];
   /** Where the camera stood in the picture that was drawn last, in the world, metres. */
   readonly drawnFrom: readonly [number, number, number];
   /** What the show's editor says about itself, while it is open. */
@@ -93,6 +95,9 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     get drawCalls() {
       return stage.cost.calls;
+    },
+    get rigs() {
+      return stage.rigs;
     },
     get drawnFrom() {
       return stage.drawnFrom;

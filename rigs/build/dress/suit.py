@@ -1,0 +1,75 @@
+"""The formal suit: jacket, trousers with a straight leg, shirt and shoes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from body.joint_names import SIDES
+from common.meshes import Mesh, on_border, smoothed, smoothstep
+from common.parts import Part, Surface
+from dress.uniform import shirt_part, shoes_part
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from body.figure_file import Colour
+    from dress.tailor import Tailor
+
+    Colours = Mapping[str, Colour]
+
+Array = NDArray[np.float64]
+
+TROUSER_EASE_M = 0.0095
+HEM_Y_M = 0.052  # over the shoe's vamp; behind it hangs lower
+LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.059), (2.0, 0.061))  # 0 hip, 1 knee, 2 ankle
+
+
+def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
+    """Cloth over hips and legs that falls straight from the thigh, to the shoes."""
+    tights = tailor.tights
+    hips = float(tailor.at("hips")[1])
+    below = (tights.vertices[:, 1] < hips + 0.06) & (tights.vertices[:, 1] > 0.02)
+    mesh = tailor.cloth(below, TROUSER_EASE_M, 12, subdivisions)
+    border = on_border(len(mesh.vertices), mesh.faces)
+    mesh.vertices = smoothed(_straight(tailor, mesh), mesh.faces, 6, border)
+    ankle = tailor.at("leftFoot")
+    behind = smoothstep((ankle[2] + 0.01 - mesh.vertices[:, 2]) / 0.05)
+    hem = HEM_Y_M - 0.024 * behind
+    return mesh.clipped(np.minimum(mesh.vertices[:, 1] - hem, hips + 0.035 - mesh.vertices[:, 1]))
+
+
+def _straight(tailor: Tailor, mesh: Mesh) -> Array:
+    """Vertices (V, 3) with each leg at least as wide as a straight-cut trouser leg."""
+    vertices: Array = mesh.vertices.copy()
+    for side, _ in SIDES:
+        hip, knee, ankle = (tailor.at(f"{side}{part}") for part in ("UpperLeg", "LowerLeg", "Foot"))
+        of_side = vertices[:, 0] * hip[0] > 0
+        upper, lower = knee - hip, ankle - knee
+        first = np.clip((vertices - hip) @ upper / (upper @ upper), 0, 1)
+        second = np.clip((vertices - knee) @ lower / (lower @ lower), 0, 1)
+        along = first + np.where(first >= 1, second, 0)
+        foot = np.where((along < 1)[:, None], hip + first[:, None] * upper, knee + second[:, None] * lower)
+        spoke = vertices - foot
+        spoke[:, 1] = 0
+        reach: Array = np.linalg.norm(spoke, axis=1)
+        wanted = np.interp(along, [a for a, _ in LEG_RADIUS_M], [r for _, r in LEG_RADIUS_M])
+        grow = np.maximum(wanted / np.maximum(reach, 1e-6), 1.0) - 1.0
+        vertices += spoke * (grow * of_side)[:, None]
+    return vertices
+
+
+def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours) -> list[Part]:
+    """All cloth but the trimmings; `outer` is the jacket, cut beforehand because trimmings lie on it."""
+    return [
+        shirt_part(tailor, subdivisions, colours),
+        Part("Jacket", outer, Surface("jacket", 0.72, colour=colours["coat"], both_sides=True)),
+        Part(
+            "Trousers",
+            trousers(tailor, subdivisions),
+            Surface("trousers", 0.78, colour=colours["legs"], both_sides=True),
+        ),
+        shoes_part(tailor, subdivisions, colours),
+    ]
