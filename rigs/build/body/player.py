@@ -21,7 +21,7 @@ from common.parts import Part, Surface
 from common.rig_file import write_json
 from dress.cropped_hair import cropped
 from dress.hair import bob
-from dress.suit import suit_parts
+from dress.suit import hung_over_the_seat, suit_parts
 from dress.tailor import Tailor
 from dress.trimmings import trimming_parts
 from dress.uniform import blazer, coat, uniform_parts
@@ -80,6 +80,8 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
     formal = file.outfit == "suit"
     for name, tier in TIERS.items():
         cloth = coat(tailor, tier.subdivisions)
+        if formal:
+            cloth = hung_over_the_seat(tailor, cloth)
         outer = blazer(tailor, cloth)
         locks, hair_normals = HAIR[file.hair](tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
         clothes = (

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from body.joint_names import SIDES
-from common.meshes import Mesh, on_border, smoothed, smoothstep
+from common.meshes import Mesh, normals, on_border, smoothed, smoothstep
 from common.parts import Part, Surface
 from dress.uniform import shirt_part, shoes_part
 
@@ -22,9 +22,27 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-TROUSER_EASE_M = 0.0095
+TROUSER_EASE_M = 0.0075
+UNDER_JACKET_M = 0.007  # how far the trousers are drawn in where the jacket covers them
+SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
+SEAT_M = 0.065  # half the width over which the jacket hangs straight
 HEM_Y_M = 0.052  # over the shoe's vamp; behind it hangs lower
 LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.059), (2.0, 0.061))  # 0 hip, 1 knee, 2 ankle
+
+
+def hung_over_the_seat(tailor: Tailor, mesh: Mesh) -> Mesh:
+    """The jacket hanging straight across the seat: cloth does not follow what lies between."""
+    v = mesh.vertices
+    hips = tailor.at("hips")
+    low = smoothstep((hips[1] + 0.07 - v[:, 1]) / 0.05)
+    behind = (v[:, 2] < hips[2]) & (v[:, 1] < hips[1] + 0.07)
+    rim = v[behind & (np.abs(np.abs(v[:, 0]) - SEAT_M) < 0.012)]
+    order = np.argsort(rim[:, 1])
+    across = np.interp(v[:, 1], rim[order, 1], rim[order, 2])
+    inside = behind & (np.abs(v[:, 0]) < SEAT_M)
+    hung = np.where(inside, np.minimum(v[:, 2], across), v[:, 2])
+    mesh.vertices = np.c_[v[:, :2], v[:, 2] + (hung - v[:, 2]) * low]
+    return mesh
 
 
 def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
@@ -35,6 +53,9 @@ def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
     mesh = tailor.cloth(below, TROUSER_EASE_M, 12, subdivisions)
     border = on_border(len(mesh.vertices), mesh.faces)
     mesh.vertices = smoothed(_straight(tailor, mesh), mesh.faces, 6, border)
+    covered = smoothstep((mesh.vertices[:, 1] - hips + 0.085) / 0.05)
+    out = normals(mesh.vertices, mesh.faces) * [1.0, 0.0, 1.0]
+    mesh.vertices = mesh.vertices - out * (UNDER_JACKET_M * covered)[:, None]
     ankle = tailor.at("leftFoot")
     behind = smoothstep((ankle[2] + 0.01 - mesh.vertices[:, 2]) / 0.05)
     hem = HEM_Y_M - 0.024 * behind
@@ -64,7 +85,7 @@ def _straight(tailor: Tailor, mesh: Mesh) -> Array:
 def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours) -> list[Part]:
     """All cloth but the trimmings; `outer` is the jacket, cut beforehand because trimmings lie on it."""
     return [
-        shirt_part(tailor, subdivisions, colours),
+        shirt_part(tailor, subdivisions, colours, SHIRT_UNDERLAP_M),
         Part("Jacket", outer, Surface("jacket", 0.72, colour=colours["coat"], both_sides=True)),
         Part(
             "Trousers",

@@ -109,14 +109,14 @@ def _waisted(tailor: Tailor, mesh: Mesh) -> Mesh:
     return mesh
 
 
-def shirt(tailor: Tailor, subdivisions: int) -> Mesh:
-    """Only the shirt that shows: the V at the chest and the neck."""
+def shirt(tailor: Tailor, subdivisions: int, underlap_m: float) -> Mesh:
+    """Only the shirt that shows: the V at the chest, which goes on under the lapels, and the neck."""
     mesh = tailor.cloth(_above_hips(tailor), 0.0032, 4, subdivisions)
     v = mesh.vertices
     keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), tailor.neck_y + 0.022 - v[:, 1])
     front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
     under_collar = 0.012 * np.clip((v[:, 1] - tailor.neck_y + 0.055) / 0.03, 0, 1)
-    shown = np.where(front, opening(tailor, v[:, 1]) + 0.022 - under_collar - np.abs(v[:, 0]), -1.0)
+    shown = np.where(front, opening(tailor, v[:, 1]) + underlap_m - under_collar - np.abs(v[:, 0]), -1.0)
     around_neck = 0.056 - np.hypot(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
     shown = np.maximum(shown, np.minimum(v[:, 1] - (tailor.neck_y - 0.028), around_neck))
     arms = np.any([tailor.forearm(v, mesh.weights, side)[0] for side, _ in SIDES], axis=0)
@@ -185,9 +185,9 @@ def shirt_surface(colours: Colours) -> Surface:
     return Surface("shirt", 0.75, colour=colours["shirt"], both_sides=True)
 
 
-def shirt_part(tailor: Tailor, subdivisions: int, colours: Colours) -> Part:
+def shirt_part(tailor: Tailor, subdivisions: int, colours: Colours, underlap_m: float = 0.022) -> Part:
     """What shows of the shirt, with its cuffs."""
-    cloth = joined([shirt(tailor, subdivisions), cuffs(tailor, 20 + 12 * subdivisions)])
+    cloth = joined([shirt(tailor, subdivisions, underlap_m), cuffs(tailor, 20 + 12 * subdivisions)])
     return Part("Shirt", cloth, shirt_surface(colours))
 
 
