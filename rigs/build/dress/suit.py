@@ -38,7 +38,7 @@ def hung_over_the_seat(tailor: Tailor, mesh: Mesh) -> Mesh:
     behind = (v[:, 2] < hips[2]) & (v[:, 1] < hips[1] + 0.07)
     rim = v[behind & (np.abs(np.abs(v[:, 0]) - SEAT_M) < 0.012)]
     order = np.argsort(rim[:, 1])
-    across = np.interp(v[:, 1], rim[order, 1], rim[order, 2])
+    across: Array = np.interp(v[:, 1], rim[order, 1], rim[order, 2])
     inside = behind & (np.abs(v[:, 0]) < SEAT_M)
     hung = np.where(inside, np.minimum(v[:, 2], across), v[:, 2])
     mesh.vertices = np.c_[v[:, :2], v[:, 2] + (hung - v[:, 2]) * low]
