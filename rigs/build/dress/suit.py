@@ -32,15 +32,16 @@ LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.059), (2.0, 0.0
 
 def hung_over_the_seat(tailor: Tailor, mesh: Mesh) -> Mesh:
     """The jacket hanging straight across the seat: cloth does not follow what lies between."""
-    v = mesh.vertices
+    v: Array = mesh.vertices
     hips = tailor.at("hips")
     low = smoothstep((hips[1] + 0.07 - v[:, 1]) / 0.05)
     behind = (v[:, 2] < hips[2]) & (v[:, 1] < hips[1] + 0.07)
-    rim = v[behind & (np.abs(np.abs(v[:, 0]) - SEAT_M) < 0.012)]
+    rim: Array = v[behind & (np.abs(np.abs(v[:, 0]) - SEAT_M) < 0.012)]
     order = np.argsort(rim[:, 1])
-    across: Array = np.interp(v[:, 1], rim[order, 1], rim[order, 2])
+    heights, depths = rim[order, 1], rim[order, 2]
+    across: Array = np.asarray(np.interp(v[:, 1], heights, depths), dtype=np.float64)
     inside = behind & (np.abs(v[:, 0]) < SEAT_M)
-    hung = np.where(inside, np.minimum(v[:, 2], across), v[:, 2])
+    hung: Array = np.where(inside, np.minimum(v[:, 2], across), v[:, 2])
     mesh.vertices = np.c_[v[:, :2], v[:, 2] + (hung - v[:, 2]) * low]
     return mesh
 
