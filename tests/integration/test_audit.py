@@ -30,6 +30,7 @@ SCORES: dict[str, Notes] = {
     "fast trill": [(2 + i * 0.08, 0.08, 64 + 2 * (i % 2)) for i in range(200)],
     "faster than strokes": [(2 + i * 0.05, 0.05, 52 + i % 38) for i in range(240)],
     "two-octave leaps": [(1 + i * 0.5, 0.5, 58 + 24 * (i % 2)) for i in range(40)],
+    "two-octave leaps in semiquavers": [(1 + i * 0.25, 0.25, (55, 79, 61, 85)[i % 4]) for i in range(64)],
     "repeated notes": [(i * 0.125, 0.06, 61) for i in range(160)],
     "whole range, out of it too": [(i * 0.5, 0.5, 48 + i) for i in range(46)],
     "staccato with breaths": [(i * 1.0, 0.2, 60 + i % 7) for i in range(24)],
@@ -195,13 +196,18 @@ def test_no_joint_is_beyond_its_limits(played: Played) -> None:
 def test_nothing_jumps(played: Played) -> None:
     for one in played.takes:
         names = [joint["name"] for joint in one.skeleton("trumpeter").rig["joints"]]
-        pressing = np.array([name.startswith(("rightIndex", "rightMiddle", "rightRing")) for name in names])
+        pressing = np.zeros(len(names), dtype=bool)
         quaternions = one.local["player"]
         cosine = np.abs(np.sum(quaternions[1:] * quaternions[:-1], axis=-1)).clip(max=1.0)
         speed = 2.0 * np.arccos(cosine) * 60.0
-        moving = np.any([np.diff(valve(one, number)) != 0.0 for number in (1, 2, 3)], axis=0)
+        for number, finger in ((1, "rightIndex"), (2, "rightMiddle"), (3, "rightRing")):
+            # A finger is excused by the strokes of its own valve alone.
+            own = np.array([name.startswith(finger) for name in names])
+            assert own.sum() == 3
+            still = np.diff(valve(one, number)) == 0.0
+            assert speed[np.ix_(still, own)].max(initial=0.0) <= GREATEST_SPEED, finger
+            pressing |= own
         assert speed[:, ~pressing].max() <= GREATEST_SPEED
-        assert speed[~moving].max(initial=0.0) <= GREATEST_SPEED
         for pose in one.poses.values():
             assert greatest_step(pose) * 60.0 <= 1.5
 
