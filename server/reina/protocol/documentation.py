@@ -47,8 +47,8 @@ _INTRODUCTION = f"""\
 
 `WS /api/v1/sessions/{{id}}/stream`, subprotocol `{SUBPROTOCOL}`; another version is refused before
 the handshake ends. Text messages are JSON control messages, told apart by `type`; the first is
-`hello`, and whoever joins late or again needs nothing else. Binary messages are frames. Nothing is
-compressed.
+`hello`, and whoever joins late or again needs nothing else. It is said again when another player comes
+on stage. Binary messages are frames. Nothing is compressed.
 
 ## Frames
 
