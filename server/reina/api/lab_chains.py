@@ -31,6 +31,7 @@ from reina.protocol.lab import (
     ReachRequest,
     SolverChoice,
 )
+from reina.sessions.production import PLAYER
 from reina.skeleton import load_rig
 
 router = APIRouter()
@@ -45,7 +46,10 @@ async def list_chains(request: Request, settings: ServerSettings) -> LabChainLis
     def work() -> LabChainList:
         chains = [
             _describe(chain)
-            for path in sorted(settings.rigs_dir.glob(f"*/{DESCRIPTION}"))
+            for path in sorted(
+                settings.rigs_dir.glob(f"*/{DESCRIPTION}"),
+                key=lambda path: (path.parent.name != PLAYER, path.parent.name),
+            )
             for chain in _chains_of(path.parent, path.stat().st_mtime_ns)
         ]
         return LabChainList(chains=chains)

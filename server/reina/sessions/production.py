@@ -78,14 +78,13 @@ class Stage:
             RigError: A rig is not there, or is broken.
         """
         instrument = INSTRUMENTS[INSTRUMENT]
+        holds = rigs_dir.glob(f"*/holds/{instrument.rig}.json")
+        others = sorted({path.parents[1].name for path in holds} - {PLAYER})
         return cls(
             instrument=instrument,
             players={
-                folder.name: Player(load_rig(folder), load_hold(folder, instrument.rig))
-                for folder in sorted(
-                    rigs_dir.iterdir(), key=lambda folder: (folder.name != PLAYER, folder.name)
-                )
-                if (folder / "holds" / f"{instrument.rig}.json").is_file()
+                name: Player(load_rig(rigs_dir / name), load_hold(rigs_dir / name, instrument.rig))
+                for name in (PLAYER, *others)
             },
             instrument_rig=load_rig(rigs_dir / instrument.rig),
             registry=stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS]),
