@@ -20,6 +20,8 @@ export interface GalleryView {
   readonly finish: string;
   readonly mute: string;
   readonly lens: string;
+  /** Any other show parameters, by path: a camera of one's own with the show's camera, say. */
+  readonly values: Overrides;
 }
 
 export interface Gallery {
@@ -82,6 +84,7 @@ async function open(): Promise<Gallery> {
     finish: asked.get("finish") ?? "as the show has it",
     mute: asked.get("mute") ?? "as the score has it",
     lens: asked.get("lens") ?? "as the show has it",
+    values: {},
   };
 
   async function show(change: Partial<GalleryView>): Promise<void> {
@@ -92,6 +95,7 @@ async function open(): Promise<Gallery> {
       ...FINISHES[view.finish],
       ...MUTES[view.mute],
       ...LENSES[view.lens],
+      ...view.values,
     };
     stage.isolate(PARTS[view.part] ?? null);
     if (!stage.viewPreset(view.camera)) stage.giveBackCamera();
