@@ -102,7 +102,7 @@ MOODS = (
     _mood(
         "#D9A441",
         "#FFE3A6",
-        key=("#FFD3A1", 3.2),
+        key=("#FFDFBE", 3.2),
         fill=("#9FB6DC", 0.55),
         rim=("#FFE6C4", 2.2),
         back_wash=("#B8742E", 0.5),
@@ -120,7 +120,7 @@ MOODS = (
     _mood(
         "#E2B866",
         "#FFF0C9",
-        key=("#FFB36B", 3.6),
+        key=("#FFBE80", 3.6),
         fill=("#B49AD0", 0.5),
         rim=("#FFD9A0", 3.0),
         back_wash=("#C8641E", 1.8),

@@ -71,7 +71,7 @@ LIGHT_PARAMETERS: tuple[Parameter, ...] = (
         documentation="Strength of the sun from the window side, which draws the shadows.",
     ),
     Parameter(
-        "lights/key/color", "color", "#FFD3A1", documentation="Colour of the sun; at rest about 4,300 K."
+        "lights/key/color", "color", "#FFDFBE", documentation="Colour of the sun; at rest about 4,300 K."
     ),
     Parameter(
         "lights/key/position",

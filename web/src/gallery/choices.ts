@@ -46,20 +46,24 @@ export const LIGHTS: Readonly<Record<string, Overrides>> = {
   },
   night: {
     ...DARK,
-    "lights/fill/intensity": [1.1],
-    "lights/fill/color": [0.16, 0.27, 0.6],
-    "lights/rim/intensity": [6],
-    "lights/rim/color": [0.35, 0.5, 1],
-    "lights/environment/intensity": [0.3],
+    // One lamp, warm on the face, before the blue of the windows.
+    "lights/spots/1/intensity": [1.6],
+    "lights/spots/1/color": [1, 0.62, 0.32],
+    "lights/haze": [0.3],
+    "lights/fill/intensity": [0.9],
+    "lights/fill/color": [0.2, 0.32, 0.7],
+    "lights/rim/intensity": [3.6],
+    "lights/rim/color": [0.4, 0.55, 1],
+    "lights/environment/intensity": [0.28],
   },
   "last sun": {
     "lights/key/intensity": [5],
     "lights/key/color": [1, 0.5, 0.2],
-    "lights/key/position": [-3.4, 1.5, -0.9],
+    "lights/key/position": [-3.4, 1.6, 1.1],
     "lights/fill/intensity": [0.9],
     "lights/rim/intensity": [1],
     "lights/environment/intensity": [0.55],
-    "stage/fog/density": [0.06],
+    "stage/fog/density": [0.015],
   },
 };
 

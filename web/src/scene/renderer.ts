@@ -1,9 +1,12 @@
 /** The WebGL renderer, or a plain word about why there is none. */
 
-import { ACESFilmicToneMapping, PCFShadowMap, SRGBColorSpace, WebGLRenderer } from "three";
+import { NeutralToneMapping, PCFShadowMap, SRGBColorSpace, WebGLRenderer } from "three";
 
 import { StageUnavailableError } from "./errors";
 import type { TierSettings } from "./tiers";
+
+/** What `stage/exposure` multiplies: the room's light was set by it. */
+export const EXPOSURE = 1.25;
 
 /**
  * Make the renderer on a canvas.
@@ -26,7 +29,8 @@ export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings): W
   }
   const renderer = new WebGLRenderer({ canvas, context, ...attributes });
   renderer.outputColorSpace = SRGBColorSpace;
-  renderer.toneMapping = ACESFilmicToneMapping;
+  // Of the mappings at hand the one that keeps hues: skin in full light stays skin, drawn colours stay bright.
+  renderer.toneMapping = NeutralToneMapping;
   renderer.shadowMap.enabled = tier.shadowMapSize > 0;
   renderer.shadowMap.type = PCFShadowMap;
   renderer.info.autoReset = false;

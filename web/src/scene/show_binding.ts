@@ -9,6 +9,7 @@ import type { StageLights } from "./lights";
 import type { PlayerLook } from "./look";
 import type { Picture } from "./picture";
 import type { Room } from "./room";
+import { EXPOSURE } from "./renderer";
 import { SPOT_COUNT } from "./spots";
 
 export interface ShowTargets {
@@ -78,7 +79,7 @@ const PARAMETERS: readonly Row[] = [
   ["lights/environment/intensity", 1, number(({ scene }, value) => (scene.environmentIntensity = value))],
   ...Array.from({ length: SPOT_COUNT }, (_, place) => spotRows(place)).flat(),
   ["lights/haze", 1, number(({ lights }, value) => (lights.haze = value))],
-  ["stage/exposure", 1, number(({ renderer }, value) => (renderer.toneMappingExposure = value))],
+  ["stage/exposure", 1, number(({ renderer }, value) => (renderer.toneMappingExposure = EXPOSURE * value))],
   ["stage/bloom/strength", 1, number(({ picture }, value) => (picture.bloomStrength = value))],
   ["stage/bloom/threshold", 1, number(({ picture }, value) => (picture.bloomThreshold = value))],
   ["stage/background", 3, ({ background }, floats, i) => background.fromArray(floats, i)],

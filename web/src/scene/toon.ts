@@ -4,23 +4,30 @@ import {
   BackSide,
   Color,
   DataTexture,
+  LinearFilter,
+  MathUtils,
   Mesh,
   MeshBasicMaterial,
   type MeshStandardMaterial,
   MeshToonMaterial,
-  NearestFilter,
   RedFormat,
   SkinnedMesh,
 } from "three";
 
-/** Tones from shade to light, as shares of the light; the shade stays bright. */
-const TONES = [0.2, 0.2, 0.24, 0.86, 0.98, 1];
+/** A light's share on a surface turned from it, and one turned to it; between them an edge at this cosine. */
+const TONES = { shade: 0.16, light: 1, edge: 0.2, softness: 0.05, count: 64 } as const;
 
-/** Light of its own that every drawn surface has, as a share of its colour. */
-const SHADE = 0.24;
+/** Light of its own that every drawn surface has, as a share of its colour: shade is never black. */
+const SHADE = 0.2;
 
-/** The most light that it shows, as a share of its colour: no lamp washes it out. */
-const BRIGHTEST = 1.2;
+/** How light is gathered: this much is drawn as it is, what is beyond comes ever closer to the whole colour. */
+const WHOLE = 1.14;
+
+/** The colour that shade takes: skin's is warm, as light comes through it; cloth's is the sky's. */
+const SHADES: readonly (readonly [name: RegExp, tint: readonly [number, number, number]])[] = [
+  [/^(skin|lashes)/i, [1, 0.8, 0.76]],
+  [/./, [0.9, 0.92, 1]],
+];
 
 /** The mirror of the floor leaves this layer out. */
 export const OUTLINE_LAYER = 1;
@@ -34,12 +41,41 @@ const WIDTH = { share: 0.0021, most: 0.0042 } as const;
 /** What is too fine for a line about it. */
 const NO_OUTLINE = /^(eyes|lashes|felt|pearl|button)/i;
 
+/** The ramp from shade to light by the cosine between surface and light, from −1 to 1. */
 export function createTones(): DataTexture {
-  const texture = new DataTexture(Uint8Array.from(TONES, (tone) => Math.round(255 * tone)), TONES.length, 1, RedFormat);
-  texture.minFilter = texture.magFilter = NearestFilter;
+  const { shade, light, edge, softness, count } = TONES;
+  const tones = Uint8Array.from({ length: count }, (_, i) => {
+    const cosine = (2 * i) / (count - 1) - 1;
+    const share = MathUtils.smoothstep(cosine, edge - softness, edge + softness);
+    return Math.round(255 * MathUtils.lerp(shade, light, share));
+  });
+  const texture = new DataTexture(tones, count, 1, RedFormat);
+  texture.minFilter = texture.magFilter = LinearFilter;
   texture.needsUpdate = true;
   return texture;
 }
+
+/** Many lights on one surface: their sum bends toward the whole colour, and what is left in shade takes its tint. */
+function gather(tint: readonly [number, number, number]): string {
+  const color = `vec3(${tint.map((part) => part.toFixed(2)).join(", ")})`;
+  return /* glsl */ `
+vec3 gathered = outgoingLight / max(diffuseColor.rgb, vec3(0.004));
+float most = max(gathered.r, max(gathered.g, gathered.b));
+float shown = ${WHOLE.toFixed(2)} * (1.0 - exp(-1.9 * most));
+// Coloured lamps colour what they light, by half.
+vec3 lamp = mix(vec3(1.0), gathered / max(most, 0.001), 0.55);
+outgoingLight = diffuseColor.rgb * lamp * shown * mix(${color}, vec3(1.0), smoothstep(0.5, 0.85, shown));
+`;
+}
+
+/** A ring of light on the crown of the head, broken up by the strands. */
+const HAIR_RING = /* glsl */ `
+vec3 above = normalize((viewMatrix * vec4(0.0, 1.0, 0.0, 0.0)).xyz);
+float strand = dot(diffuseColor.rgb, vec3(0.3, 0.5, 0.2));
+float height = dot(normalize(vNormal), above) + 0.8 * (strand - 0.03);
+float ring = smoothstep(0.5, 0.53, height) * (1.0 - smoothstep(0.62, 0.68, height));
+outgoingLight += ring * shown * mix(diffuseColor.rgb, vec3(0.55, 0.36, 0.26), 0.16);
+`;
 
 /** Reflections gathered into four bands of the metal's own colour, deep to nearly white. */
 const BANDS = /* glsl */ `
@@ -66,17 +102,15 @@ export function drawSurface(material: MeshStandardMaterial, tones: DataTexture):
   if (material.metalness > 0.5) return drawMetal(material);
   const { color, map, side, transparent, alphaTest, name, vertexColors } = material;
   const drawn = new MeshToonMaterial({ color, map, side, transparent, alphaTest, vertexColors, gradientMap: tones });
-  // Shade is never black.
   drawn.emissive.copy(color).multiplyScalar(SHADE);
   drawn.emissiveMap = map;
   drawn.name = name;
+  const tint = SHADES.find(([pattern]) => pattern.test(name))?.[1] ?? [1, 1, 1];
+  const light = gather(tint) + (/^hair/i.test(name) ? HAIR_RING : "");
   drawn.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader.replace(
-      "#include <opaque_fragment>",
-      `outgoingLight = min(outgoingLight, diffuseColor.rgb * ${BRIGHTEST.toFixed(2)} + 0.01);\n#include <opaque_fragment>`,
-    );
+    program.fragmentShader = program.fragmentShader.replace("#include <opaque_fragment>", `${light}\n#include <opaque_fragment>`);
   };
-  drawn.customProgramCacheKey = () => "drawn cloth";
+  drawn.customProgramCacheKey = () => `drawn ${light}`;
   return drawn;
 }
 

@@ -9,7 +9,7 @@ import { RISERS } from "./plan";
 const RISER = RISERS[0].height;
 const LACQUER = 0x14100e;
 const IVORY = 0xe9e2d2;
-const COPPER = 0x6b3f28;
+const COPPER = 0x5f4532;
 const SKIN = 0xe3d8c1;
 const STEEL = 0x5d5f63;
 
