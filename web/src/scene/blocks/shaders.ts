@@ -100,7 +100,7 @@ void main() {
   // Lacquer: a matt body under a clear coat that catches the window.
   float wrapped = 0.5 + 0.5 * dot(normal, toKey);
   float sky = 0.5 + 0.5 * normal.y;
-  vec3 light = vec3(1.0, 0.9, 0.76) * wrapped * wrapped * 0.62 + vec3(0.3, 0.31, 0.34) * sky;
+  vec3 light = vec3(1.0, 0.9, 0.76) * wrapped * wrapped * 0.62 + vec3(0.44, 0.45, 0.48) * sky;
   float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
   float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0);
   vec3 mirrored = reflect(-eye, normal);

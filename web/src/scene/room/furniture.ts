@@ -41,6 +41,11 @@ const CHAIRS: readonly Place[] = [
   [-3.8, 1.6, 1.4],
 ];
 
+/** Rows for those who listen, at the front of the room, with a way through the middle. */
+const AUDIENCE: readonly Place[] = [6.3, 7.2, 8.1].flatMap((z) =>
+  [-2.6, -2.0, -1.4, -0.8, 0.8, 1.4, 2.0, 2.6].map((x): Place => [x, z + 0.045 * x * x - 0.1, Math.PI + 0.07 * x]),
+);
+
 function rod(from: [number, number, number], to: [number, number, number], radius: number): BufferGeometry {
   const [x, y, z] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
   const length = Math.hypot(x, y, z);
@@ -89,11 +94,11 @@ function place(geometry: BufferGeometry, material: Material, places: readonly Pl
 export function createFurniture(light: RoomLight): InstancedMesh[] {
   const enamel = createSurface({ color: 0x2e2f33, roughness: 0.6, envMapIntensity: 0.5 }, light, {});
   const wood = createSurface({ color: 0x4a2c1a, roughness: 0.7, envMapIntensity: 0.5 }, light, {});
-  return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, CHAIRS)];
+  return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, [...CHAIRS, ...AUDIENCE])];
 }
 
 /** What lies in the shade of stands and chairs. */
 export const FURNITURE_SHADE: readonly Patch[] = [
   ...STANDS.map(([x, z, , y]): Patch => [x, z, 0.62, 0.62, y ?? 0]),
-  ...CHAIRS.map(([x, z, , y]): Patch => [x, z, 0.78, 0.78, y ?? 0]),
+  ...[...CHAIRS, ...AUDIENCE].map(([x, z, , y]): Patch => [x, z, 0.78, 0.78, y ?? 0]),
 ];

@@ -2,30 +2,15 @@
 
 import { BoxGeometry, type BufferGeometry, CylinderGeometry, PlaneGeometry, SphereGeometry, TorusGeometry } from "three";
 
+import { noticeBoard } from "./notice_board";
+import { acrossTheRoom, BRASS, CREAM, DARK_WOOD, door, frame, onBackWall, pictures, WOOD } from "./on_wall";
 import { painted } from "./painted";
 import { PANELLING, ROOM, WINDOWS } from "./plan";
 
-const WOOD = 0x4b2d1b;
-const DARK_WOOD = 0x2e1b11;
 const SLATE = 0x24352f;
 const CHALK = 0xb9bfb2;
-const CREAM = 0xe4dcc8;
 const IRON = 0x8d877c;
 const LINEN = 0xa5937a;
-const BRASS = 0x9c7a3a;
-
-/** A box with its middle at x, y and its back on the wall behind, metres. */
-function onBackWall(width: number, height: number, depth: number, x: number, y: number, hex: number, out = 0): BufferGeometry {
-  return painted(new BoxGeometry(width, height, depth).translate(x, y, ROOM.back + out + depth / 2), hex);
-}
-
-/** A frame of four bars about an opening. */
-function frame(width: number, height: number, bar: number, depth: number, x: number, y: number, hex: number): BufferGeometry[] {
-  return [-1, 1].flatMap((side) => [
-    onBackWall(bar, height + 2 * bar, depth, x + (side * (width + bar)) / 2, y, hex),
-    onBackWall(width, bar, depth, x, y + (side * (height + bar)) / 2, hex),
-  ]);
-}
 
 /** Chalked staves, and notes on them: x along the board and step above the lowest line, in lines' distances. */
 const STAVES = [0.3, -0.26] as const;
@@ -63,33 +48,6 @@ function clock(x: number, y: number): BufferGeometry[] {
   );
   // Ten past four.
   return [painted(face, CREAM), painted(rim, DARK_WOOD), hand(0.09, 0.012, -2.18), hand(0.14, 0.008, -1.05), ...marks];
-}
-
-/** Bands of former years, too far away to be made out. */
-function pictures(x: number, y: number): BufferGeometry[] {
-  const each = [
-    [0, 0, 0.5, 0.36],
-    [0.66, 0.02, 0.42, 0.5],
-    [-0.62, -0.03, 0.4, 0.3],
-  ] as const;
-  return each.flatMap(([dx, dy, width, height]) => [
-    ...frame(width, height, 0.03, 0.03, x + dx, y + dy, DARK_WOOD),
-    onBackWall(width, height, 0.012, x + dx, y + dy, CREAM),
-    onBackWall(width * 0.72, height * 0.62, 0.002, x + dx, y + dy, 0x6f5e4c, 0.012),
-    onBackWall(width * 0.6, height * 0.2, 0.002, x + dx, y + dy - height * 0.12, 0x2f2a2a, 0.014),
-  ]);
-}
-
-function door(x: number): BufferGeometry[] {
-  const [width, height] = [0.95, 2.1];
-  const panels = [0.32, 0.95, 1.65].map((y) => onBackWall(width - 0.3, 0.46, 0.012, x, y, 0x55341f, 0.04));
-  const knob = new SphereGeometry(0.032, 12, 8).translate(x + 0.38, 1.02, ROOM.back + 0.1);
-  return [
-    onBackWall(width, height, 0.04, x, height / 2, WOOD),
-    ...frame(width, height, 0.09, 0.06, x, height / 2, DARK_WOOD),
-    ...panels,
-    painted(knob, BRASS),
-  ];
 }
 
 /** Ribs of cast iron under a window. */
@@ -139,6 +97,15 @@ function ceiling(): BufferGeometry[] {
   return parts;
 }
 
+/** Rails along a wall: panelling, picture rail, skirting. */
+function rails(): BufferGeometry[] {
+  return [
+    onBackWall(2 * ROOM.halfWidth, 0.05, 0.03, 0, PANELLING, DARK_WOOD),
+    onBackWall(2 * ROOM.halfWidth, 0.04, 0.03, 0, 3.55, WOOD),
+    onBackWall(2 * ROOM.halfWidth, 0.14, 0.02, 0, 0.07, DARK_WOOD),
+  ];
+}
+
 /** Everything on the walls and under the ceiling, painted. */
 export function wallFittings(): BufferGeometry[] {
   return [
@@ -146,9 +113,8 @@ export function wallFittings(): BufferGeometry[] {
     ...clock(-0.15, 3.05),
     ...pictures(3.1, 2.35),
     ...door(-3.2),
-    onBackWall(2 * ROOM.halfWidth, 0.05, 0.03, 0, PANELLING, DARK_WOOD),
-    onBackWall(2 * ROOM.halfWidth, 0.04, 0.03, 0, 3.55, WOOD),
-    onBackWall(2 * ROOM.halfWidth, 0.14, 0.02, 0, 0.07, DARK_WOOD),
+    ...rails(),
+    ...acrossTheRoom([...rails(), ...door(-0.5), ...door(0.5), ...noticeBoard(-2.6, 1.85), ...pictures(2.3, 2.1)]),
     ...windowSides(-1),
     ...windowSides(1),
     ...ceiling(),
