@@ -49,14 +49,14 @@ def part(notes: int) -> bytes:
     return data.getvalue()
 
 
-def performance(notes: int) -> Performance:
-    """A performance of such a part."""
+def performance(notes: int, tracks: int = 12) -> Performance:
+    """A performance of such a part under a show with so many tracks, twelve at most."""
     registry = stage_registry()
     registry = registry.extended(
         [p for p in (*PLAYER_PARAMETERS, *POSE_PARAMETERS) if p.path not in registry]
     )
-    numbers = [p for p in registry if p.type == "number"][:12]
-    tracks = [
+    numbers = [p for p in registry if p.type == "number"][:tracks]
+    documents = [
         {
             "parameter": parameter.path,
             "keyframes": [
@@ -68,7 +68,7 @@ def performance(notes: int) -> Performance:
     ]
     score = read_score(part(notes))
     instrument = INSTRUMENTS["trumpet"]
-    show = Show.from_document({"version": 1, "tracks": tracks}, registry)
+    show = Show.from_document({"version": 1, "tracks": documents}, registry)
     return Performance(
         score=score,
         played=instrument.play(score, 0),
@@ -127,6 +127,19 @@ def main() -> None:
 
         best, middle = microseconds(run, length, repetitions)
         print(f"{length:6d} {best:7.1f} {middle:7.1f}")
+
+    print("parts of a block of 60")
+    without = performance(options.notes, tracks=0)
+    times = np.arange(60) / 60.0
+    block = subject.sample(times)
+    parts: dict[str, Callable[[int], object]] = {
+        "player": lambda repetition: without.sample(times + repetition % 400),
+        "player and show": lambda repetition: subject.sample(times + repetition % 400),
+        "encoding": lambda _: encode_block(manifest, block),
+    }
+    for name, run_part in parts.items():
+        best, middle = microseconds(run_part, 60, options.repetitions)
+        print(f"{best:14.1f} {middle:7.1f}   {name}")
 
 
 if __name__ == "__main__":

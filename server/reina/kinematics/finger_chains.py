@@ -47,7 +47,8 @@ class FingerChains:
         self.joints: IntArray = np.array([chain.joints for chain in chains], dtype=np.intp)
         """Indices ``(K, 3)``."""
         skeleton = rig.skeleton
-        self._origins: FloatArray = skeleton.rest_translations[self.joints[:, 0]]
+        self.origins: FloatArray = skeleton.rest_translations[self.joints[:, 0]]
+        """First joints in the hand's frame ``(K, 3)``, metres."""
         self._rest: FloatArray = skeleton.rest_rotations[self.joints[:, 0]]
         self._parent_to_rest: FloatArray = to_matrix(conjugate(self._rest))
         self.lengths: FloatArray = np.array([_bone_lengths(rig, chain) for chain in chains])
@@ -70,8 +71,14 @@ class FingerChains:
         Returns:
             Local rotations, rest included, ``(..., K, 3, 4)``, and a `SolveStatus` each, ``(..., K)``.
         """
-        offset = np.asarray(targets, dtype=np.float64) - self._origins
-        point = np.einsum("kij,...kj->...ki", self._parent_to_rest, offset)
+        return self.solve_at_rest(self.turn_to_rest(np.asarray(targets, dtype=np.float64) - self.origins))
+
+    def turn_to_rest(self, vectors: ArrayLike) -> FloatArray:
+        """Vectors in the hand's frame ``(..., K, 3)`` in that of each finger's first joint at rest."""
+        return np.einsum("kij,...kj->...ki", self._parent_to_rest, np.asarray(vectors, dtype=np.float64))
+
+    def solve_at_rest(self, point: FloatArray) -> tuple[FloatArray, StatusArray]:
+        """As `solve`, for targets ``(..., K, 3)`` in each first joint's rest axes, that joint the origin."""
         abduction, planar, off_plane = project_on_finger_plane(point, self._abduction_limits)
         if self._coupled is not None:
             angles, status = self._coupled.solve(planar)
@@ -92,7 +99,7 @@ class FingerChains:
         for bone in (1, 0):
             tip[..., 0] += self.lengths[:, bone]
             tip = rotate(local[..., bone, :], tip)
-        return tip + self._origins
+        return tip + self.origins
 
 
 def _bone_lengths(rig: Rig, chain: Chain) -> list[float]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.rotations import about_axis, conjugate, multiply, twist_angle
+from reina.rotations import conjugate, multiply
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import ArrayLike, FloatArray, IntArray
@@ -26,11 +26,19 @@ class TwistHelpers:
         self.sources: IntArray = np.array([twist.source for twist in rig.twists], dtype=np.intp)
         """The joints whose turn they read, ``(T,)``."""
         self._fractions: FloatArray = np.array([twist.fraction for twist in rig.twists])
-        self._rest: FloatArray = rig.skeleton.rest_rotations[self.joints]
-        self._source_inverse: FloatArray = conjugate(rig.skeleton.rest_rotations[self.sources])
+        # Of a source's turn from its rest only the parts x and w count, each a dot product with its rotation:
+        # x y z w of rest⁻¹ q are linear in q. A helper's rotation is its rest turned about x.
+        rest = rig.skeleton.rest_rotations
+        units = multiply(conjugate(rest[self.sources])[:, None], np.eye(4))
+        self._read: FloatArray = np.ascontiguousarray(units[..., [0, 3]])
+        self._rest: FloatArray = rest[self.joints]
+        self._turned: FloatArray = multiply(self._rest, (1.0, 0.0, 0.0, 0.0))
 
     def solve(self, source_rotations: ArrayLike) -> FloatArray:
         """The helpers' local rotations ``(..., T, 4)`` for the sources' local rotations ``(..., T, 4)``."""
-        from_rest = multiply(self._source_inverse, source_rotations)
-        angle = twist_angle(from_rest, (1.0, 0.0, 0.0))
-        return multiply(self._rest, about_axis(0, angle * self._fractions))
+        q = np.asarray(source_rotations, dtype=np.float64)
+        read: FloatArray = np.einsum("...ti,tic->c...t", q, self._read)
+        # Half the twist's angle, the short way round.
+        half = np.arctan2(np.where(read[1] < 0.0, -read[0], read[0]), np.abs(read[1]))
+        half = (half * self._fractions)[..., None]
+        return np.cos(half) * self._rest + np.sin(half) * self._turned

@@ -117,7 +117,7 @@ class TwoBoneLimbs:
         ahead[0], ahead[1] = direction, local_end / length[..., None]
         hint[0], hint[1] = hinge_directions, self.hinge
         world, local = _frame(ahead, hint)
-        upper = from_matrix(np.einsum("...ai,...bi->...ab", world, local))
+        upper = from_matrix(np.matmul(world, local.swapaxes(-1, -2)))
         ends = np.asarray(roots, dtype=np.float64) + direction * length[..., None]
         status = (np.abs(length - wanted) > 1e-9).astype(np.uint8) * np.uint8(SolveStatus.OUT_OF_REACH)
         return LimbPose(upper, lower_local, ends, status)

@@ -12,7 +12,7 @@ from reina.performance.stances import STANCES
 
 if TYPE_CHECKING:
     from reina.keyframes import ParameterRegistry
-    from reina.rotations.arrays import FloatArray
+    from reina.rotations.arrays import FloatArray, IntArray
 
 
 def _amount(name: str, documentation: str, *, maximum: float = 2.0) -> Parameter:
@@ -69,14 +69,17 @@ class Amounts:
         layout = registry.layout()
         amounts = [parameter for parameter in PLAYER_PARAMETERS if parameter.type == "number"]
         self._names = [parameter.path.removeprefix("player/") for parameter in amounts]
-        self._columns = [
-            layout[parameter.path][0] if parameter.path in layout else None for parameter in amounts
-        ]
-        self._defaults = [float(parameter.floats(parameter.default)[0]) for parameter in amounts]
+        shown = [parameter.path in layout for parameter in amounts]
+        self._shown: IntArray = np.flatnonzero(shown)
+        self._columns: IntArray = np.array(
+            [layout[parameter.path][0] for parameter in amounts if parameter.path in layout], dtype=np.intp
+        )
+        self._defaults: FloatArray = np.array(
+            [float(parameter.floats(parameter.default)[0]) for parameter in amounts]
+        )
 
     def read(self, values: FloatArray) -> dict[str, FloatArray]:
         """Amounts by name, ``(F,)`` each, from values ``(F, P)``; none is below 0."""
-        return {
-            name: np.full(len(values), default) if column is None else np.maximum(values[:, column], 0.0)
-            for name, column, default in zip(self._names, self._columns, self._defaults, strict=True)
-        }
+        rows = np.repeat(self._defaults[:, None], len(values), axis=1)
+        rows[self._shown] = np.maximum(values.T[self._columns], 0.0)
+        return dict(zip(self._names, rows, strict=True))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.kinematics import FingerChains
-from reina.rotations import conjugate, rotate, to_matrix
+from reina.rotations import conjugate, rotate
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
@@ -49,14 +49,17 @@ class PressingFingers:
         self.chains = FingerChains(rig, [chain.name for chain in chains])
         self.valves = [button.valve - 1 for button in buttons]
         """Valve index of each finger."""
+        # All that a target is made of, in the finger's own axes.
         to_hand = conjugate(hand_rotation)
+        to_rest = self.chains.turn_to_rest
         position = np.array([button.position for button in buttons])
         travel = np.array([button.travel for button in buttons])
         up = -travel / np.sqrt(np.sum(travel * travel, axis=-1, keepdims=True))
-        self._base: FloatArray = rotate(to_hand, position - hand_position)
-        self._travel: FloatArray = rotate(to_hand, travel)
-        self._lift: FloatArray = rotate(to_hand, up * FINGER_LIFT_M)
-        self._shift_to_hand: FloatArray = to_matrix(to_hand).T
+        self._base: FloatArray = to_rest(rotate(to_hand, position - hand_position) - self.chains.origins)
+        self._travel: FloatArray = to_rest(rotate(to_hand, travel))
+        self._lift: FloatArray = to_rest(rotate(to_hand, up * FINGER_LIFT_M))
+        units = rotate(to_hand, np.eye(3))[:, None].repeat(len(buttons), axis=1)
+        self._shift: FloatArray = to_rest(units).reshape(3, -1)
 
     def solve(
         self, valves: FloatArray, lifts: FloatArray, shifts: FloatArray
@@ -69,4 +72,4 @@ class PressingFingers:
             shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
         """
         targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
-        return self.chains.solve(targets - (shifts @ self._shift_to_hand)[:, None])
+        return self.chains.solve_at_rest(targets - (shifts @ self._shift).reshape(targets.shape))

@@ -83,7 +83,12 @@ class PlayerBody:
             Point(LIMBS[k], int(skeleton.parents[upper]), skeleton.rest_translations[upper])
             for k, upper in enumerate(joints[:, 0].tolist())
         ]
-        self._trunk = Trunk(rig, trunk, [*uppers, rig.contact("lips")])
+        # Which way elbows and knees point: as in the hold; elbows turn with the chest, knees do not.
+        hinges = rotate(world[joints[:, 0]], self._limbs.hinge)
+        self._knees = hinges[2:]
+        chest = int(skeleton.parents[skeleton.index("neck" if "neck" in trunk else "head")])
+        elbows = [Point("elbow", chest, elbow) for elbow in rotate(conjugate(world[chest]), hinges[:2])]
+        self._trunk = Trunk(rig, trunk, [*uppers, rig.contact("lips")], elbows)
         self._turned: IntArray = np.array([skeleton.index(name) for name in (*trunk, *eyes)], dtype=np.intp)
         self._held: FloatArray = rotations[self._turned]
         self._matrix = body_matrix(rig, [*trunk, *eyes])
@@ -91,9 +96,6 @@ class PlayerBody:
         self._sight = _sight(rig, eyes)
         self._root = root
         self._head = trunk.index("head")
-        self._chest = self._carrier(
-            rig, int(skeleton.parents[skeleton.index("neck" if "neck" in trunk else "head")])
-        )
 
         # The instrument rides on the head, its mouthpiece on the lips.
         I_world, X_world = hold.instrument_rotation, hold.instrument_position
@@ -111,11 +113,6 @@ class PlayerBody:
         self._limb_parents = [
             self._carrier(rig, int(skeleton.parents[upper])) for upper in joints[:, 0].tolist()
         ]
-
-        # Which way elbows and knees point: as in the hold; elbows turn with the chest, knees do not.
-        hinges = rotate(world[joints[:, 0]], self._limbs.hinge)
-        self._elbows = rotate(conjugate(world[self._trunk.joints[self._chest]]), hinges[:2])
-        self._knees = hinges[2:]
 
         right = int(hands[1])
         self._fingers = PressingFingers(
@@ -191,26 +188,28 @@ class PlayerBody:
                 ``(F, trunk joints + 1, 3)``, as `Stances.evaluate` gives it.
         """
         moved = (signals.T @ self._matrix).reshape(signals.shape[1], -1, 3)
-        turns = exp(moved[:, :-2])
-        if self._eyes is not None:
-            turns[:, self._eyes] = _glance(moved[:, self._eyes.start], self._sight)[:, None]
         hips = self._root + moved[:, -2]
         if stance is None:
-            local = multiply(self._held, turns[:, :-1])
+            turns = exp(moved[:, :-2])
         else:
+            # One exponential for both.
+            turns = exp(np.concatenate([moved[:, :-2], stance[:, :-1]], axis=1))
+            hips += stance[:, -1]
+        count = len(self._held)
+        if self._eyes is not None:
+            turns[:, self._eyes] = _glance(moved[:, self._eyes.start], self._sight)[:, None]
+        local = multiply(self._held, turns[:, :count])
+        if stance is not None:
             trunk = stance.shape[1] - 1
-            stood = np.empty((len(stance), *self._held.shape))
-            stood[:] = self._held
-            stood[:, :trunk] = multiply(self._held[:trunk], exp(stance[:, :-1]))
-            local = multiply(stood, turns[:, :-1])
-            hips = hips + stance[:, -1]
+            stood = multiply(self._held[:trunk], turns[:, count + 1 :])
+            local[:, :trunk] = multiply(stood, turns[:, :trunk])
         shifts = moved[:, -1]
-        world, points = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
+        world, points, elbows = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
         drop = self._drop(points[:, 2:4])
         hips[:, 1] -= drop
         points[..., 1] -= drop[:, None]
 
-        instrument = multiply(multiply(world[:, self._head], self._instrument_in_head), turns[:, -1])
+        instrument = multiply(multiply(world[:, self._head], self._instrument_in_head), turns[:, count])
         # In the instrument's frame: its mouthpiece, and the hands that hold it.
         frames = len(hips)
         held = np.empty((frames, 3, 3))
@@ -219,7 +218,6 @@ class PlayerBody:
         held = rotate(instrument[:, None], held)
         held[:, 0] = points[:, 4] - held[:, 0]
         held[:, 1:] += held[:, :1]
-        elbows = rotate(world[:, self._chest, None], self._elbows)
         if lowered.any():
             instrument, held, elbows = _lower(lowered, points, instrument, held, elbows)
 

@@ -80,8 +80,9 @@ class PoseKeys:
         rows: dict[str, FloatArray] = {}
         for name, column in self._turns.items():
             turn = still if column is None else values[:, column : column + 3]
-            size = np.sqrt(np.einsum("fi,fi->f", turn, turn))
-            turn = turn * (LARGEST_TURN_RAD[name] / np.maximum(size, LARGEST_TURN_RAD[name]))[:, None]
+            if turn.any():
+                size = np.sqrt(np.einsum("fi,fi->f", turn, turn))
+                turn = turn * (LARGEST_TURN_RAD[name] / np.maximum(size, LARGEST_TURN_RAD[name]))[:, None]
             rows |= {f"{name}_{axis}": turn[:, place] for place, axis in enumerate(AXES)}
         for side, column in self._gaze.items():
             rows[f"eyes_{side}"] = still[:, 0] if column is None else values[:, column]

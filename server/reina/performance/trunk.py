@@ -23,12 +23,15 @@ class Trunk:
         rig: The player's rig.
         joints: Names, parents first, beginning with the root; each one's parent is among them.
         points: Places that ride on these joints.
+        directions: Vectors that turn with these joints, each as a point's offset.
 
     Raises:
         RigError: A joint's parent, or a point's joint, is not among the joints.
     """
 
-    def __init__(self, rig: Rig, joints: Sequence[str], points: Sequence[Point]) -> None:
+    def __init__(
+        self, rig: Rig, joints: Sequence[str], points: Sequence[Point], directions: Sequence[Point] = ()
+    ) -> None:
         skeleton = rig.skeleton
         self.joints: IntArray = np.array([skeleton.index(name) for name in joints], dtype=np.intp)
         place = {joint: index for index, joint in enumerate(self.joints.tolist())}
@@ -36,25 +39,46 @@ class Trunk:
         for name, parent in zip(joints[1:], self._parents[1:], strict=True):
             if parent < 0:
                 raise RigError(f"the parent of {name!r} must be one of {', '.join(joints)}", where="joints")
-        for point in points:
+        for point in (*points, *directions):
             if point.joint not in place:
                 raise RigError(f"{point.name!r} must sit on one of {', '.join(joints)}", where="contacts")
         # Every joint but the root, and every point, hangs on a link; a point's place is the sum of its links.
-        carriers = self._parents[1:] + [place[point.joint] for point in points]
+        hung = self._parents[1:] + [place[point.joint] for point in points]
+        carriers = hung + [place[direction.joint] for direction in directions]
         self._carriers: IntArray = np.array(carriers, dtype=np.intp)
-        self._links: FloatArray = np.concatenate(
-            [skeleton.rest_translations[self.joints[1:]], np.array([point.offset for point in points])]
-        )
-        self._sums: FloatArray = np.zeros((len(points), len(carriers)))
+        offsets = [point.offset for point in (*points, *directions)]
+        self._links: FloatArray = np.concatenate([skeleton.rest_translations[self.joints[1:]], offsets])
+        self._sums: FloatArray = np.zeros((len(points), len(hung)))
         for row, point in enumerate(points):
             self._sums[row, len(joints) - 1 + row] = 1.0
             joint = place[point.joint]
             while joint > 0:
                 self._sums[row, joint - 1] = 1.0
                 joint = self._parents[joint]
+        self._levels = self._by_depth()
 
-    def solve(self, local: FloatArray, root_positions: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """World rotations of the joints ``(F, N, 4)`` and positions of the points ``(F, K, 3)``, metres.
+    def _by_depth(self) -> list[tuple[IntArray, IntArray]]:
+        """Joints equally far from the root, with their parents: one product does for each such row."""
+        depths = [0]
+        for parent in self._parents[1:]:
+            depths.append(depths[parent] + 1)
+        rows = [
+            [joint for joint, depth in enumerate(depths) if depth == level]
+            for level in range(1, max(depths) + 1)
+        ]
+        return [
+            (np.array(row, dtype=np.intp), np.array([self._parents[joint] for joint in row], dtype=np.intp))
+            for row in rows
+        ]
+
+    def solve(
+        self, local: FloatArray, root_positions: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Where the trunk is.
+
+        Returns:
+            World rotations of the joints ``(F, N, 4)``, positions of the points ``(F, K, 3)``, metres, and
+            the directions in the world ``(F, D, 3)``.
 
         Args:
             local: Local rotations, rest included, ``(F, N, 4)``.
@@ -62,7 +86,9 @@ class Trunk:
         """
         world = np.empty(local.shape)
         world[:, 0] = local[:, 0]
-        for joint in range(1, len(self._parents)):
-            world[:, joint] = multiply(world[:, self._parents[joint]], local[:, joint])
-        links = rotate(world[:, self._carriers], self._links)
-        return world, root_positions[:, None] + np.matmul(self._sums, links)
+        for joints, parents in self._levels:
+            world[:, joints] = multiply(world[:, parents], local[:, joints])
+        turned = rotate(world[:, self._carriers], self._links)
+        links = self._sums.shape[1]
+        points = root_positions[:, None] + np.matmul(self._sums, turned[:, :links])
+        return world, points, turned[:, links:]

@@ -8,6 +8,7 @@ the page's reader and the documentation are derived from it.
 from __future__ import annotations
 
 from enum import IntFlag
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
@@ -60,6 +61,7 @@ def _aligned(offset: int) -> int:
     return -(-offset // ALIGNMENT) * ALIGNMENT
 
 
+@lru_cache
 def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
     """The layout of a frame with so many joints (of all skeletons), skeletons and parameter floats."""
     fields: list[tuple[str, Any, int]] = [*fields_of(HEADER)]

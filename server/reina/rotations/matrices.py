@@ -12,6 +12,24 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import ArrayLike, FloatArray
 
 
+def _to_rows() -> FloatArray:
+    """What each element of a matrix, row by row, adds to the elements of 4 q qᵀ, ``(9, 16)``."""
+    rows = np.zeros((3, 3, 4, 4))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        rows[i, i, i, i] = rows[i, i, 3, 3] = 1.0
+        rows[i, i, j, j] = rows[i, i, k, k] = -1.0
+        # m[i, j] + m[j, i] = 4 q_i q_j, m[k, j] - m[j, k] = 4 q_i w
+        rows[i, j, i, j] = rows[i, j, j, i] = rows[j, i, i, j] = rows[j, i, j, i] = 1.0
+        rows[k, j, i, 3] = rows[k, j, 3, i] = 1.0
+        rows[j, k, i, 3] = rows[j, k, 3, i] = -1.0
+    return rows.reshape(9, 16)
+
+
+_TO_ROWS: FloatArray = _to_rows()
+_DIAGONAL = slice(0, 16, 5)
+
+
 def to_matrix(q: ArrayLike) -> FloatArray:
     """Rotation matrices ``(..., 3, 3)`` that turn column vectors as ``q`` ``(..., 4)`` does."""
     quaternions = as_quaternions(q)
@@ -43,19 +61,8 @@ def from_matrix(matrices: ArrayLike) -> FloatArray:
     m = np.asarray(matrices, dtype=np.float64)
     if m.shape[-2:] != (3, 3):
         raise ValueError(f"rotation matrices have the shape (..., 3, 3), not {m.shape}")
-    m00, m11, m22 = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
-    rows = np.empty((*m.shape[:-2], 4, 4))
-    rows[..., 0, 0] = 1.0 + m00 - m11 - m22
-    rows[..., 1, 1] = 1.0 - m00 + m11 - m22
-    rows[..., 2, 2] = 1.0 - m00 - m11 + m22
-    rows[..., 3, 3] = 1.0 + m00 + m11 + m22
-    rows[..., 0, 1] = rows[..., 1, 0] = m[..., 0, 1] + m[..., 1, 0]
-    rows[..., 0, 2] = rows[..., 2, 0] = m[..., 0, 2] + m[..., 2, 0]
-    rows[..., 1, 2] = rows[..., 2, 1] = m[..., 1, 2] + m[..., 2, 1]
-    rows[..., 0, 3] = rows[..., 3, 0] = m[..., 2, 1] - m[..., 1, 2]
-    rows[..., 1, 3] = rows[..., 3, 1] = m[..., 0, 2] - m[..., 2, 0]
-    rows[..., 2, 3] = rows[..., 3, 2] = m[..., 1, 0] - m[..., 0, 1]
-    best = np.argmax(np.einsum("...ii->...i", rows), axis=-1)
-    flat = rows.reshape(-1, 4, 4)
-    row = flat[np.arange(len(flat)), best.ravel()].reshape(*m.shape[:-2], 4)
+    rows = m.reshape(-1, 9) @ _TO_ROWS
+    rows[:, _DIAGONAL] += 1.0
+    best = np.argmax(rows[:, _DIAGONAL], axis=-1)
+    row = rows.reshape(-1, 4)[best + np.arange(0, 4 * len(rows), 4)].reshape(*m.shape[:-2], 4)
     return row / np.sqrt(np.einsum("...i,...i->...", row, row))[..., None]
