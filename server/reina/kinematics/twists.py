@@ -39,6 +39,7 @@ class TwistHelpers:
         q = np.asarray(source_rotations, dtype=np.float64)
         read: FloatArray = np.einsum("...ti,tic->c...t", q, self._read)
         # Half the twist's angle, the short way round.
-        half = np.arctan2(np.where(read[1] < 0.0, -read[0], read[0]), np.abs(read[1]))
+        sign = np.where(read[1] < 0.0, -1.0, 1.0)
+        half = np.arctan2(read[0] * sign, np.abs(read[1]))
         half = (half * self._fractions)[..., None]
         return np.cos(half) * self._rest + np.sin(half) * self._turned
