@@ -10,7 +10,7 @@ import numpy as np
 from reina.kinematics import TwistHelpers, TwoBoneLimbs
 from reina.performance.body_table import EYES, TRUNK, body_matrix
 from reina.performance.hands_on_instrument import PressingFingers
-from reina.performance.slide_finger import SLIDE_FINGERS, SlideFinger
+from reina.performance.slide_finger import SLIDE_FINGERS, YIELDING_M, SlideFinger
 from reina.performance.trunk import Trunk
 from reina.rotations import (
     conjugate,
@@ -118,9 +118,17 @@ class PlayerBody:
         self._fingers = PressingFingers(
             rig, instrument_rig, right, hand_positions[1], self._hand_rotations[1]
         )
+        to_hand = conjugate(self._hand_rotations[0])
         self._slides = {
-            slide: SlideFinger(rig, chain, part.travel, self._hand_rotations[0], rotations)
-            for slide, chain in SLIDE_FINGERS.items()
+            slide: SlideFinger(
+                rig,
+                chain,
+                rotate(to_hand, instrument_rig.contact(ring).offset - hand_positions[0]),
+                rotate(to_hand, part.travel),
+                rotate(to_hand, YIELDING_M),
+                rotations,
+            )
+            for slide, (chain, ring) in SLIDE_FINGERS.items()
             for part in instrument_rig.parts
             if part.parameter.endswith(f"/{slide}") and part.travel is not None and chain in rig.chains
         }

@@ -1,20 +1,46 @@
+import itertools
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from reina import rotations as r
 from reina.kinematics import FingerChains, excess_over_limits
-from reina.performance.slide_finger import SlideFinger
+from reina.performance.slide_finger import YIELDING_M, SlideFinger
 from reina.skeleton import Hold, Rig, forward_kinematics
+
+Array = NDArray[np.float64]
+
+RING_M = 0.0095
+"""Half the ring's width inside its wire."""
+
+
+@dataclass(frozen=True)
+class Ringed:
+    finger: SlideFinger
+    ring: Array
+    """Its middle in the hand's frame, metres."""
+    travel: Array
 
 
 @pytest.fixture
-def finger(player_rig: Rig, trumpet_rig: Rig, hold: Hold) -> SlideFinger:
+def ringed(player_rig: Rig, trumpet_rig: Rig, hold: Hold) -> Ringed:
     held = hold.rotations(player_rig)
-    _, world = forward_kinematics(player_rig.skeleton, held)
-    hand = r.multiply(r.conjugate(hold.instrument_rotation), world[player_rig.skeleton.index("leftHand")])
+    positions, world = forward_kinematics(player_rig.skeleton, held, hold.hips_position)
+    index = player_rig.skeleton.index("leftHand")
+    to_hand = r.multiply(r.conjugate(world[index]), hold.instrument_rotation)
     travel = next(part.travel for part in trumpet_rig.parts if part.parameter == "trumpet/slide/3")
     assert travel is not None
-    return SlideFinger(player_rig, "leftRing", travel, hand, held)
+    place = hold.instrument_position + r.rotate(hold.instrument_rotation, trumpet_rig.contact("ring").offset)
+    ring = r.rotate(r.conjugate(world[index]), place - positions[index])
+    way, yielding = r.rotate(to_hand, travel), r.rotate(to_hand, YIELDING_M)
+    return Ringed(SlideFinger(player_rig, "leftRing", ring, way, yielding, held), ring, way)
+
+
+@pytest.fixture
+def finger(ringed: Ringed) -> SlideFinger:
+    return ringed.finger
 
 
 def test_with_the_slide_in_the_finger_is_as_it_holds(finger: SlideFinger) -> None:
@@ -35,3 +61,30 @@ def test_it_goes_along_smoothly_and_within_its_limits(finger: SlideFinger, playe
         rest = player_rig.skeleton.rest_rotations[joint]
         assert excess_over_limits(rotations[:, place], rest, player_rig.limits[joint]).max() < 1e-9
     assert 0.0 < finger.reach <= 1.0
+
+
+def test_its_axis_stays_within_the_ring_as_far_as_it_reaches(ringed: Ringed, player_rig: Rig) -> None:
+    finger = ringed.finger
+    assert finger.reach > 0.5
+    ways = np.linspace(0.0, finger.reach, 40)
+    # What it is told is held back near its reach: ask for so much that it goes all the way.
+    asked = finger.reach * np.arctanh(np.minimum(ways / finger.reach, 0.98))
+    ways = finger.reach * np.tanh(asked / finger.reach)
+    rotations = finger.solve(asked)
+    skeleton = player_rig.skeleton
+    place = np.broadcast_to(skeleton.rest_translations[finger.joints[0]], (40, 3))
+    turn: Array = np.broadcast_to([0.0, 0.0, 0.0, 1.0], (40, 4))
+    points: list[Array] = []
+    tip = player_rig.effector("leftRingTip").offset
+    for joint, link in enumerate([*skeleton.rest_translations[finger.joints[1:]], tip]):
+        turn = r.multiply(turn, rotations[:, joint])
+        points.append(place)
+        place = place + r.rotate(turn, link)
+    points.append(place)
+    ring = ringed.ring + ways[:, None] * ringed.travel
+    gaps = [
+        np.linalg.norm(a + part * (b - a) - ring, axis=1)
+        for a, b in itertools.pairwise(points)
+        for part in np.linspace(0.0, 1.0, 30)
+    ]
+    assert np.min(gaps, axis=0).max() < RING_M

@@ -1,5 +1,5 @@
-// Writes a rig's model as plain numbers: every mesh's positions, normals, joints, weights and triangles, and the
-// skin's inverse bind matrices. Models are compressed by meshopt and quantized, which Python cannot read.
+// Writes a rig's model as plain numbers: every mesh's positions, normals, triangles and place (column by column), and
+// of a skin the joints, weights and inverse bind matrices. Models are compressed by meshopt and quantized, which Python cannot read.
 //
 // usage: node read_model.mjs MODEL.glb OUT.json
 
@@ -42,20 +42,42 @@ function read(index) {
   return { width, values };
 }
 
-const meshes = gltf.nodes.flatMap((node) =>
+function multiply(a, b) {
+  return Array.from({ length: 16 }, (_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i % 4)] * b[4 * (i >> 2) + k], 0));
+}
+
+function local({ matrix, translation: t = [0, 0, 0], rotation: [x, y, z, w] = [0, 0, 0, 1], scale: s = [1, 1, 1] }) {
+  if (matrix !== undefined) return matrix;
+  return [
+    ...[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)].map((part) => part * s[0]), 0,
+    ...[2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)].map((part) => part * s[1]), 0,
+    ...[2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)].map((part) => part * s[2]), 0,
+    ...t, 1,
+  ];
+}
+
+function place(index) {
+  const parent = gltf.nodes.findIndex(({ children = [] }) => children.includes(index));
+  const own = local(gltf.nodes[index]);
+  return parent < 0 ? own : multiply(place(parent), own);
+}
+
+const meshes = gltf.nodes.flatMap((node, index) =>
   node.mesh === undefined
     ? []
     : gltf.meshes[node.mesh].primitives.map((primitive) => ({
         name: node.name,
+        place: place(index),
         material: gltf.materials[primitive.material].name,
         triangles: read(primitive.indices),
         ...Object.fromEntries(
-          ["POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0"].map((key) => [key.toLowerCase(), read(primitive.attributes[key])]),
+          ["POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0"]
+            .filter((key) => key in primitive.attributes)
+            .map((key) => [key.toLowerCase(), read(primitive.attributes[key])]),
         ),
       })),
 );
-const [skin] = gltf.skins;
-writeFileSync(
-  out,
-  JSON.stringify({ meshes, joints: skin.joints.map((node) => gltf.nodes[node].name), inverseBind: read(skin.inverseBindMatrices) }),
-);
+const skin = gltf.skins?.[0];
+const skinned =
+  skin === undefined ? {} : { joints: skin.joints.map((node) => gltf.nodes[node].name), inverseBind: read(skin.inverseBindMatrices) };
+writeFileSync(out, JSON.stringify({ meshes, ...skinned }));

@@ -1,64 +1,30 @@
 """Cloth, skin and fingers keep out of each other in the poses of every example, at sampled vertices.
 
-The models are skinned here as a page skins them, by numbers that `read_model.mjs` takes out of the GLBs.
 A vertex is inside a cloth by how far it lies behind the cloth's nearest vertex, along that vertex's normal.
 Vertices whose nearest is on a cloth's border say nothing: past an edge there is no inside.
 """
 
 from __future__ import annotations
 
-import json
-import subprocess
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from tests.unit.rigs.skinned import EXAMPLES, PLAYERS, ROOT, Array, Cloth, play, read_cloths
 
-from reina.instruments import INSTRUMENTS
-from reina.keyframes import Show, TimeMap, stage_registry
 from reina.music import read_score
-from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
-from reina.rotations import to_matrix
-from reina.skeleton import Rig, forward_kinematics, load_hold, load_rig
+from reina.skeleton import load_rig
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
-ROOT = Path(__file__).parents[3]
-EXAMPLES = sorted((ROOT / "examples/scores").iterdir())
-PLAYERS = tuple(sorted(path.parents[1].name for path in (ROOT / "rigs").glob("*/holds/trumpet.json")))
 FRAMES = 6
 """Of each example, evenly spread."""
 
 NEAR_M = 0.02
 """Who is further from a cloth than this is not in touch with it: it is another side of it that is seen."""
-
-
-@dataclass(frozen=True)
-class Cloth:
-    """A mesh of the model at rest: which vertices are on its border, and by what joints it is moved."""
-
-    positions: Array
-    normals: Array
-    joints: NDArray[np.int64]
-    weights: Array
-    border: NDArray[np.bool_]
-
-    def posed(self, matrices: Array) -> tuple[Array, Array]:
-        """Positions and normals (V, 3) under joint matrices (J, 3, 4)."""
-        blended = np.einsum("vk,vkij->vij", self.weights, matrices[self.joints])
-        places = np.einsum("vij,vj->vi", blended[:, :, :3], self.positions) + blended[:, :, 3]
-        normals = np.einsum("vij,vj->vi", blended[:, :, :3], self.normals)
-        return places, normals / np.linalg.norm(normals, axis=1, keepdims=True)
-
-    def only(self, kept: NDArray[np.bool_]) -> Cloth:
-        """Some of its vertices."""
-        return Cloth(
-            self.positions[kept], self.normals[kept], self.joints[kept], self.weights[kept], self.border[kept]
-        )
 
 
 @dataclass(frozen=True)
@@ -77,74 +43,15 @@ class Model:
         return (cloth.weights * wanted[cloth.joints]).sum(axis=1) > 0.98
 
 
-def shaped(entry: dict[str, Any]) -> Array:
-    return np.array(entry["values"], dtype=np.float64).reshape(-1, entry["width"])
-
-
-def on_border(triangles: NDArray[np.int64], positions: Array) -> NDArray[np.bool_]:
-    """Vertices of an edge that one triangle alone has; vertices at one place count as one."""
-    _, place = np.unique(np.round(positions, 5), axis=0, return_inverse=True)
-    corners = place.ravel()[triangles]
-    edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
-    found, count = np.unique(edges, axis=0, return_counts=True)
-    return np.isin(place.ravel(), found[count == 1])
-
-
-def performed(player: Rig, trumpet: Rig, name: str) -> list[Array]:
-    """Joint matrices (J, 3, 4), world times inverse rest, of some frames of every example."""
-    registry = stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS])
-    show = Show.from_document({"version": 1, "tracks": []}, registry)
-    skeleton = player.skeleton
-    rest_places, rest_turns = forward_kinematics(skeleton, skeleton.rest_rotations)
-    back = np.swapaxes(to_matrix(rest_turns), -1, -2)
-    poses: list[Array] = []
-    for path in EXAMPLES:
-        score = read_score(path.read_bytes(), filename=path.name)
-        instrument = INSTRUMENTS["trumpet"]
-        performance = Performance(
-            score=score,
-            played=instrument.play(score, instrument.rank_parts(score)[0].part),
-            instrument=instrument,
-            player_rig=player,
-            instrument_rig=trumpet,
-            hold=load_hold(ROOT / "rigs" / name, "trumpet"),
-            show_plan=show.plan(registry, TimeMap.steady()),
-            registry=registry,
-        )
-        block = performance.sample(np.linspace(0.0, score.duration_s + 3.0, FRAMES))
-        local = block.rotations[:, : len(skeleton)].astype(np.float64)
-        places, turns = forward_kinematics(skeleton, local, block.root_positions[:, 0].astype(np.float64))
-        turned = to_matrix(turns) @ back
-        moved = places - np.einsum("fjik,jk->fji", turned, rest_places)
-        matrices: Array = np.concatenate([turned, moved[..., None]], axis=-1)
-        poses.extend(matrices[frame] for frame in range(len(matrices)))
-    return poses
-
-
 @pytest.fixture(scope="module", params=PLAYERS)
 def model(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Model:
     name = request.param
-    out = tmp_path_factory.mktemp("model") / "model.json"
-    script = Path(__file__).with_name("read_model.mjs")
-    subprocess.run(["node", script, ROOT / "rigs" / name / "full.glb", out], check=True)
-    content = json.loads(out.read_text())
-    player = load_rig(ROOT / "rigs" / name)
-    nodes = {node: index for index, node in enumerate(player.nodes)}
-    order = np.array([nodes[node] for node in content["joints"]])
-    cloths: dict[str, Cloth] = {}
-    for mesh in content["meshes"]:
-        positions = shaped(mesh["position"])
-        triangles = np.array(mesh["triangles"]["values"], dtype=np.int64).reshape(-1, 3)
-        weights = shaped(mesh["weights_0"])
-        cloths[mesh["name"]] = Cloth(
-            positions,
-            shaped(mesh["normal"]),
-            order[shaped(mesh["joints_0"]).astype(np.int64)],
-            weights / weights.sum(axis=1, keepdims=True),
-            on_border(triangles, positions),
-        )
-    poses = performed(player, load_rig(ROOT / "rigs/trumpet"), name)
-    return Model(name, cloths, list(player.skeleton.names), poses)
+    cloths = read_cloths(name, tmp_path_factory.mktemp("model") / "model.json")
+    poses: list[Array] = []
+    for path in EXAMPLES:
+        end_s = read_score(path.read_bytes(), filename=path.name).duration_s + 3.0
+        poses.extend(play(name, path, np.linspace(0.0, end_s, FRAMES)).matrices)
+    return Model(name, cloths, list(load_rig(ROOT / "rigs" / name).skeleton.names), poses)
 
 
 COAT = {"trumpeter": "Blazer", "soloist": "Jacket"}

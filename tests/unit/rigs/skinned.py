@@ -1,0 +1,143 @@
+"""Models skinned as a page skins them, by numbers that `read_model.mjs` takes out of the GLBs."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reina.instruments import INSTRUMENTS
+from reina.keyframes import Show, TimeMap, stage_registry
+from reina.music import read_score
+from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
+from reina.rotations import to_matrix
+from reina.skeleton import forward_kinematics, load_hold, load_rig
+
+Array = NDArray[np.float64]
+
+ROOT = Path(__file__).parents[3]
+EXAMPLES = sorted((ROOT / "examples/scores").iterdir())
+PLAYERS = tuple(sorted(path.parents[1].name for path in (ROOT / "rigs").glob("*/holds/trumpet.json")))
+
+
+@dataclass(frozen=True)
+class Cloth:
+    """A mesh of the model at rest: which vertices are on its border, and by what joints it is moved."""
+
+    positions: Array
+    normals: Array
+    joints: NDArray[np.int64]
+    weights: Array
+    border: NDArray[np.bool_]
+
+    def posed(self, matrices: Array) -> tuple[Array, Array]:
+        """Positions and normals (V, 3) under joint matrices (J, 3, 4)."""
+        blended = np.einsum("vk,vkij->vij", self.weights, matrices[self.joints])
+        places = np.einsum("vij,vj->vi", blended[:, :, :3], self.positions) + blended[:, :, 3]
+        normals = np.einsum("vij,vj->vi", blended[:, :, :3], self.normals)
+        return places, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+    def only(self, kept: NDArray[np.bool_]) -> Cloth:
+        """Some of its vertices."""
+        return Cloth(
+            self.positions[kept], self.normals[kept], self.joints[kept], self.weights[kept], self.border[kept]
+        )
+
+
+def shaped(entry: dict[str, Any]) -> Array:
+    return np.array(entry["values"], dtype=np.float64).reshape(-1, entry["width"])
+
+
+def on_border(triangles: NDArray[np.int64], positions: Array) -> NDArray[np.bool_]:
+    """Vertices of an edge that one triangle alone has; vertices at one place count as one."""
+    _, place = np.unique(np.round(positions, 5), axis=0, return_inverse=True)
+    corners = place.ravel()[triangles]
+    edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
+    found, count = np.unique(edges, axis=0, return_counts=True)
+    return np.isin(place.ravel(), found[count == 1])
+
+
+@dataclass(frozen=True)
+class Played:
+    """Frames of a performance, as far as models are moved by them."""
+
+    matrices: Array
+    """World times inverse rest of the player's joints (F, J, 3, 4)."""
+    instrument_turns: Array
+    """Matrices (F, 3, 3) from the instrument's frame to the world."""
+    instrument_places: Array
+    """Metres (F, 3)."""
+    parameters: dict[str, Array]
+    """Of one float each, by path (F,)."""
+
+
+def play(name: str, path: Path, times_s: Array) -> Played:
+    """A player's frames of an example at some times."""
+    registry = stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS])
+    show = Show.from_document({"version": 1, "tracks": []}, registry)
+    player, trumpet = load_rig(ROOT / "rigs" / name), load_rig(ROOT / "rigs/trumpet")
+    skeleton = player.skeleton
+    rest_places, rest_turns = forward_kinematics(skeleton, skeleton.rest_rotations)
+    back = np.swapaxes(to_matrix(rest_turns), -1, -2)
+    score = read_score(path.read_bytes(), filename=path.name)
+    instrument = INSTRUMENTS["trumpet"]
+    performance = Performance(
+        score=score,
+        played=instrument.play(score, instrument.rank_parts(score)[0].part),
+        instrument=instrument,
+        player_rig=player,
+        instrument_rig=trumpet,
+        hold=load_hold(ROOT / "rigs" / name, "trumpet"),
+        show_plan=show.plan(registry, TimeMap.steady()),
+        registry=registry,
+    )
+    block = performance.sample(times_s)
+    local = block.rotations[:, : len(skeleton)].astype(np.float64)
+    places, turns = forward_kinematics(skeleton, local, block.root_positions[:, 0].astype(np.float64))
+    turned = to_matrix(turns) @ back
+    moved = places - np.einsum("fjik,jk->fji", turned, rest_places)
+    columns: dict[str, Array] = {}
+    at = 0
+    for parameter in performance.layout.parameters:
+        if parameter.length == 1:
+            columns[parameter.path] = block.parameters[:, at].astype(np.float64)
+        at += parameter.length
+    return Played(
+        np.concatenate([turned, moved[..., None]], axis=-1),
+        to_matrix(block.rotations[:, -1].astype(np.float64)),
+        block.root_positions[:, 1].astype(np.float64),
+        columns,
+    )
+
+
+def read_model(model: Path, out: Path) -> dict[str, Any]:
+    """What is in a GLB, by way of a file."""
+    script = Path(__file__).with_name("read_model.mjs")
+    subprocess.run(["node", script, model, out], check=True)
+    content: dict[str, Any] = json.loads(out.read_text())
+    return content
+
+
+def read_cloths(name: str, out: Path) -> dict[str, Cloth]:
+    """A player's meshes by their names."""
+    content = read_model(ROOT / "rigs" / name / "full.glb", out)
+    nodes = {node: index for index, node in enumerate(load_rig(ROOT / "rigs" / name).nodes)}
+    order = np.array([nodes[node] for node in content["joints"]])
+    cloths: dict[str, Cloth] = {}
+    for mesh in content["meshes"]:
+        positions = shaped(mesh["position"])
+        triangles = np.array(mesh["triangles"]["values"], dtype=np.int64).reshape(-1, 3)
+        weights = shaped(mesh["weights_0"])
+        cloths[mesh["name"]] = Cloth(
+            positions,
+            shaped(mesh["normal"]),
+            order[shaped(mesh["joints_0"]).astype(np.int64)],
+            weights / weights.sum(axis=1, keepdims=True),
+            on_border(triangles, positions),
+        )
+    return cloths
