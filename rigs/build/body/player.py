@@ -54,15 +54,15 @@ class Tier:
     lock_steps: int
     lock_sides: int
     lock_share: float
-    skirt_grid: tuple[int, int]
+    skirt_rows: int
     eye_grid: tuple[int, int]
     collar_detail: float
 
 
 TIERS = {
-    "full": Tier(1, 16, 10, 1.0, (26, 192), (24, 40), 1.0),
-    "medium": Tier(1, 12, 7, 0.9, (20, 144), (16, 28), 0.7),
-    "low": Tier(0, 7, 5, 0.5, (8, 96), (8, 14), 0.36),
+    "full": Tier(1, 16, 10, 1.0, 26, (24, 40), 1.0),
+    "medium": Tier(1, 12, 7, 0.9, 18, (16, 28), 0.7),
+    "low": Tier(0, 7, 5, 0.5, 8, (8, 14), 0.36),
 }
 
 
@@ -87,14 +87,16 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
         clothes = (
             suit_parts(tailor, tier.subdivisions, outer, file.colours)
             if formal
-            else uniform_parts(tailor, tier.subdivisions, tier.skirt_grid, outer, file.colours)
+            else uniform_parts(tailor, tier.subdivisions, tier.skirt_rows, outer, file.colours)
         )
         parts = [
             skin,
             lashes(figure, weights, file.lash_length),
             eyes(figure, skeleton, iris, *tier.eye_grid),
             *clothes,
-            *trimming_parts(tailor, cloth, outer, tier.collar_detail, file.colours, formal=formal),
+            *trimming_parts(
+                tailor, cloth, outer, clothes[0].mesh, tier.collar_detail, file.colours, formal=formal
+            ),
             Part("Hair", locks, hair, hair_normals),
         ]
         write_skinned(raw / f"{file.name}.{name}.glb", file.name, skeleton, parts)

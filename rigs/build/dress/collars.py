@@ -98,13 +98,14 @@ def _aside(line: Array, normal: Array, sign: int) -> Array:
     return unit
 
 
-def lapels(tailor: Tailor, cloth: Mesh, count: int, thick: float) -> Mesh:
-    """Two lapels turned over along the opening, widest at the notch.
+def lapels(tailor: Tailor, cloth: Mesh, count: int, thick: float) -> tuple[Mesh, list[Array]]:
+    """Two lapels turned over along the opening, widest at the notch; and their outer edges (N, 3).
 
     `count` rows each, `thick` times as high over the coat.
     """
     drape, steps = Drape(cloth), 40
     strips: list[Mesh] = []
+    edges: list[Array] = []
     for sign in (1, -1):
         line, gorge = _edge(tailor, drape, sign)
         line = _resampled(line[: gorge + OVERLAP], steps)
@@ -121,13 +122,18 @@ def lapels(tailor: Tailor, cloth: Mesh, count: int, thick: float) -> Mesh:
             places[:, 1] += 0.010 * np.clip(share, 0, 1) * t**6  # the notch's upper edge rises a little
             on, out = drape.surface(places)
             rows.append(_eased(on + out * (thick * lift), 1.0))
-        points = _sheet(rows, count).reshape(-1, 3)
+        sheet = _sheet(rows, count)
+        points = sheet.reshape(-1, 3)
         strips.append(Mesh(points, borrowed_weights(points, cloth), grid_faces(count, 7, flip=sign > 0)))
-    return joined(strips)
+        edges.append(np.vstack([sheet[:, 5], sheet[-1, 4:1:-1]]))
+    return joined(strips), edges
 
 
-def blazer_collar(tailor: Tailor, cloth: Mesh, count: int) -> Mesh:
-    """The blazer's collar: it stands at the nape, turns over, and meets the lapels at the notch."""
+def blazer_collar(tailor: Tailor, cloth: Mesh, count: int) -> tuple[Mesh, Array]:
+    """The blazer's collar, and its edge (N, 3).
+
+    It stands at the nape, turns over, and meets the lapels at the notch.
+    """
     drape, steps = Drape(cloth), 61
     halves: list[Array] = []
     for sign in (1, -1):
@@ -149,9 +155,11 @@ def blazer_collar(tailor: Tailor, cloth: Mesh, count: int) -> Mesh:
     crown = top + aside * 0.0045 + np.array([0.0, 0.0018, 0.0])
     shoulder = 0.55 * crown + 0.45 * middle + normal * 0.0022
     rows = [under, top, crown, shoulder, _eased(middle, 2.0), _eased(edge, 1.5), _eased(hem, 1.5)]
-    points = _sheet(rows, count).reshape(-1, 3)
+    sheet = _sheet(rows, count)
+    points = sheet.reshape(-1, 3)
     weights = _eased(borrowed_weights(points, cloth).reshape(count, len(rows), -1), 2.0 * count / steps)
-    return Mesh(points, weights.reshape(len(points), -1), grid_faces(count, len(rows), flip=True))
+    mesh = Mesh(points, weights.reshape(len(points), -1), grid_faces(count, len(rows), flip=True))
+    return mesh, sheet[:, 5]
 
 
 def shirt_collar(tailor: Tailor, count: int) -> Mesh:

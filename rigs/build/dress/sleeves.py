@@ -22,7 +22,8 @@ Array = NDArray[np.float64]
 ARM_PARTS = ("UpperArm", "UpperArmTwist1", "LowerArm", "LowerArmTwist1")
 SLEEVE_EASE_M = 0.0115  # how far a sleeve stands off the arm, and the coat off the shoulder
 COAT_EASE_M = 0.0135
-LOOSENESS = 0.25  # what is left of the cloth's further distance
+LOOSENESS = (0.25, 0.12)  # what is left of the cloth's further distance, below the chest and at the shoulders
+SHOULDER_EASE_M = 0.0018  # by so much it is closer there
 ARMHOLE = 0.02  # where the sleeve is sewn in, as a share of the upper arm
 SEAM_DEPTH_M = 0.0022
 SHOULDER_REACH_M = 0.15  # within it skin weights are eased
@@ -47,7 +48,10 @@ def fitted(tailor: Tailor, mesh: Mesh) -> Mesh:
     away = mesh.vertices - skin
     reach: Array = np.linalg.norm(away, axis=1)
     ease = COAT_EASE_M + (SLEEVE_EASE_M - COAT_EASE_M) * np.clip(_sleeve_share(tailor, mesh), 0, 1)
-    wanted: Array = np.where(reach > ease, ease + LOOSENESS * (reach - ease), reach)
+    high = smoothstep((mesh.vertices[:, 1] - float(tailor.at("chest")[1]) - 0.04) / 0.10)
+    ease -= SHOULDER_EASE_M * high
+    loose = LOOSENESS[0] + (LOOSENESS[1] - LOOSENESS[0]) * high
+    wanted: Array = np.where(reach > ease, ease + loose * (reach - ease), reach)
     drawn: Array = mesh.vertices + away * (wanted / np.maximum(reach, 1e-6) - 1)[:, None]
     border = on_border(len(mesh.vertices), mesh.faces)
     mesh.vertices = smoothed(drawn, mesh.faces, 6, border)

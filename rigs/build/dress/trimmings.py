@@ -11,7 +11,8 @@ from scipy.spatial import cKDTree
 from common.meshes import Mesh, joined
 from common.parts import Part, Surface
 from common.shapes import grid_faces, tube
-from dress.collars import blazer_collar, lapels, shirt_collar
+from dress.collars import Drape, blazer_collar, lapels, shirt_collar
+from dress.details import crest, piping, placket, pockets, sleeve_bands
 from dress.tailor import Tailor, borrowed_weights
 from dress.uniform import shirt_surface, top_button_y
 
@@ -37,7 +38,7 @@ def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
 
 
 def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
-    """Two brass buttons below the opening."""
+    """Brass buttons below the opening."""
     discs: list[Mesh] = []
     for k in range(2):
         y = top_button_y(tailor) - 0.025 - 0.075 * k
@@ -45,9 +46,9 @@ def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
         angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)
         rings = [
             np.c_[0.004 + r * np.cos(angle), y + r * np.sin(angle), np.full(sides, depth + z)]
-            for r, z in ((0.0078, 0.0), (0.0070, 0.0030))
+            for r, z in ((0.0092, 0.0), (0.0082, 0.0034))
         ]
-        points = np.vstack([*rings, [[0.004, y, depth + 0.0038]]])
+        points = np.vstack([*rings, [[0.004, y, depth + 0.0044]]])
         faces: list[list[int]] = []
         for i in range(sides):
             j = (i + 1) % sides
@@ -80,25 +81,50 @@ def bow(tailor: Tailor, *, tails: bool) -> Mesh:
 
 
 def trimming_parts(
-    tailor: Tailor, cloth: Mesh, outer: Mesh, detail: float, colours: Colours, *, formal: bool
+    tailor: Tailor,
+    cloth: Mesh,
+    outer: Mesh,
+    shirt: Mesh,
+    detail: float,
+    colours: Colours,
+    *,
+    formal: bool,
 ) -> list[Part]:
-    """All trimmings, made for the coat `outer`, which is cut from `cloth`.
+    """All trimmings, made for the coat `outer`, which is cut from `cloth`, and `shirt`.
 
     `detail` is the part of their rows that a lower tier keeps; `formal` has a bow tie for a ribbon and
     covered buttons for brass ones.
     """
     thick = 1 + 1.1 * (1 - detail)  # a coarser coat comes nearer to them
-    turned_over = [
-        lapels(tailor, cloth, round(40 * detail), thick),
-        blazer_collar(tailor, cloth, round(60 * detail) + 1),
-    ]
+    turned, edges = lapels(tailor, cloth, round(40 * detail), thick)
+    collar, collar_edge = blazer_collar(tailor, cloth, round(60 * detail) + 1)
+    turned_over = [turned, collar]
+    linen = [shirt_collar(tailor, round(72 * detail))]
+    metal = [buttons(tailor, outer)]
+    sewn: list[Part] = []
+    if not formal:
+        drape = Drape(outer)
+        linen.append(placket(tailor, shirt, max(round(20 * detail), 6)))
+        metal.append(crest(tailor, drape))
+        cords = piping([*edges, collar_edge], cloth)
+        bands = sleeve_bands(tailor, outer, max(round(32 * detail), 12))
+        flaps = pockets(tailor, drape, max(round(9 * detail), 4))
+        sewn.append(Part("Pockets", flaps, Surface("blazer", 0.82, colour=colours["coat"], both_sides=True)))
+        sewn.append(
+            Part(
+                "Piping",
+                joined([cords, bands]),
+                Surface("piping", 0.7, colour=colours["piping"], both_sides=True),
+            )
+        )
     button = Surface("button", 0.3, 0.0 if formal else 1.0, colour=colours["button"])
     lapel = Surface("lapel", 0.42 if formal else 0.75, colour=colours["lapel"], both_sides=True)
     name = "tie" if formal else "ribbon"
     return [
         Part("Lapels", joined(turned_over), lapel),
-        Part("Buttons", buttons(tailor, outer), button),
-        Part("Collar", shirt_collar(tailor, round(72 * detail)), shirt_surface(colours)),
+        *sewn,
+        Part("Buttons", joined(metal), button),
+        Part("Collar", joined(linen), shirt_surface(colours)),
         Part(
             name.capitalize(),
             bow(tailor, tails=not formal),

@@ -13,6 +13,7 @@ from common.meshes import Mesh, joined, smoothstep
 from common.parts import Part, Surface
 from common.shapes import grid_faces
 from dress.sleeves import creased, cuffs, fitted, softened
+from dress.tailor import borrowed_weights
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -124,39 +125,74 @@ def shirt(tailor: Tailor, subdivisions: int, underlap_m: float) -> Mesh:
     return mesh.clipped(np.minimum(keep, shown))
 
 
-def skirt(tailor: Tailor, rows: int, columns: int, pleats: int = 24) -> Mesh:
-    """A pleated skirt from waist to above the knee, laid over the helper skirt on a polar grid."""
+PLEATS = 24
+PLEAT = (0.0, 0.41, 0.80, 0.84, 0.96)  # columns within a pleat; between the third and fourth it turns under
+UNDER_BLAZER_M = (0.0040, 0.0065)  # how far under the blazer the skirt lies at least, and at most
+HEM_BANDS = ((0.865, 0.905), (0.925, 0.940))  # stripes near the hem, as shares of the skirt's length
+
+
+class Around:
+    """Vertices about an upright axis at depth `z`: radii by angle (0 is the front) and height."""
+
+    def __init__(self, vertices: Array, z: float) -> None:
+        across: Array = vertices[:, [0, 2]] - [0.0, z]
+        self.radii: Array = np.linalg.norm(across, axis=1)
+        angles: Array = np.arctan2(across[:, 0], across[:, 1])
+        self.tree = cKDTree(self._place(angles, vertices[:, 1]))
+
+    @staticmethod
+    def _place(angles: Array, heights: Array) -> Array:
+        return np.c_[np.cos(angles) * 0.15, np.sin(angles) * 0.15, heights]
+
+    def shares(
+        self, angles: Array, heights: Array, count: int, soft_m: float
+    ) -> tuple[NDArray[np.int64], Array]:
+        """The nearest vertices (N, count) and how much each counts (N, count)."""
+        distance, index = self.tree.query(self._place(angles, heights), k=count)
+        near: Array = 1 / (np.asarray(distance) ** 2 + soft_m**2)
+        return np.asarray(index), near / near.sum(axis=1, keepdims=True)
+
+
+def skirt(tailor: Tailor, outer: Mesh, rows: int, pleat: tuple[float, ...] = PLEAT) -> tuple[Mesh, Mesh]:
+    """A knife-pleated skirt from waist to above the knee over the helper skirt, and its two stripes.
+
+    What the blazer `outer` covers lies flat just under it. Columns stand on the pleats' edges, so that these
+    stay sharp; `pleat` says where within each.
+    """
     helper = Mesh(
         tailor.figure.vertices, tailor.weights, tailor.figure.mesh.triangles(["helper-skirt"])
     ).compact()
-    waist, knee = tailor.at("hips")[1] + 0.05, tailor.at("leftLowerLeg")[1] + 0.06
-    hem = tailor.at("hips")[1] - 0.035
-    centre = np.array([0.0, 0.0, helper.vertices[:, 2].mean()])
-    angle = np.arctan2(helper.vertices[:, 0], helper.vertices[:, 2] - centre[2])
-    radius = np.hypot(helper.vertices[:, 0], helper.vertices[:, 2] - centre[2])
-    tree = cKDTree(np.c_[np.cos(angle) * 0.15, np.sin(angle) * 0.15, helper.vertices[:, 1]])
-    t, a = (
-        grid.ravel()
-        for grid in np.meshgrid(
-            np.linspace(0, 1, rows), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij"
-        )
-    )
-    y = waist + (knee - waist) * t
-    distance, index = tree.query(np.c_[np.cos(a) * 0.15, np.sin(a) * 0.15, y], k=6)
-    near = 1 / (distance + 0.004)
-    near /= near.sum(axis=1, keepdims=True)
-    phase = (a / (2 * np.pi) * pleats) % 1
-    fold = np.where(phase < 0.82, phase / 0.82, (1 - phase) / 0.18)
-    r = (
-        (radius[index] * near).sum(axis=1) * (0.97 + 0.03 * t)
-        + 0.006
-        + 0.035 * t
-        + (0.003 + 0.016 * t) * (fold - 0.5)
-    )
-    r -= 0.022 * np.clip((y - hem + 0.03) / 0.05, 0, 1)  # drawn in where the blazer covers it
-    vertices = np.c_[np.sin(a) * r, y, centre[2] + np.cos(a) * r]
-    weights = (helper.weights[index] * near[..., None]).sum(axis=1)
-    return Mesh(vertices, weights, grid_faces(rows, columns + 1, flip=True))
+    waist, knee = float(tailor.at("hips")[1]) + 0.05, float(tailor.at("leftLowerLeg")[1]) + 0.06
+    depth = float(helper.vertices[:, 2].mean())
+    hull = Around(helper.vertices, depth)
+    reach: Array = np.hypot(outer.vertices[:, 0], outer.vertices[:, 2] - depth)
+    coat = Around(outer.vertices[(outer.vertices[:, 1] < waist + 0.03) & (reach < 0.25)], depth)
+    within: Array = (np.arange(PLEATS)[:, None] + np.array(pleat)).ravel() / PLEATS
+    turns: Array = np.r_[within, 1.0]
+
+    def hung(shares: Array, lift: float) -> Mesh:
+        t: Array = np.repeat(shares, len(turns))
+        a: Array = np.tile(2 * np.pi * turns, len(shares))
+        y = waist + (knee - waist) * t
+        index, near = hull.shares(a, y, 24, 0.02)
+        phase = (a / (2 * np.pi) * PLEATS) % 1
+        fold: Array = np.where(phase < 0.82, phase / 0.82, (1 - phase) / 0.18)
+        r: Array = (hull.radii[index] * near).sum(axis=1) * (0.97 + 0.03 * t) + 0.009 + 0.033 * t + lift
+        r += (0.003 + 0.016 * t) * (fold - 0.5)
+        over, nearby = coat.shares(a, y, 8, 0.004)
+        over_it: Array = (coat.radii[over] * nearby).sum(axis=1)
+        coat_hem = float(tailor.at("hips")[1]) - 0.035 + 0.012 * np.cos(a)
+        covered = smoothstep((y - coat_hem + 0.016) / 0.02)
+        under: Array = np.minimum(np.maximum(r, over_it - UNDER_BLAZER_M[1]), over_it - UNDER_BLAZER_M[0])
+        r += (under - r) * covered
+        vertices: Array = np.c_[np.sin(a) * r, y, depth + np.cos(a) * r]
+        weights: Array = (helper.weights[index] * near[..., None]).sum(axis=1)
+        # Under the blazer it is moved as the blazer is.
+        weights += (borrowed_weights(vertices, outer) - weights) * covered[:, None]
+        return Mesh(vertices, weights, grid_faces(len(shares), len(turns), flip=True))
+
+    stripes = [hung(np.linspace(*ends, 3), 0.0013) for ends in HEM_BANDS]
+    return hung(np.linspace(0, 1, rows), 0.0), joined(stripes)
 
 
 def tights(tailor: Tailor, subdivisions: int) -> Mesh:
@@ -168,11 +204,11 @@ def tights(tailor: Tailor, subdivisions: int) -> Mesh:
 
 
 def shoes(tailor: Tailor, subdivisions: int) -> Mesh:
-    """Low leather shoes with flat soles on the floor."""
+    """Low-cut leather shoes with flat soles on the floor."""
     mesh = tailor.cloth(tailor.tights.vertices[:, 1] < 0.12, 0.007, 10, subdivisions)
     v, ankle = mesh.vertices, tailor.at("leftFoot")
-    over_heel = 0.092 - v[:, 1]
-    over_toes = 0.074 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
+    over_heel = 0.070 - v[:, 1]
+    over_toes = 0.056 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
     behind = smoothstep((ankle[2] + 0.024 - v[:, 2]) / 0.024)
     mesh = mesh.clipped(over_heel * behind + over_toes * (1 - behind))
     sole = mesh.vertices[:, 1] - 0.0105
@@ -198,17 +234,19 @@ def shoes_part(tailor: Tailor, subdivisions: int, colours: Colours) -> Part:
 
 
 def uniform_parts(
-    tailor: Tailor, subdivisions: int, skirt_grid: tuple[int, int], outer: Mesh, colours: Colours
+    tailor: Tailor, subdivisions: int, skirt_rows: int, outer: Mesh, colours: Colours
 ) -> list[Part]:
     """All cloth but the trimmings; `outer` is the blazer, cut beforehand because trimmings lie on it."""
+    pleated, stripes = skirt(tailor, outer, skirt_rows)
     return [
         shirt_part(tailor, subdivisions, colours),
         Part("Blazer", outer, Surface("blazer", 0.82, colour=colours["coat"], both_sides=True)),
         Part(
             "Skirt",
-            skirt(tailor, *skirt_grid),
+            pleated,
             Surface("skirt", 0.85, colour=colours["legs"], both_sides=True),
         ),
+        Part("Hem", stripes, Surface("piping", 0.7, colour=colours["piping"], both_sides=True)),
         Part("Tights", tights(tailor, subdivisions), Surface("tights", 0.55, colour=colours["tights"])),
         shoes_part(tailor, subdivisions, colours),
     ]

@@ -1,6 +1,6 @@
 /** How skin, cloth and metal of a model take the stage's light: by the names of their materials. */
 
-import { Mesh, MeshPhysicalMaterial, MeshStandardMaterial, type Object3D, ShaderChunk } from "three";
+import { BackSide, DoubleSide, Mesh, MeshPhysicalMaterial, MeshStandardMaterial, type Object3D, ShaderChunk } from "three";
 
 import type { TierSettings } from "./tiers";
 
@@ -32,9 +32,24 @@ function napCloth(material: MeshStandardMaterial): MeshStandardMaterial {
   return cloth;
 }
 
+/** Fine knit: where it is seen straight on, the leg shows through; toward its outline it closes. */
+function knitTights(material: MeshStandardMaterial): MeshStandardMaterial {
+  material.onBeforeCompile = (program) => {
+    program.fragmentShader = program.fragmentShader.replace(
+      "#include <normal_fragment_maps>",
+      `#include <normal_fragment_maps>
+      float across = max(dot(normal, normalize(vViewPosition)), 0.0);
+      diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.12, 0.072, 0.06), 0.42 * pow(across, 2.2));`,
+    );
+  };
+  material.customProgramCacheKey = () => "tights";
+  return material;
+}
+
 /** Beginnings of material names; the first that fits is taken. */
 const DRESSES: readonly (readonly [name: RegExp, dress: Dress])[] = [
   [/^skin/i, softenSkin],
+  [/^tights/i, knitTights],
   [/^(blazer|jacket|lapel|skirt|trousers)/i, napCloth],
 ];
 
@@ -45,6 +60,8 @@ export function dressSurfaces(model: Object3D, tier: TierSettings): void {
     if (!(node instanceof Mesh)) return;
     node.castShadow = node.receiveShadow = tier.shadowMapSize > 0;
     const { material } = node as Mesh;
+    // Thin cloth would shade itself: its far side casts the shadow.
+    if ((material as MeshStandardMaterial).side === DoubleSide) (material as MeshStandardMaterial).shadowSide = BackSide;
     if (!tier.softSurfaces || !(material instanceof MeshStandardMaterial)) return;
     const dress = DRESSES.find(([name]) => name.test(material.name))?.[1];
     if (dress === undefined) return;
