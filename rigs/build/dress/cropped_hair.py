@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 SEED = 19
 PARTING_RAD = 0.62  # on his left
 HAIRLINE = (
-    (0.0, 0.057), (0.6, 0.053), (0.95, 0.040), (1.2, 0.004),
+    (0.0, 0.069), (0.5, 0.067), (0.8, 0.058), (0.98, 0.040), (1.15, 0.006),
     (1.45, -0.012), (1.9, -0.012), (2.4, -0.050), (3.2, -0.062),
 )  # fmt: skip
 """Turn from the front, and the hair's edge over the eyes, metres."""

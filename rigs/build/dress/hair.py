@@ -22,7 +22,7 @@ SEED = 7
 STRANDS_V = 0.96  # below it the hair's picture is dark
 TEMPLE_RAD = 0.86  # where the hair that hangs begins, from the front
 PARTING_RAD = 0.36  # on her left
-FRINGE_LOCKS = 10
+FRINGE = ((8, 0.0140, 1.0, 1.12), (6, 0.0178, 0.960, 0.90))  # locks, lift, length and width of its two layers
 HAIRLINE = (
     (0, 0.060),
     (0.6, 0.055),
@@ -157,7 +157,7 @@ def _locks_over_curtain(rng: np.random.Generator, share: float) -> list[Lock]:
             lock.start = rng.uniform(0.10, 0.32)
             lock.width_m = width * rng.uniform(0.85, 1.2) / share**0.8
             lock.swing, lock.flat = rng.uniform(-0.09, 0.09), 0.36
-            lock.taper, lock.tip = rng.uniform(0.66, 0.78), 0.55
+            lock.taper, lock.tip = rng.uniform(0.78, 0.88), 0.5
             locks.append(lock)
     return locks
 
@@ -166,14 +166,14 @@ def _swept(tip: float, length: float, lift_m: float) -> Lock:
     """How the fringe lies: combed from the parting to a tip's azimuth, longer toward the temples."""
     from_parting = tip - PARTING_RAD
     root = PARTING_RAD + 0.30 * from_parting
-    end = (1.525 + 0.085 * min(1.0, abs(from_parting))) * length
+    end = (1.475 + 0.125 * min(1.0, abs(from_parting)) ** 1.5) * length
     return Lock(root, 0.16, end, lift_m, 0.0, swing=tip - root, flat=0.26, bow=1.25)
 
 
 def _fringe_sheet(tailor: Tailor, scalp: Scalp, steps: int, columns: int) -> Mesh:
-    """The body of the fringe: one sheet with a softly waved edge, on which its locks lie."""
+    """The body of the fringe: one sheet with a softly waved edge, over which the tips of its locks reach."""
     tips = np.linspace(-1.10, 1.08, columns)
-    edge = 0.985 + 0.012 * np.sin(tips * 8.0 + 0.6) + 0.007 * np.sin(tips * 19.0)
+    edge = 0.945 + 0.010 * np.sin(tips * 8.0 + 0.6) + 0.006 * np.sin(tips * 19.0)
     lines = [
         _swept(float(a), float(length), 0.0125).path(scalp, steps)[0]
         for a, length in zip(tips, edge, strict=True)
@@ -185,16 +185,19 @@ def _fringe_sheet(tailor: Tailor, scalp: Scalp, steps: int, columns: int) -> Mes
 
 
 def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
-    """Few broad locks over the fringe's sheet, swept to one side, and a few fine strands."""
+    """Broad overlapping locks in two layers, swept to one side, their tips apart; and a few fine strands."""
     locks: list[Lock] = []
-    number = max(6, round(FRINGE_LOCKS * share**0.5))
-    spacing = 1.98 / (number - 1)
-    for i in range(number):
-        lock = _swept(-0.99 + spacing * (i + rng.uniform(-0.25, 0.25)), rng.uniform(0.985, 1.02), 0.0155)
-        lock.start += rng.uniform(-0.04, 0.04)
-        lock.width_m = spacing * 0.098 * rng.uniform(0.55, 0.92)
-        lock.taper, lock.tip = rng.uniform(0.46, 0.60), rng.uniform(0.80, 0.95)
-        locks.append(lock)
+    for most, lift, length, width in FRINGE:
+        number = max(5, round(most * share**0.5))
+        spacing = 2.0 / (number - 1)
+        for i in range(number):
+            tip = -1.0 + spacing * (i + rng.uniform(-0.22, 0.22)) + (0.0 if length == 1.0 else 0.06)
+            lock = _swept(tip, length * rng.uniform(0.97, 1.015), lift)
+            lock.start += rng.uniform(-0.04, 0.04)
+            lock.width_m = spacing * 0.083 * width * rng.uniform(0.85, 1.1)
+            lock.taper, lock.tip = rng.uniform(0.58, 0.70), rng.uniform(0.58, 0.68)
+            lock.flat = 0.24
+            locks.append(lock)
     for tip in STRAY_RAD if share > 0.8 else ():
         lock = _swept(tip, 1.0, 0.0185)
         lock.width_m, lock.taper, lock.tip = 0.0036, 0.4, 0.8
@@ -207,7 +210,10 @@ def _temple_locks() -> list[Lock]:
     locks: list[Lock] = []
     for sign in (1, -1):
         locks.append(
-            Lock(sign * 0.98, 0.3, 1.50, 0.0135, 0.0120, 0.092, 0.004, -sign * 0.07, taper=0.5, tip=0.7)
+            Lock(sign * 0.90, 0.3, 1.50, 0.0125, 0.0062, 0.058, 0.006, -sign * 0.10, taper=0.35, tip=0.9)
+        )
+        locks.append(
+            Lock(sign * 0.98, 0.3, 1.50, 0.0135, 0.0120, 0.086, -0.003, -sign * 0.06, taper=0.42, tip=0.85)
         )
         locks.append(
             Lock(sign * 1.13, 0.3, 1.55, 0.0165, 0.0150, 0.102, 0.010, -sign * 0.05, taper=0.6, tip=0.6)

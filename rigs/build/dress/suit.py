@@ -86,7 +86,7 @@ def _straight(tailor: Tailor, mesh: Mesh) -> Array:
 def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours) -> list[Part]:
     """All cloth but the trimmings; `outer` is the jacket, cut beforehand because trimmings lie on it."""
     return [
-        shirt_part(tailor, subdivisions, colours, SHIRT_UNDERLAP_M),
+        shirt_part(tailor, subdivisions, colours, SHIRT_UNDERLAP_M, throat_m=0.0),
         Part("Jacket", outer, Surface("jacket", 0.72, colour=colours["coat"], both_sides=True)),
         Part(
             "Trousers",

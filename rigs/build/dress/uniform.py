@@ -110,11 +110,16 @@ def _waisted(tailor: Tailor, mesh: Mesh) -> Mesh:
     return mesh
 
 
-def shirt(tailor: Tailor, subdivisions: int, underlap_m: float) -> Mesh:
-    """Only the shirt that shows: the V at the chest, which goes on under the lapels, and the neck."""
+def shirt(tailor: Tailor, subdivisions: int, underlap_m: float, throat_m: float) -> Mesh:
+    """Only the shirt that shows: the V at the chest, which goes on under the lapels, and the neck.
+
+    Between the collar's wings it stands `throat_m` lower, so that the throat is bare.
+    """
     mesh = tailor.cloth(_above_hips(tailor), 0.0032, 4, subdivisions)
     v = mesh.vertices
-    keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), tailor.neck_y + 0.022 - v[:, 1])
+    turn = np.arctan2(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
+    top = tailor.neck_y + 0.022 - throat_m * smoothstep((0.75 - np.abs(turn)) / 0.45)
+    keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), top - v[:, 1])
     front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
     under_collar = 0.012 * np.clip((v[:, 1] - tailor.neck_y + 0.055) / 0.03, 0, 1)
     shown = np.where(front, opening(tailor, v[:, 1]) + underlap_m - under_collar - np.abs(v[:, 0]), -1.0)
@@ -221,9 +226,11 @@ def shirt_surface(colours: Colours) -> Surface:
     return Surface("shirt", 0.75, colour=colours["shirt"], both_sides=True)
 
 
-def shirt_part(tailor: Tailor, subdivisions: int, colours: Colours, underlap_m: float = 0.022) -> Part:
+def shirt_part(
+    tailor: Tailor, subdivisions: int, colours: Colours, underlap_m: float = 0.022, throat_m: float = 0.046
+) -> Part:
     """What shows of the shirt, with its cuffs."""
-    cloth = joined([shirt(tailor, subdivisions, underlap_m), cuffs(tailor, 20 + 12 * subdivisions)])
+    cloth = joined([shirt(tailor, subdivisions, underlap_m, throat_m), cuffs(tailor, 20 + 12 * subdivisions)])
     return Part("Shirt", cloth, shirt_surface(colours))
 
 

@@ -39,7 +39,7 @@ export const OUTLINE = "outline";
 const WIDTH = { share: 0.0021, most: 0.0042 } as const;
 
 /** What is too fine for a line about it. */
-const NO_OUTLINE = /^(eyes|lashes|felt|pearl|button)/i;
+const NO_OUTLINE = /^(eyes|lashes|felt|pearl|button|piping)/i;
 
 /** The ramp from shade to light by the cosine between surface and light, from −1 to 1. */
 export function createTones(): DataTexture {
