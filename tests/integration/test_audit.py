@@ -70,32 +70,48 @@ def midi(notes: Notes) -> bytes:
     return data.getvalue()
 
 
+SOLOISTS = ("faster than strokes", "two-octave leaps", "a long note and a rest", "chromatic-scale.mid")
+"""What the second player plays too: the same motion on another skeleton."""
+
+LONGEST_S = 600.0
+"""Longer scores are audited at their beginning, middle and end."""
+
+
 class Played:
     """A score in a session, and frames of it."""
 
-    def __init__(self, client: httpx.Client, session: str, spans: list[tuple[float, float]]) -> None:
-        self.client, self.session = client, session
+    def __init__(
+        self, client: httpx.Client, session: str, player: str, spans: list[tuple[float, float]]
+    ) -> None:
+        self.client, self.session, self.player = client, session, player
         self.takes = [take(client, session, start, end) for start, end in spans]
         score: dict[str, Any] = client.get(f"/api/v1/sessions/{session}/score").raise_for_status().json()
         self.notes = [note for note in score["notes"] if note["part"] == score["part"]]
 
 
-def upload(client: httpx.Client, name: str) -> dict[str, Any]:
+def upload(client: httpx.Client, name: str, player: str = "trumpeter") -> dict[str, Any]:
     """A new session of an example or of an extreme score."""
     score = (name, EXAMPLES[name].read_bytes()) if name in EXAMPLES else ("extreme.mid", midi(SCORES[name]))
     # With a song of their own, so that nothing is rendered meanwhile.
     files = {"score": score, "song": ("song.wav", song())}
-    made: dict[str, Any] = client.post("/api/v1/sessions", files=files).raise_for_status().json()
+    made: dict[str, Any] = (
+        client.post("/api/v1/sessions", files=files, data={"player": player}).raise_for_status().json()
+    )
     return made
 
 
-@pytest.fixture(scope="module", params=[*SCORES, *EXAMPLES], ids=lambda name: name.replace(" ", "-"))
+@pytest.fixture(
+    scope="module",
+    params=[(name, "trumpeter") for name in (*SCORES, *EXAMPLES)] + [(name, "soloist") for name in SOLOISTS],
+    ids=lambda both: "-".join(both).replace(" ", "-"),
+)
 def played(request: pytest.FixtureRequest, client: httpx.Client) -> Iterator[Played]:
     """All frames of a score, or its beginning, middle and end."""
-    made = upload(client, request.param)
+    name, player = request.param
+    made = upload(client, name, player)
     end = float(made["duration_s"]) + 2.0
-    spans = [(0.0, end)] if end < 120.0 else [(0.0, 12.0), (end / 2, end / 2 + 8.0), (end - 12.0, end)]
-    yield Played(client, made["id"], spans)
+    spans = [(0.0, end)] if end < LONGEST_S else [(0.0, 12.0), (end / 2, end / 2 + 8.0), (end - 12.0, end)]
+    yield Played(client, made["id"], player, spans)
     client.delete(
         f"/api/v1/sessions/{made['id']}", headers={"Authorization": f"Bearer {made['control_token']}"}
     ).raise_for_status()
@@ -108,7 +124,7 @@ def valve(one: Take, number: int) -> NDArray[np.float64]:
 @pytest.mark.parametrize("number", [1, 2, 3])
 def test_pads_are_on_their_buttons_and_idle_fingers_near_them(played: Played, number: int) -> None:
     for one in played.takes:
-        player, trumpet = one.skeleton("trumpeter"), one.skeleton("trumpet")
+        player, trumpet = one.skeleton(played.player), one.skeleton("trumpet")
         effector = next(entry["effector"] for entry in trumpet.rig["buttons"] if entry["valve"] == number)
         apart = np.linalg.norm(player.named("effectors", effector) - button(trumpet, one, number), axis=1)
         assert apart[valve(one, number) > 0.0].max(initial=0.0) <= PAD_M
@@ -160,7 +176,7 @@ def test_no_valve_is_late_on_a_finer_grid(played: Played) -> None:
 
 def test_the_mouth_is_on_the_mouthpiece_and_the_feet_do_not_slide(played: Played) -> None:
     for one in played.takes:
-        player, trumpet = one.skeleton("trumpeter"), one.skeleton("trumpet")
+        player, trumpet = one.skeleton(played.player), one.skeleton("trumpet")
         lips, mouthpiece = player.named("contacts", "lips"), trumpet.named("contacts", "mouthpiece")
         apart = np.linalg.norm(lips - mouthpiece, axis=1)
         assert apart[one.sounding].max(initial=0.0) <= MOUTH_M
@@ -186,7 +202,7 @@ def excess(joint: dict[str, Any], turned: Rotation) -> float:
 
 def test_no_joint_is_beyond_its_limits(played: Played) -> None:
     for one in played.takes:
-        joints = one.skeleton("trumpeter").rig["joints"]
+        joints = one.skeleton(played.player).rig["joints"]
         local = one.local["player"]
         for index, joint in enumerate(joints):
             if "limits" in joint:
@@ -195,7 +211,7 @@ def test_no_joint_is_beyond_its_limits(played: Played) -> None:
 
 def test_nothing_jumps(played: Played) -> None:
     for one in played.takes:
-        names = [joint["name"] for joint in one.skeleton("trumpeter").rig["joints"]]
+        names = [joint["name"] for joint in one.skeleton(played.player).rig["joints"]]
         pressing = np.zeros(len(names), dtype=bool)
         quaternions = one.local["player"]
         cosine = np.abs(np.sum(quaternions[1:] * quaternions[:-1], axis=-1)).clip(max=1.0)
@@ -220,24 +236,33 @@ def greatest_step(pose: Pose) -> float:
 
 
 def test_asking_for_a_part_gives_the_same_bytes(played: Played) -> None:
-    one = played.takes[-1]
-    first = len(one.song_time_s) // 3
-    start = float(one.song_time_s[first])
-    again = take(played.client, played.session, start, start + 1.0)
-    begin = int(np.flatnonzero(one.song_time_s == again.song_time_s[0])[0])
-    np.testing.assert_array_equal(again.raw[:, 24:], one.raw[begin : begin + len(again.raw), 24:])
+    """Sought last to first and in between, from any frame of a block, as a person who scrubs would."""
+    for one in played.takes:
+        for share in (0.93, 0.07, 0.61, 0.34):
+            first = int(share * (len(one.song_time_s) - 30))
+            start = float(one.song_time_s[first])
+            again = take(played.client, played.session, start, start + 0.4)
+            begin = int(np.flatnonzero(one.song_time_s == again.song_time_s[0])[0])
+            assert len(again.raw) >= 20
+            np.testing.assert_array_equal(again.raw[:, 24:], one.raw[begin : begin + len(again.raw), 24:])
 
 
 def test_another_process_gives_the_same_bytes(
     client: httpx.Client, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
-    name = "faster than strokes"
+    """Scores with strokes, leaps, the third slide and a lowered horn among them."""
     with (
         serve(tmp_path_factory.mktemp("other")) as running,
         httpx.Client(base_url=running.address, timeout=30.0) as other,
     ):
-        first, second = (take(one, upload(one, name)["id"], 2.0, 8.0) for one in (client, other))
-    np.testing.assert_array_equal(first.raw[:, 24:], second.raw[:, 24:])
+        for name, end in {
+            "faster than strokes": 14.0,
+            "two-octave leaps in semiquavers": 9.0,
+            "a long note and a rest": 25.0,
+            "chromatic-scale.mid": 12.0,
+        }.items():
+            first, second = (take(one, upload(one, name)["id"], 0.0, end) for one in (client, other))
+            np.testing.assert_array_equal(first.raw[:, 24:], second.raw[:, 24:], err_msg=name)
 
 
 def test_every_gesture_has_an_amount_that_frames_obey(client: httpx.Client) -> None:

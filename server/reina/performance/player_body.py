@@ -36,7 +36,7 @@ SOFT_KNEE_M = 0.001
 LOWERED_RAD = 0.85
 """How far arms and instrument are turned down about the line of the shoulders in long rests."""
 
-ELBOWS_OUT_RAD = np.array([0.5, -0.2])
+ELBOWS_OUT_RAD = np.array([0.7, -0.2])
 """How far the elbows then swing out about the line from shoulder to wrist, left and right."""
 
 
