@@ -32,7 +32,8 @@ BODY_DEG: dict[str, tuple[str, tuple[float, float], tuple[float, float], tuple[f
     "head": ("yxz", (-25, 30), (-40, 40), (-20, 20)),
     "leftEye": ("yxz", (-25, 25), (-35, 35), (0, 0)),
     "leftShoulder": ("yzx", (-15, 15), (-30, 25), (-10, 35)),
-    "leftUpperArm": ("yzx", (-100, 100), (-130, 60), (-70, 110)),
+    # At rest the arm is near 48 below the level: z ends 36 past hanging, as an arm before the body does.
+    "leftUpperArm": ("yzx", (-100, 100), (-130, 60), (-78, 110)),
     "leftLowerArm": ("yxz", (0, 0), (-110, 38), (0, 0)),
     "leftHand": ("xzy", (-110, 110), (-35, 25), (-75, 70)),
     "leftThumbMetacarpal": ("yzx", (-35, 35), (-40, 40), (-55, 40)),

@@ -23,9 +23,15 @@ NoteBeats = tuple[float, float, int]
 Perform = Callable[..., Performance]
 
 
+@pytest.fixture(scope="session", params=["trumpeter", "soloist"])
+def player(request: pytest.FixtureRequest) -> str:
+    name: str = request.param
+    return name
+
+
 @pytest.fixture(scope="session")
-def player_rig() -> Rig:
-    return load_rig(RIGS / "trumpeter")
+def player_rig(player: str) -> Rig:
+    return load_rig(RIGS / player)
 
 
 @pytest.fixture(scope="session")
@@ -34,8 +40,8 @@ def trumpet_rig() -> Rig:
 
 
 @pytest.fixture(scope="session")
-def hold() -> Hold:
-    return load_hold(RIGS / "trumpeter", "trumpet")
+def hold(player: str) -> Hold:
+    return load_hold(RIGS / player, "trumpet")
 
 
 @pytest.fixture(scope="session")
