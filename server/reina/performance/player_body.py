@@ -206,11 +206,12 @@ class PlayerBody:
         count = len(self._held)
         if self._eyes is not None:
             turns[:, self._eyes] = _glance(moved[:, self._eyes.start], self._sight)[:, None]
-        local = multiply(self._held, turns[:, :count])
+        base = self._held
         if stance is not None:
             trunk = stance.shape[1] - 1
-            stood = multiply(self._held[:trunk], turns[:, count + 1 :])
-            local[:, :trunk] = multiply(stood, turns[:, :trunk])
+            base = np.repeat(base[None], len(hips), axis=0)
+            base[:, :trunk] = multiply(self._held[:trunk], turns[:, count + 1 :])
+        local = multiply(base, turns[:, :count])
         shifts = moved[:, -1]
         world, points, elbows = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
         drop = self._drop(points[:, 2:4])

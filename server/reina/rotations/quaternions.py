@@ -33,20 +33,21 @@ def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
 
     A quaternion is two complex numbers over k: q = A + B i with A = w + z k, B = x + y k, and i A = conj(A)
     i. Hence A' = A1 A2 - B1 conj(B2) and B' = A1 B2 + B1 conj(A2): four products of whole complex arrays in
-    place of sixteen of real ones. In memory x, y are B, and z, w are k conj(A).
+    place of sixteen of real ones. In memory x, y are B, and z, w are C = k conj(A), so that
+    B' = k conj(C1) B2 - k B1 C2 and C' = -k C1 C2 - k conj(B1) B2. The left factor is multiplied by -k
+    beforehand: one pass over whole memory, where the two halves of the result would take two over every
+    other number of it.
     """
-    left = as_quaternions(a).view(np.complex128)
+    left = as_quaternions(a).view(np.complex128) * -1j
     right = as_quaternions(b).view(np.complex128)
     conjugated = left.conj()
-    b1, c1 = left[..., 0], left[..., 1]  # c = k conj(A)
     b2, c2 = right[..., 0], right[..., 1]
-    first = conjugated[..., 1] * b2
-    first -= b1 * c2
-    second = c1 * c2
-    second += conjugated[..., 0] * b2
-    halves = np.empty((*first.shape, 2), dtype=np.complex128)
-    np.multiply(first, 1j, out=halves[..., 0])
-    np.multiply(second, -1j, out=halves[..., 1])
+    xy = left[..., 0] * c2
+    xy += conjugated[..., 1] * b2
+    zw = left[..., 1] * c2
+    zw -= conjugated[..., 0] * b2
+    halves = np.empty((*xy.shape, 2), dtype=np.complex128)
+    halves[..., 0], halves[..., 1] = xy, zw
     return halves.view(np.float64)
 
 
