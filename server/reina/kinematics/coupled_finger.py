@@ -116,8 +116,13 @@ class CoupledFinger:
         span = (squared - self._nearest) / (self._farthest - self._nearest)
         u = self._u_low + span * (self._u_high - self._u_low)
         c0 = self._c0 - squared
-        c4, c3, c1 = self._c4, self._c3, self._c1
-        d3, d2, d1 = self._d3, self._d2, self._d1
+        # Coefficients as large as the block: a row of few fingers, stretched over it, would make NumPy's
+        # inner loops as short as the row, which takes three times as long in each of the sums below.
+        row = (self._c4, self._c3, self._c1, self._d3, self._d2, self._d1)
+        whole = np.empty((len(row), *u.shape))
+        for index, coefficient in enumerate(row):
+            whole[index] = coefficient
+        c4, c3, c1, d3, d2, d1 = whole
         for step in range(_QUARTIC_STEPS):
             value = (((c4 * u + c3) * u - c4) * u + c1) * u + c0
             u = u - value / (((d3 * u + d2) * u - d1) * u + c1)
