@@ -34,6 +34,7 @@ class Cloth:
     joints: NDArray[np.int64]
     weights: Array
     border: NDArray[np.bool_]
+    triangles: NDArray[np.int64]
 
     def posed(self, matrices: Array) -> tuple[Array, Array]:
         """Positions and normals (V, 3) under joint matrices (J, 3, 4)."""
@@ -44,9 +45,24 @@ class Cloth:
 
     def only(self, kept: NDArray[np.bool_]) -> Cloth:
         """Some of its vertices."""
+        number = np.cumsum(kept) - 1
         return Cloth(
-            self.positions[kept], self.normals[kept], self.joints[kept], self.weights[kept], self.border[kept]
+            self.positions[kept],
+            self.normals[kept],
+            self.joints[kept],
+            self.weights[kept],
+            self.border[kept],
+            number[self.triangles[kept[self.triangles].all(axis=1)]],
         )
+
+    def samples(self, area_m2: float) -> tuple[NDArray[np.int64], Array]:
+        """Points all over its triangles, one for each so much of them at least: corners and shares (N, 3)."""
+        a, b, c = (self.positions[self.triangles[:, k]] for k in range(3))
+        areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        chosen = np.repeat(np.arange(len(areas)), np.ceil(areas / area_m2).astype(int))
+        within = np.random.default_rng(2).random((len(chosen), 2))
+        within = np.where(within.sum(axis=1, keepdims=True) > 1.0, 1.0 - within, within)
+        return self.triangles[chosen], np.column_stack([1.0 - within.sum(axis=1), within])
 
 
 def shaped(entry: dict[str, Any]) -> Array:
@@ -139,5 +155,6 @@ def read_cloths(name: str, out: Path) -> dict[str, Cloth]:
             order[shaped(mesh["joints_0"]).astype(np.int64)],
             weights / weights.sum(axis=1, keepdims=True),
             on_border(triangles, positions),
+            triangles,
         )
     return cloths
