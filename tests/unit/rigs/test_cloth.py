@@ -63,7 +63,7 @@ GRAZE_M = 0.0015
 UNDER_LAPEL_M = 0.015
 """What is as near to a lapel as this, and not out of it, is covered by it."""
 
-AT_THE_OPENING_M = {"trumpeter": GRAZE_M, "soloist": 0.0045}
+AT_THE_OPENING_M = {"trumpeter": GRAZE_M, "soloist": 0.006}
 """The soloist's shirt goes under the folded edge of his jacket, whose inside faces it."""
 
 CLEAR_M = 0.005
