@@ -5,6 +5,8 @@ import { floats } from "../figures";
 import { trouble } from "./trouble";
 
 export interface OpenClip {
+  /** Where a shipped clip is; null for a file of the visitor's. */
+  readonly href: string | null;
   readonly name: string;
   readonly file: Blob;
   readonly parsed: ParsedClip;
@@ -60,20 +62,20 @@ export class Clips {
     const asked = ++this.#asked;
     try {
       const file = await this.#api.file(clip.href);
-      if (asked === this.#asked) await this.openFile(file, `${clip.name}.bvh`);
+      if (asked === this.#asked) await this.openFile(file, `${clip.name}.bvh`, clip.href);
     } catch (error) {
       this.#refuse(clip.name, error);
     }
   }
 
   /** Have the server read a file; what was open stays until it has. */
-  async openFile(file: Blob, name: string): Promise<void> {
+  async openFile(file: Blob, name: string, href: string | null = null): Promise<void> {
     const asked = ++this.#asked;
     this.busy = true;
     try {
       const parsed = await this.#api.readClip(file);
       if (asked !== this.#asked) return;
-      this.open = { name, file, parsed, positions: floats(parsed.positions) };
+      this.open = { name, href, file, parsed, positions: floats(parsed.positions) };
       this.problem = null;
       this.chosen = null;
       this.frame = 0;
