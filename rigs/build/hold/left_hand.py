@@ -20,15 +20,16 @@ Array = NDArray[np.float64]
 
 START = np.array(  # place, rotation vector, swivel, shoulder; thumb; abduction, θ1, θ2, θ3 of each finger
     [
-        *(0.050, -0.070, -0.030), *(-1.810, -1.810, -1.150), 0.10, 0.15, 0.13,
-        *(-0.23, 0.60, -0.57, 0.05, -0.40),
-        *(0.29, 0.10, -1.47, -0.25), *(0.03, -0.10, -1.50, -0.77),
-        *(-0.12, 0.06, -0.76, -0.46), *(-0.29, -0.20, -1.49, -0.72),
+        *(0.0411, -0.0770, -0.0306), *(-1.907, -1.786, -1.015), -0.02, 0.20, 0.18,
+        *(-0.09, 0.54, -0.61, 0.22, -0.50),
+        *(0.32, 0.13, -1.43, -0.24), *(0.04, -0.03, -1.50, -0.77),
+        *(-0.09, 0.05, -0.74, -0.53), *(-0.30, -0.19, -1.50, -0.76),
     ]
 )  # fmt: skip
 RING_BONE = 1  # the ring finger's middle bone passes the ring
 PAD_HEIGHTS_M = (0.0180, 0.0020)  # of index and middle finger on the casing
 CURL_DEG = (-62.0, -62.0, -55.0, -60.0)
+LITTLE_BACK_M = 0.006  # the little finger's pad lies behind its outer joint
 HEEL_SAMPLES = 2  # of the palm's spheres along each capsule, those next to the wrist
 
 
@@ -60,8 +61,10 @@ class LeftHand:
             looking = rotation @ self.grip.fingers[k].pad_direction(angles[k])
             terms.append(self._on_casing(chains[k][3], looking, height))
         terms.append(self._through_ring(chains[2]))
-        terms.append((chains[3][3] - self.slide) * MM / 8)
-        terms.append(self.grip.obstacles.clearance(chains[3][3:]) * MM / 0.4)
+        terms.append((chains[3][3] - self.slide) * MM / 4)
+        terms.append(self.grip.obstacles.clearance(chains[3][3:]) * MM / 0.3)
+        turned_back = (chains[3][3] - chains[3][2])[2]  # or else the finger would lie along the slide
+        terms.append(np.array([max(turned_back + LITTLE_BACK_M, 0.0) * MM / 0.5]))
         for a, curl in zip(angles, CURL_DEG, strict=True):
             abduction, theta1, theta2, theta3 = a * DEG
             terms.append(
@@ -70,8 +73,8 @@ class LeftHand:
             terms += [
                 beyond(abduction, -16, 16) / 0.4,
                 beyond(theta1, -67, 8) / 2,
-                beyond(theta2, -84, -44) / 1.5,
-                beyond(theta3, -42, -15) / 1.5,
+                beyond(theta2, -84, -44) / 0.7,
+                beyond(theta3, -42, -15) / 0.7,
             ]
         thumb_points, looking = self.grip.thumb.points(x[9:14])
         terms.append((position + rotation @ thumb_points[3] - self.saddle) * MM / [0.5, 0.4, 1.0])
@@ -88,7 +91,7 @@ class LeftHand:
         aside = beyond(pad[0], -1.0, -0.007) * MM
         square = 1 + looking @ spoke / radius
         return np.array(
-            [(radius - self.casing_radius) * MM / 0.3, (pad[1] - height) * MM / 3, aside / 1.5, square / 0.3]
+            [(radius - self.casing_radius) * MM / 0.3, (pad[1] - height) * MM / 3, aside / 0.8, square / 0.3]
         )
 
     def _through_ring(self, chain: Array) -> Array:
@@ -104,7 +107,7 @@ class LeftHand:
         fingers = [f.spheres(a, 6) for f, a in zip(self.grip.fingers, angles, strict=True)]
         palm = self.grip.palm_spheres()
         terms = [
-            self.grip.depth(rotation, position, *each) / 0.35
+            self.grip.depth(rotation, position, *each) / 0.27
             for each in (*fingers, self.grip.thumb.spheres(thumb, 4))
         ]
         terms.append(self.grip.depth(rotation, position, *palm, allowed_m=0.002) / 0.7)
@@ -115,5 +118,5 @@ class LeftHand:
         gaps = self.grip.obstacles.clearance(position + palm[0] @ rotation.T) - palm[1]
         terms.append(np.array([max(float(gaps.min()), 0.0) * MM / 2]))
         heel = gaps.reshape(len(self.grip.palm), -1)[:, :HEEL_SAMPLES]
-        terms.append(np.array([max(float(heel.min()), 0.0) * MM / 2.5]))
+        terms.append(np.array([max(float(heel.min()), 0.0) * MM / 1.7]))
         return terms

@@ -108,4 +108,4 @@ def thumb_cost(angles: Array) -> Array:
         beyond(a[3], -60, 15),
         beyond(a[4], -75, 15),
     ]
-    return np.r_[a / [30, 35, 30, 40, 40], np.array(limits) / 2]
+    return np.r_[a / [30, 35, 30, 40, 40], np.array(limits)]
