@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/images anew: `.venv/bin/python -m tests.pictures.renew [page] [sheet]`.
+"""Draw the pictures of docs/images anew: `.venv/bin/python -m tests.pictures.renew [page] [sheet] [editor]`.
 
 Needs what `make test` sets up: the development packages, the built page and a Chromium.
 """
@@ -15,7 +15,10 @@ from typing import TYPE_CHECKING
 import httpx
 from PIL import Image, ImageDraw, ImageFont
 from playwright.sync_api import sync_playwright
+from tests.e2e.conftest import storing
 from tests.e2e.find_browser import browser_path
+from tests.e2e.opened import Opened
+from tests.e2e.shows import ShowPage, remembering
 from tests.integration.server import serve, upload
 from tests.pictures.gallery import PATIENCE_MS, GalleryPage, vite
 
@@ -48,6 +51,9 @@ PIECES = {
         {"time": 27.4, "light": "night", "style": "physical", "finish": "silver"},
     ),
 }
+EDITED = "prince-of-denmarks-march"
+EDITOR_SIZE = (1440, 900)
+EDITOR_MOMENT_S = 30.0
 INK, PAPER = (20, 23, 31), (244, 239, 230)
 GAP, HEAD, SIDE = 6, 30, 150
 
@@ -102,7 +108,33 @@ def draw_sheet(browser: Browser, server: Running) -> None:
     sheet.save(IMAGES / "contact-sheet.webp", quality=86, method=6)
 
 
-PICTURES = {"page": draw_page, "sheet": draw_sheet}
+def draw_editor(browser: Browser, server: Running) -> None:
+    """The show's editor over its own example, some of the camera's keyframes chosen."""
+    with httpx.Client(base_url=server.address, timeout=60.0) as client:
+        session = upload(
+            client,
+            (ROOT / f"examples/scores/{EDITED}.mid").read_bytes(),
+            f"{EDITED}.mid",
+            show=("show.json", (ROOT / f"examples/shows/{EDITED}.json").read_bytes()),
+        )
+        context = browser.new_context(viewport={"width": EDITOR_SIZE[0], "height": EDITOR_SIZE[1]})
+        context.add_init_script(storing(remembering(session.body)))
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE_MS)
+        opened = Opened(page, server.address)
+        page.goto(f"{server.address}/s/{session.id}?tier=full")
+        opened.until_drawn()
+        editor = ShowPage(opened, client).open()
+        editor.seek(EDITOR_MOMENT_S)
+        top, low = editor.key("camera/position", "k2")[1], editor.key("camera/fov", "k2")[1]
+        editor.drag((editor.ruler(7.0)[0], top - 9), (editor.ruler(22.0)[0], low + 9))
+        opened.until("window.reina.show.chosen.length > 8")
+        png = page.screenshot(timeout=PATIENCE_MS)
+        context.close()
+    Image.open(io.BytesIO(png)).convert("RGB").save(IMAGES / "editor.webp", quality=86, method=6)
+
+
+PICTURES = {"page": draw_page, "sheet": draw_sheet, "editor": draw_editor}
 
 
 def main() -> None:
