@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ Array = NDArray[np.float64]
 ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted((ROOT / "examples/scores").iterdir())
 PLAYERS = tuple(sorted(path.parents[1].name for path in (ROOT / "rigs").glob("*/holds/trumpet.json")))
+
+
+SAMPLE_AREA_M2 = 4e-5
 
 
 @dataclass(frozen=True)
@@ -55,11 +59,12 @@ class Cloth:
             number[self.triangles[kept[self.triangles].all(axis=1)]],
         )
 
-    def samples(self, area_m2: float) -> tuple[NDArray[np.int64], Array]:
-        """Points all over its triangles, one for each so much of them at least: corners and shares (N, 3)."""
+    @cached_property
+    def samples(self) -> tuple[NDArray[np.int64], Array]:
+        """Points all over its triangles, some millimetres apart: corners and shares (N, 3)."""
         a, b, c = (self.positions[self.triangles[:, k]] for k in range(3))
         areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        chosen = np.repeat(np.arange(len(areas)), np.ceil(areas / area_m2).astype(int))
+        chosen = np.repeat(np.arange(len(areas)), np.ceil(areas / SAMPLE_AREA_M2).astype(int))
         within = np.random.default_rng(2).random((len(chosen), 2))
         within = np.where(within.sum(axis=1, keepdims=True) > 1.0, 1.0 - within, within)
         return self.triangles[chosen], np.column_stack([1.0 - within.sum(axis=1), within])

@@ -69,15 +69,13 @@ AT_THE_OPENING_M = {"trumpeter": GRAZE_M, "soloist": 0.006}
 CLEAR_M = 0.005
 """Fingers keep at least so far from all cloth."""
 
-SAMPLE_AREA_M2 = 2e-5
-
 SHIFTS = 0.010 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
 
 
 def outside(inner: Cloth, outer: Cloth, pose: Array, shift: Array | None = None) -> Array:
     """How far each vertex of `inner` is outside of `outer`, metres ``(V,)``; NaN if it is not under it."""
     points, _ = inner.posed(pose)
-    corners, shares = outer.samples(SAMPLE_AREA_M2)
+    corners, shares = outer.samples
     at, facing = outer.posed(pose)
     places = np.einsum("nk,nkj->nj", shares, at[corners])
     normals = np.einsum("nk,nkj->nj", shares, facing[corners])
