@@ -13,16 +13,15 @@ from common.meshes import Mesh, joined, normals
 from common.raycast import ray_distances
 from common.shapes import grid_faces
 from dress.tailor import Tailor, borrowed_weights
-from dress.uniform import NECKLINE_M, neck_axis_z, neckline_height, opening, top_button_y
+from dress.uniform import NECKLINE_M, collar_seam_height, neck_axis_z, neckline_height, opening, top_button_y
 
 Array = NDArray[np.float64]
 
 GORGE_RAD = 1.12  # where round the neck (0 is the front) collar and lapel are sewn together
 LAPEL_M = 0.060  # the lapel's width at its notch, and the blazer collar's beside it
 COLLAR_M = 0.034
-OVERLAP = 2  # rows of the edge that lapel and collar share  # how high the blazer's collar stands at the nape
+OVERLAP = 2  # rows of the edge that lapel and collar share
 STAND_M = 0.014  # how high the blazer collar stands at the nape
-SHIRT_BASE_M = ((0.0, -0.037), (0.7, -0.026), (1.2, 0.000), (1.6, 0.010), (2.1, 0.010), (np.pi, 0.002))
 
 
 class Drape:
@@ -169,9 +168,9 @@ def shirt_collar(tailor: Tailor, count: int) -> Mesh:
     inner = 0.05 + (2 * np.pi - 0.10) * share
     outer = 0.40 + (2 * np.pi - 0.80) * share
     front = ((1 + np.cos(inner)) / 2) ** 4
-    base = tailor.neck_y + _base_height(inner)
+    base = tailor.neck_y + collar_seam_height(inner)
     top = base + 0.037 - 0.004 * front
-    low = tailor.neck_y + _base_height(outer) + 0.002 - 0.034 * ((1 + np.cos(outer)) / 2) ** 5
+    low = tailor.neck_y + collar_seam_height(outer) + 0.002 - 0.034 * ((1 + np.cos(outer)) / 2) ** 5
     bottom = _eased(_neck_radius(tailor, inner, base), 4) + 0.004
     upper = np.minimum(_eased(_neck_radius(tailor, inner, top), 4) + 0.0045, bottom + 0.004)
     profile = (
@@ -187,13 +186,6 @@ def shirt_collar(tailor: Tailor, count: int) -> Mesh:
     points = _sheet(rows, count).reshape(-1, 3)
     weights = tailor.rigid(len(points), neck=0.4, upperChest=0.6)
     return Mesh(points, weights, grid_faces(count, len(profile), flip=True))
-
-
-def _base_height(angle: Array) -> Array:
-    """Height (N,) of the shirt collar's seam over the neck's joint toward each angle (0 is the front)."""
-    around: Array = np.abs((angle + np.pi) % (2 * np.pi) - np.pi)
-    height: Array = np.interp(around, [a for a, _ in SHIRT_BASE_M], [height for _, height in SHIRT_BASE_M])
-    return height
 
 
 def _neck_radius(tailor: Tailor, angles: Array, heights: Array) -> Array:

@@ -93,5 +93,5 @@ def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours)
             trousers(tailor, subdivisions),
             Surface("trousers", 0.78, colour=colours["legs"], both_sides=True),
         ),
-        shoes_part(tailor, subdivisions, colours),
+        shoes_part(tailor, subdivisions, colours, strap=False),
     ]

@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 NECKLINE_M = 0.066  # radius of the blazer's neck
 NECKLINE_HEIGHT_M = ((0.0, -0.060), (0.9, -0.045), (1.25, -0.012), (1.6, 0.003), (2.2, 0.006), (np.pi, 0.001))
+SHIRT_BASE_M = ((0.0, -0.037), (0.7, -0.026), (1.2, 0.000), (1.6, 0.010), (2.1, 0.010), (np.pi, 0.002))
+UNDER_COLLAR_M = 0.018  # how far over the collar's seam the shirt goes on, hidden by the collar
 OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
 BLAZER_SLEEVE = 0.86  # the sleeve ends at this share of the forearm
 
@@ -84,6 +86,13 @@ def neckline_height(angle: Array) -> Array:
     return height
 
 
+def collar_seam_height(angle: Array) -> Array:
+    """Height (N,) of the shirt collar's seam over the neck's joint toward each angle (0 is the front)."""
+    around: Array = np.abs((angle + np.pi) % (2 * np.pi) - np.pi)
+    height: Array = np.interp(around, [a for a, _ in SHIRT_BASE_M], [height for _, height in SHIRT_BASE_M])
+    return height
+
+
 def neck_axis_z(tailor: Tailor, y: Array) -> Array:
     """Depth (N,) of the neck's middle at heights `y`; the neck leans forward."""
     return 0.0205 + 0.37 * np.clip(y - tailor.neck_y, -0.03, 0.06)
@@ -119,6 +128,8 @@ def shirt(tailor: Tailor, subdivisions: int, underlap_m: float, throat_m: float)
     v = mesh.vertices
     turn = np.arctan2(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
     top = tailor.neck_y + 0.022 - throat_m * smoothstep((0.75 - np.abs(turn)) / 0.45)
+    if throat_m:
+        top = np.minimum(top, tailor.neck_y + collar_seam_height(turn) + UNDER_COLLAR_M)
     keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), top - v[:, 1])
     front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
     under_collar = 0.012 * np.clip((v[:, 1] - tailor.neck_y + 0.055) / 0.03, 0, 1)
@@ -208,16 +219,28 @@ def tights(tailor: Tailor, subdivisions: int) -> Mesh:
     )
 
 
-def shoes(tailor: Tailor, subdivisions: int) -> Mesh:
-    """Low-cut leather shoes with flat soles on the floor."""
+VAMP_M = 0.090  # how far before the ankle the vamp begins
+SOLE_M = (0.014, 0.022)  # up to where the sole reaches, and over what height upper and sole meet
+STRAP_M = (0.052, 0.016)  # the strap's middle before the ankle, and its width
+
+
+def shoes(tailor: Tailor, subdivisions: int, *, strap: bool) -> Mesh:
+    """Leather shoes with flat soles on the floor: low-cut, or with a vamp over the toes and a strap."""
     mesh = tailor.cloth(tailor.tights.vertices[:, 1] < 0.12, 0.007, 10, subdivisions)
     v, ankle = mesh.vertices, tailor.at("leftFoot")
-    over_heel = 0.070 - v[:, 1]
-    over_toes = 0.056 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
+    over_heel = 0.066 - v[:, 1]
+    over_toes = 0.050 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
     behind = smoothstep((ankle[2] + 0.024 - v[:, 2]) / 0.024)
-    mesh = mesh.clipped(over_heel * behind + over_toes * (1 - behind))
-    sole = mesh.vertices[:, 1] - 0.0105
-    mesh.vertices[:, 1] = np.maximum(sole, 0.0)
+    keep = over_heel * behind + over_toes * (1 - behind)
+    if strap:
+        before = v[:, 2] - ankle[2]
+        keep = np.maximum(keep, before - VAMP_M)
+        keep = np.maximum(keep, 0.5 * STRAP_M[1] - np.abs(before - STRAP_M[0]))
+    mesh = mesh.clipped(keep)
+    # Only the sole comes down to the floor: the upper stays over the foot.
+    height = mesh.vertices[:, 1]
+    low = 1 - smoothstep((height - SOLE_M[0]) / SOLE_M[1])
+    mesh.vertices[:, 1] = np.maximum(height - 0.0105 * low, 0.0)
     return mesh
 
 
@@ -234,10 +257,10 @@ def shirt_part(
     return Part("Shirt", cloth, shirt_surface(colours))
 
 
-def shoes_part(tailor: Tailor, subdivisions: int, colours: Colours) -> Part:
+def shoes_part(tailor: Tailor, subdivisions: int, colours: Colours, *, strap: bool) -> Part:
     """The shoes."""
     surface = Surface("shoes", 0.28, colour=colours["shoes"], both_sides=True)
-    return Part("Shoes", shoes(tailor, subdivisions), surface)
+    return Part("Shoes", shoes(tailor, subdivisions, strap=strap), surface)
 
 
 def uniform_parts(
@@ -255,5 +278,5 @@ def uniform_parts(
         ),
         Part("Hem", stripes, Surface("piping", 0.7, colour=colours["piping"], both_sides=True)),
         Part("Tights", tights(tailor, subdivisions), Surface("tights", 0.55, colour=colours["tights"])),
-        shoes_part(tailor, subdivisions, colours),
+        shoes_part(tailor, subdivisions, colours, strap=True),
     ]
