@@ -26,8 +26,15 @@ TROUSER_EASE_M = 0.0075
 UNDER_JACKET_M = 0.007  # how far the trousers are drawn in where the jacket covers them
 SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
 SEAT_M = 0.065  # half the width over which the jacket hangs straight
-HEM_Y_M = 0.052  # over the shoe's vamp; behind it hangs lower
-LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.059), (2.0, 0.061))  # 0 hip, 1 knee, 2 ankle
+OXFORD_M = 0.020  # his shoe's vamp begins under the trousers
+HEM_M = (
+    (-0.045, 0.028),
+    (0.0, 0.042),
+    (0.03, 0.054),
+    (0.066, 0.090),
+    (0.2, 0.16),
+)  # before the ankle; height
+LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.061), (2.0, 0.067))  # 0 hip, 1 knee, 2 ankle
 
 
 def hung_over_the_seat(tailor: Tailor, mesh: Mesh) -> Mesh:
@@ -57,9 +64,8 @@ def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
     covered = smoothstep((mesh.vertices[:, 1] - hips + 0.085) / 0.05)
     out = normals(mesh.vertices, mesh.faces) * [1.0, 0.0, 1.0]
     mesh.vertices = mesh.vertices - out * (UNDER_JACKET_M * covered)[:, None]
-    ankle = tailor.at("leftFoot")
-    behind = smoothstep((ankle[2] + 0.01 - mesh.vertices[:, 2]) / 0.05)
-    hem = HEM_Y_M - 0.024 * behind
+    before = mesh.vertices[:, 2] - tailor.at("leftFoot")[2]
+    hem = np.interp(before, [place for place, _ in HEM_M], [height for _, height in HEM_M])
     return mesh.clipped(np.minimum(mesh.vertices[:, 1] - hem, hips + 0.035 - mesh.vertices[:, 1]))
 
 
@@ -93,5 +99,5 @@ def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours)
             trousers(tailor, subdivisions),
             Surface("trousers", 0.78, colour=colours["legs"], both_sides=True),
         ),
-        shoes_part(tailor, subdivisions, colours, strap=False),
+        shoes_part(tailor, subdivisions, colours, vamp_m=OXFORD_M),
     ]

@@ -219,22 +219,22 @@ def tights(tailor: Tailor, subdivisions: int) -> Mesh:
     )
 
 
-VAMP_M = 0.090  # how far before the ankle the vamp begins
+VAMP_M = 0.090  # how far before the ankle her vamp begins
 SOLE_M = (0.014, 0.022)  # up to where the sole reaches, and over what height upper and sole meet
 STRAP_M = (0.052, 0.016)  # the strap's middle before the ankle, and its width
 
 
-def shoes(tailor: Tailor, subdivisions: int, *, strap: bool) -> Mesh:
-    """Leather shoes with flat soles on the floor: low-cut, or with a vamp over the toes and a strap."""
+def shoes(tailor: Tailor, subdivisions: int, *, vamp_m: float, strap: bool) -> Mesh:
+    """Leather shoes with flat soles on the floor: a vamp from `vamp_m` before the ankle, a strap or none."""
     mesh = tailor.cloth(tailor.tights.vertices[:, 1] < 0.12, 0.007, 10, subdivisions)
     v, ankle = mesh.vertices, tailor.at("leftFoot")
     over_heel = 0.066 - v[:, 1]
     over_toes = 0.050 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
     behind = smoothstep((ankle[2] + 0.024 - v[:, 2]) / 0.024)
     keep = over_heel * behind + over_toes * (1 - behind)
+    before = v[:, 2] - ankle[2]
+    keep = np.maximum(keep, before - vamp_m)
     if strap:
-        before = v[:, 2] - ankle[2]
-        keep = np.maximum(keep, before - VAMP_M)
         keep = np.maximum(keep, 0.5 * STRAP_M[1] - np.abs(before - STRAP_M[0]))
     mesh = mesh.clipped(keep)
     # Only the sole comes down to the floor: the upper stays over the foot.
@@ -257,10 +257,12 @@ def shirt_part(
     return Part("Shirt", cloth, shirt_surface(colours))
 
 
-def shoes_part(tailor: Tailor, subdivisions: int, colours: Colours, *, strap: bool) -> Part:
+def shoes_part(
+    tailor: Tailor, subdivisions: int, colours: Colours, *, vamp_m: float = VAMP_M, strap: bool = False
+) -> Part:
     """The shoes."""
     surface = Surface("shoes", 0.28, colour=colours["shoes"], both_sides=True)
-    return Part("Shoes", shoes(tailor, subdivisions, strap=strap), surface)
+    return Part("Shoes", shoes(tailor, subdivisions, vamp_m=vamp_m, strap=strap), surface)
 
 
 def uniform_parts(
