@@ -64,8 +64,9 @@ def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
     covered = smoothstep((mesh.vertices[:, 1] - hips + 0.085) / 0.05)
     out = normals(mesh.vertices, mesh.faces) * [1.0, 0.0, 1.0]
     mesh.vertices = mesh.vertices - out * (UNDER_JACKET_M * covered)[:, None]
-    before = mesh.vertices[:, 2] - tailor.at("leftFoot")[2]
-    hem = np.interp(before, [place for place, _ in HEM_M], [height for _, height in HEM_M])
+    before: Array = mesh.vertices[:, 2] - tailor.at("leftFoot")[2]
+    places, heights = np.array(HEM_M).T
+    hem: Array = np.asarray(np.interp(before, places, heights), dtype=np.float64)
     return mesh.clipped(np.minimum(mesh.vertices[:, 1] - hem, hips + 0.035 - mesh.vertices[:, 1]))
 
 
