@@ -26,7 +26,7 @@ TROUSER_EASE_M = 0.0075
 UNDER_JACKET_M = 0.007  # how far the trousers are drawn in where the jacket covers them
 SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
 SEAT_M = 0.065  # half the width over which the jacket hangs straight
-OXFORD_M = 0.020  # his shoe's vamp begins under the trousers
+VAMP_M = 0.020  # how far before the ankle the shoe's vamp begins, under the trousers
 HEM_M = (
     (-0.045, 0.028),
     (0.0, 0.042),
@@ -100,5 +100,5 @@ def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours)
             trousers(tailor, subdivisions),
             Surface("trousers", 0.78, colour=colours["legs"], both_sides=True),
         ),
-        shoes_part(tailor, subdivisions, colours, vamp_m=OXFORD_M),
+        shoes_part(tailor, subdivisions, colours, vamp_m=VAMP_M, strap=False),
     ]

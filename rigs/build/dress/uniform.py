@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 NECKLINE_M = 0.066  # radius of the blazer's neck
 NECKLINE_HEIGHT_M = ((0.0, -0.060), (0.9, -0.045), (1.25, -0.012), (1.6, 0.003), (2.2, 0.006), (np.pi, 0.001))
-SHIRT_BASE_M = ((0.0, -0.037), (0.7, -0.026), (1.2, 0.000), (1.6, 0.010), (2.1, 0.010), (np.pi, 0.002))
+COLLAR_SEAM_M = ((0.0, -0.037), (0.7, -0.026), (1.2, 0.000), (1.6, 0.010), (2.1, 0.010), (np.pi, 0.002))
 UNDER_COLLAR_M = 0.018  # how far over the collar's seam the shirt goes on, hidden by the collar
 OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
 BLAZER_SLEEVE = 0.86  # the sleeve ends at this share of the forearm
@@ -79,17 +79,18 @@ def blazer(tailor: Tailor, cloth: Mesh) -> Mesh:
 
 def neckline_height(angle: Array) -> Array:
     """Height (N,) of the coat's neckline over the neck's joint toward each angle (0 is the front)."""
-    around: Array = np.abs(angle)
-    height: Array = np.interp(
-        around, [a for a, _ in NECKLINE_HEIGHT_M], [height for _, height in NECKLINE_HEIGHT_M]
-    )
-    return height
+    return _round_the_neck(NECKLINE_HEIGHT_M, angle)
 
 
 def collar_seam_height(angle: Array) -> Array:
     """Height (N,) of the shirt collar's seam over the neck's joint toward each angle (0 is the front)."""
+    return _round_the_neck(COLLAR_SEAM_M, angle)
+
+
+def _round_the_neck(heights_m: tuple[tuple[float, float], ...], angle: Array) -> Array:
+    """Heights (N,) toward each angle, the same on both sides, of pairs of angle and height."""
     around: Array = np.abs((angle + np.pi) % (2 * np.pi) - np.pi)
-    height: Array = np.interp(around, [a for a, _ in SHIRT_BASE_M], [height for _, height in SHIRT_BASE_M])
+    height: Array = np.interp(around, [a for a, _ in heights_m], [height for _, height in heights_m])
     return height
 
 
@@ -227,13 +228,12 @@ STRAP_M = (0.052, 0.016)  # the strap's middle before the ankle, and its width
 def shoes(tailor: Tailor, subdivisions: int, *, vamp_m: float, strap: bool) -> Mesh:
     """Leather shoes with flat soles on the floor: a vamp from `vamp_m` before the ankle, a strap or none."""
     mesh = tailor.cloth(tailor.tights.vertices[:, 1] < 0.12, 0.007, 10, subdivisions)
-    v, ankle = mesh.vertices, tailor.at("leftFoot")
+    v = mesh.vertices
+    before = v[:, 2] - tailor.at("leftFoot")[2]
     over_heel = 0.066 - v[:, 1]
-    over_toes = 0.050 - v[:, 1] - 0.10 * np.clip(v[:, 2] - ankle[2] - 0.03, 0, 0.1)
-    behind = smoothstep((ankle[2] + 0.024 - v[:, 2]) / 0.024)
-    keep = over_heel * behind + over_toes * (1 - behind)
-    before = v[:, 2] - ankle[2]
-    keep = np.maximum(keep, before - vamp_m)
+    over_toes = 0.050 - v[:, 1] - 0.10 * np.clip(before - 0.03, 0, 0.1)
+    behind = smoothstep((0.024 - before) / 0.024)
+    keep = np.maximum(over_heel * behind + over_toes * (1 - behind), before - vamp_m)
     if strap:
         keep = np.maximum(keep, 0.5 * STRAP_M[1] - np.abs(before - STRAP_M[0]))
     mesh = mesh.clipped(keep)
@@ -257,9 +257,7 @@ def shirt_part(
     return Part("Shirt", cloth, shirt_surface(colours))
 
 
-def shoes_part(
-    tailor: Tailor, subdivisions: int, colours: Colours, *, vamp_m: float = VAMP_M, strap: bool = False
-) -> Part:
+def shoes_part(tailor: Tailor, subdivisions: int, colours: Colours, *, vamp_m: float, strap: bool) -> Part:
     """The shoes."""
     surface = Surface("shoes", 0.28, colour=colours["shoes"], both_sides=True)
     return Part("Shoes", shoes(tailor, subdivisions, vamp_m=vamp_m, strap=strap), surface)
@@ -280,5 +278,5 @@ def uniform_parts(
         ),
         Part("Hem", stripes, Surface("piping", 0.7, colour=colours["piping"], both_sides=True)),
         Part("Tights", tights(tailor, subdivisions), Surface("tights", 0.55, colour=colours["tights"])),
-        shoes_part(tailor, subdivisions, colours, strap=True),
+        shoes_part(tailor, subdivisions, colours, vamp_m=VAMP_M, strap=True),
     ]
