@@ -34,7 +34,7 @@ def eyes(figure: Figure, skeleton: Skeleton, picture: Picture, rings: int, secto
         vertices = skeleton.positions[f"{side}Eye"] + directions * (radius * bulge)[:, None]
         meshes.append(Mesh(vertices, weights, grid_faces(rings + 1, sectors + 1, flip=True), uv))
         all_normals.append(directions)
-    surface = Surface("eyes", 0.08, image=jpeg(picture, 90))
+    surface = Surface("eyes", 0.08, image=jpeg(picture, 90), shade=None)
     return Part("Eyes", joined(meshes), surface, np.vstack(all_normals))
 
 

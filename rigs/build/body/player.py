@@ -17,11 +17,12 @@ from body.skeleton import Skeleton, build_skeleton
 from body.skin import bare_skin, lashes, lip_centre, paint_skin, texel_positions
 from body.skinning import skin_weights
 from common.export import write_skinned
+from common.occlusion import shaded
 from common.parts import Part, Surface
 from common.rig_file import write_json
 from dress.cropped_hair import cropped
 from dress.hair import bob
-from dress.suit import hung_over_the_seat, suit_parts
+from dress.suit import suit_parts
 from dress.tailor import Tailor
 from dress.trimmings import trimming_parts
 from dress.uniform import blazer, coat, uniform_parts
@@ -75,13 +76,11 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
     mouth = lip_centre(figure, positions, covered)
     skin = bare_skin(figure, skeleton, weights, paint_skin(file, figure, skeleton, positions, covered))
     tailor = Tailor.measure(figure, skeleton, weights)
-    hair = Surface("hair", 0.60, image=jpeg(hair_picture(file.hair_tint), 92), both_sides=True)
+    hair = Surface("hair", 0.60, image=jpeg(hair_picture(file.hair_tint), 92), both_sides=True, shade=(0.30, 0.26, 0.25))
     iris = eye_picture(file.iris_inner, file.iris_outer)
     formal = file.outfit == "suit"
     for name, tier in TIERS.items():
         cloth = coat(tailor, tier.subdivisions)
-        if formal:
-            cloth = hung_over_the_seat(tailor, cloth)
         outer = blazer(tailor, cloth)
         locks, hair_normals = HAIR[file.hair](tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
         clothes = (
@@ -99,6 +98,7 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
             ),
             Part("Hair", locks, hair, hair_normals),
         ]
+        shaded(parts)
         write_skinned(raw / f"{file.name}.{name}.glb", file.name, skeleton, parts)
     write_json(rig_folder / "rig.json", rig_content(file.name, figure, skeleton, weights, mouth))
 

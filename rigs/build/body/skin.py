@@ -147,7 +147,7 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
     rows, uv_rows, triangles = _split_at_seams(faces)
     body_normals = normals(figure.vertices, figure.mesh.triangles(["body"]))
     mesh = Mesh(v[rows], weights[rows], triangles, figure.mesh.uv[uv_rows] * [1, -1] + [0, 1])
-    surface = Surface("skin", 0.52, image=jpeg(picture, 88))
+    surface = Surface("skin", 0.52, image=jpeg(picture, 88), shade=(0.70, 0.45, 0.39))
     return Part(
         "Skin",
         mesh,
@@ -175,7 +175,7 @@ def lashes(figure: Figure, weights: Array, length: float) -> Part:
     mesh = Mesh(figure.vertices, weights, faces).compact()
     lids = figure.body[cKDTree(figure.body).query(mesh.vertices)[1]]
     mesh.vertices = lids + length * (mesh.vertices - lids)
-    surface = Surface("lashes", 0.9, colour=(0.13, 0.085, 0.075), both_sides=True)
+    surface = Surface("lashes", 0.9, colour=(0.13, 0.085, 0.075), both_sides=True, shade=None)
     return Part(
         "Lashes", mesh, surface, None, {name: offsets[used] for name, offsets in figure.morphs.items()}
     )

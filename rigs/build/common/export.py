@@ -65,6 +65,7 @@ def write_skinned(path: Path, name: str, skeleton: Skeleton, parts: list[Part]) 
             uv=mesh.uv if part.surface.image is not None else None,
             joints=joints,
             weights=weights,
+            colours=part.colours,
             targets=list(part.morphs.values()) if part.morphs else None,
         )
         index = writer.mesh(part.name, [primitive], list(part.morphs) if part.morphs else None)

@@ -105,14 +105,17 @@ class GlbWriter:
         joints: Array | None = None,
         weights: Array | None = None,
         targets: list[Array] | None = None,
+        colours: Array | None = None,
     ) -> dict[str, Any]:
-        """One drawable part; joints and weights are (V, 4), targets a list of offsets (V, 3)."""
+        """One drawable part; joints and weights are (V, 4), targets a list of offsets (V, 3), colours (V, 3)."""
         attributes = {
             "POSITION": self.accessor(positions.astype("<f4"), "VEC3", ARRAY_BUFFER, bounds=True),
             "NORMAL": self.accessor(normals.astype("<f4"), "VEC3", ARRAY_BUFFER),
         }
         if uv is not None:
             attributes["TEXCOORD_0"] = self.accessor(uv.astype("<f4"), "VEC2", ARRAY_BUFFER)
+        if colours is not None:
+            attributes["COLOR_0"] = self.accessor(colours.astype("<f4"), "VEC3", ARRAY_BUFFER)
         if joints is not None and weights is not None:
             attributes["JOINTS_0"] = self.accessor(joints.astype("u1"), "VEC4", ARRAY_BUFFER)
             attributes["WEIGHTS_0"] = self.accessor(weights.astype("<f4"), "VEC4", ARRAY_BUFFER)

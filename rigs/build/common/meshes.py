@@ -76,6 +76,41 @@ class Mesh:
         return Mesh(np.array(vertices), np.array(weights), np.array(faces, dtype=np.int64)).compact()
 
 
+    def scored(self, field: Array, within: Flags | None = None) -> Mesh:
+        """Put a line of vertices along the zero of a scalar field (V,), on edges with both ends `within`."""
+        count, faces = len(self.vertices), self.faces
+        edges = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        unique, inverse = np.unique(edges, axis=0, return_inverse=True)
+        low, high = field[unique[:, 0]], field[unique[:, 1]]
+        crossed = (low > 0) != (high > 0)
+        if within is not None:
+            crossed &= within[unique].all(axis=1)
+        t = (low[crossed] / (low[crossed] - high[crossed]))[:, None]
+        a, b = unique[crossed].T
+        new = np.full(len(unique), -1, dtype=np.int64)
+        new[crossed] = count + np.arange(len(a))
+        of_face = new[np.stack(np.split(inverse.ravel(), 3), axis=1)]
+        split: list[list[int]] = []
+        for (i, j, k), cuts in zip(faces.tolist(), of_face.tolist(), strict=True):
+            corners, cut = [i, j, k], [c for c in cuts if c >= 0]
+            if not cut:
+                split.append(corners)
+                continue
+            # Turned so that the first edge is cut; a second one is then the next or the last.
+            turn = next(n for n in range(3) if cuts[n] >= 0 and (len(cut) == 1 or cuts[n - 1] < 0))
+            i, j, k = corners[turn:] + corners[:turn]
+            first, second = cuts[turn], cuts[(turn + 1) % 3]
+            if len(cut) == 1:
+                split += [[i, first, k], [first, j, k]]
+            else:
+                split += [[first, j, second], [i, first, second], [i, second, k]]
+        return Mesh(
+            np.vstack([self.vertices, self.vertices[a] * (1 - t) + self.vertices[b] * t]),
+            np.vstack([self.weights, self.weights[a] * (1 - t) + self.weights[b] * t]),
+            np.array(split, dtype=np.int64),
+        )
+
+
 def welded(mesh: Mesh, digits: int = 5) -> Mesh:
     """Join the vertices that lie at one place, to `digits` decimals of a metre."""
     _, first, inverse = np.unique(
@@ -127,6 +162,22 @@ def on_border(count: int, faces: Indices) -> Flags:
     border = np.zeros(count, dtype=bool)
     border[unique[uses == 1].ravel()] = True
     return border
+
+
+def edged(mesh: Mesh, thickness_m: float) -> Mesh:
+    """The mesh with its open edges turned in against its normals, as cloth of that thickness is."""
+    count, faces = len(mesh.vertices), mesh.faces
+    directed = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    _, index, uses = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True)
+    a, b = directed[uses[index.ravel()] == 1].T
+    rim, place = np.unique(np.r_[a, b], return_inverse=True)
+    inner_a, inner_b = np.split(count + place.ravel(), 2)
+    inside = mesh.vertices[rim] - normals(mesh.vertices, faces)[rim] * thickness_m
+    return Mesh(
+        np.vstack([mesh.vertices, inside]),
+        np.vstack([mesh.weights, mesh.weights[rim]]),
+        np.vstack([faces, np.c_[b, a, inner_a], np.c_[b, inner_a, inner_b]]),
+    )
 
 
 def smoothed(

@@ -16,7 +16,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Surface:
-    """A material: `colour` in sRGB 0…1 or an `image` (bytes, MIME type); `extensions` as glTF has them."""
+    """A material: `colour` in sRGB 0…1 or an `image` (bytes, MIME type); `extensions` as glTF has them.
+
+    `shade` is what is left of its colour (linear RGB) where no light comes in; None: it is the same everywhere.
+    """
 
     name: str
     roughness: float
@@ -25,13 +28,14 @@ class Surface:
     image: tuple[bytes, str] | None = None
     both_sides: bool = False
     extensions: dict[str, Any] = field(default_factory=dict[str, Any], hash=False)
+    shade: tuple[float, float, float] | None = (0.36, 0.36, 0.42)
 
 
 @dataclass
 class Part:
     """`normals` (V, 3) where they are not the mesh's own; `morphs` name → offsets (V, 3).
 
-    `share` of triangles kept when reduced.
+    `colours` (V, 3) by which the surface's colour is multiplied, linear.
     """
 
     name: str
@@ -39,3 +43,4 @@ class Part:
     surface: Surface
     normals: Array | None = None
     morphs: dict[str, Array] | None = None
+    colours: Array | None = None

@@ -165,7 +165,7 @@ def shirt_collar(tailor: Tailor, count: int) -> Mesh:
     """The shirt's collar: a band round the neck, folded down to two points in front."""
     steps = 72
     share = np.linspace(0, 1, steps + 1)
-    inner = 0.05 + (2 * np.pi - 0.10) * share
+    inner = 2 * np.pi * share  # the band is buttoned; the fall's two points part from there
     outer = 0.40 + (2 * np.pi - 0.80) * share
     front = ((1 + np.cos(inner)) / 2) ** 4
     base = tailor.neck_y + collar_seam_height(inner)

@@ -22,7 +22,7 @@ SEED = 7
 STRANDS_V = 0.96  # below it the hair's picture is dark
 TEMPLE_RAD = 0.86  # where the hair that hangs begins, from the front
 PARTING_RAD = 0.36  # on her left
-FRINGE = ((8, 0.0140, 1.0, 1.12), (6, 0.0178, 0.960, 0.90))  # locks, lift, length and width of its two layers
+FRINGE = ((9, 0.0140, 1.0, 1.15), (6, 0.0178, 0.985, 0.95))  # locks, lift, length and width of its two layers
 HAIRLINE = (
     (0, 0.060),
     (0.6, 0.055),
@@ -127,7 +127,7 @@ def _curtain(tailor: Tailor, scalp: Scalp, steps: int, columns: int) -> Mesh:
     azimuths = np.linspace(TEMPLE_RAD, 2 * np.pi - TEMPLE_RAD, columns)
     lines: list[Array] = []
     for azimuth in azimuths:
-        length = 0.93 + 0.022 * np.sin(azimuth * 9.0) + 0.012 * np.sin(azimuth * 23.0 + 1.0)
+        length = 0.965 + 0.012 * np.sin(azimuth * 9.0) + 0.006 * np.sin(azimuth * 23.0 + 1.0)
         lines.append(_side_and_back(float(azimuth), float(length), 0.0125).path(scalp, steps)[0])
     vertices = np.stack(lines, axis=1).reshape(-1, 3)
     v, u = np.meshgrid(np.linspace(0, STRANDS_V, steps), azimuths * 1.6, indexing="ij")
@@ -153,7 +153,7 @@ def _locks_over_curtain(rng: np.random.Generator, share: float) -> list[Lock]:
         for i in range(number):
             azimuth = TEMPLE_RAD + 0.06 + (2 * np.pi - 2 * TEMPLE_RAD - 0.12) * (i + 0.5) / number
             azimuth += rng.uniform(-0.07, 0.07)
-            lock = _side_and_back(azimuth, length * rng.uniform(0.965, 1.025), lift)
+            lock = _side_and_back(azimuth, length * rng.uniform(0.975, 1.01), lift)
             lock.start = rng.uniform(0.10, 0.32)
             lock.width_m = width * rng.uniform(0.85, 1.2) / share**0.8
             lock.swing, lock.flat = rng.uniform(-0.09, 0.09), 0.36
@@ -173,7 +173,7 @@ def _swept(tip: float, length: float, lift_m: float) -> Lock:
 def _fringe_sheet(tailor: Tailor, scalp: Scalp, steps: int, columns: int) -> Mesh:
     """The body of the fringe: one sheet with a softly waved edge, over which the tips of its locks reach."""
     tips = np.linspace(-1.10, 1.08, columns)
-    edge = 0.945 + 0.010 * np.sin(tips * 8.0 + 0.6) + 0.006 * np.sin(tips * 19.0)
+    edge = 0.985 + 0.006 * np.sin(tips * 8.0 + 0.6) + 0.003 * np.sin(tips * 19.0)
     lines = [
         _swept(float(a), float(length), 0.0125).path(scalp, steps)[0]
         for a, length in zip(tips, edge, strict=True)
@@ -192,10 +192,10 @@ def _fringe(rng: np.random.Generator, share: float) -> list[Lock]:
         spacing = 2.0 / (number - 1)
         for i in range(number):
             tip = -1.0 + spacing * (i + rng.uniform(-0.22, 0.22)) + (0.0 if length == 1.0 else 0.06)
-            lock = _swept(tip, length * rng.uniform(0.97, 1.015), lift)
+            lock = _swept(tip, length * rng.uniform(0.985, 1.012), lift)
             lock.start += rng.uniform(-0.04, 0.04)
             lock.width_m = spacing * 0.083 * width * rng.uniform(0.85, 1.1)
-            lock.taper, lock.tip = rng.uniform(0.58, 0.70), rng.uniform(0.58, 0.68)
+            lock.taper, lock.tip = rng.uniform(0.74, 0.82), rng.uniform(0.50, 0.58)
             lock.flat = 0.24
             locks.append(lock)
     for tip in STRAY_RAD if share > 0.8 else ():

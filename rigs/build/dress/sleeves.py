@@ -24,8 +24,6 @@ SLEEVE_EASE_M = 0.0115  # how far a sleeve stands off the arm, and the coat off 
 COAT_EASE_M = 0.0135
 LOOSENESS = (0.25, 0.12)  # what is left of the cloth's further distance, below the chest and at the shoulders
 SHOULDER_EASE_M = 0.0018  # by so much it is closer there
-ARMHOLE = 0.02  # where the sleeve is sewn in, as a share of the upper arm
-SEAM_DEPTH_M = 0.0022
 SHOULDER_REACH_M = 0.15  # within it skin weights are eased
 SHOULDER_ROUNDS = 16
 CUFF = ((0.845, 0.0060), (0.885, 0.0072), (0.938, 0.0075), (0.940, 0.0062), (0.90, 0.0052))  # place, ease m
@@ -68,7 +66,7 @@ def softened(tailor: Tailor, mesh: Mesh) -> Mesh:
 
 
 def creased(tailor: Tailor, mesh: Mesh) -> Mesh:
-    """Folds across elbow, armpit and cuff, and the armhole's seam."""
+    """Folds across elbow, armpit and cuff."""
     out = normals(mesh.vertices, mesh.faces)
     depth = np.zeros(len(mesh.vertices))
     for side, _ in SIDES:
@@ -79,7 +77,6 @@ def creased(tailor: Tailor, mesh: Mesh) -> Mesh:
             phase = 2 * np.pi * count * (t / 2 + slant * np.cos(turn) / 2) + 1.3 * np.sin(turn)
             inner = 0.40 + 0.60 * smoothstep(0.5 + 0.5 * np.cos(turn))
             depth += share * window * inner * height * (np.sin(phase) - 0.35)
-        depth -= share * SEAM_DEPTH_M * np.exp(-(((along - ARMHOLE) / 0.022) ** 2))
     mesh.vertices = mesh.vertices + out * depth[:, None]
     return mesh
 

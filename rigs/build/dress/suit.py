@@ -25,7 +25,6 @@ Array = NDArray[np.float64]
 TROUSER_EASE_M = 0.0075
 UNDER_JACKET_M = 0.007  # how far the trousers are drawn in where the jacket covers them
 SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
-SEAT_M = 0.065  # half the width over which the jacket hangs straight
 VAMP_M = 0.020  # how far before the ankle the shoe's vamp begins, under the trousers
 HEM_M = (
     (-0.045, 0.028),
@@ -35,22 +34,6 @@ HEM_M = (
     (0.2, 0.16),
 )  # before the ankle; height
 LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.061), (2.0, 0.067))  # 0 hip, 1 knee, 2 ankle
-
-
-def hung_over_the_seat(tailor: Tailor, mesh: Mesh) -> Mesh:
-    """The jacket hanging straight across the seat: cloth does not follow what lies between."""
-    v: Array = mesh.vertices
-    hips = tailor.at("hips")
-    low = smoothstep((hips[1] + 0.07 - v[:, 1]) / 0.05)
-    behind = (v[:, 2] < hips[2]) & (v[:, 1] < hips[1] + 0.07)
-    rim: Array = v[behind & (np.abs(np.abs(v[:, 0]) - SEAT_M) < 0.012)]
-    order = np.argsort(rim[:, 1])
-    heights, depths = rim[order, 1], rim[order, 2]
-    across: Array = np.asarray(np.interp(v[:, 1], heights, depths), dtype=np.float64)
-    inside = behind & (np.abs(v[:, 0]) < SEAT_M)
-    hung: Array = np.where(inside, np.minimum(v[:, 2], across), v[:, 2])
-    mesh.vertices = np.c_[v[:, :2], v[:, 2] + (hung - v[:, 2]) * low]
-    return mesh
 
 
 def trousers(tailor: Tailor, subdivisions: int) -> Mesh:

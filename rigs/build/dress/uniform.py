@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from body.joint_names import SIDES
-from common.meshes import Mesh, joined, smoothstep
+from common.meshes import Mesh, edged, joined, smoothstep
 from common.parts import Part, Surface
 from common.shapes import grid_faces
+from dress.hang import hung
+from dress.seams import EDGE_M, sewn
 from dress.sleeves import creased, cuffs, fitted, softened
 from dress.tailor import borrowed_weights
 
@@ -51,10 +53,11 @@ def _above_hips(tailor: Tailor) -> NDArray[np.bool_]:
 
 def coat(tailor: Tailor, subdivisions: int) -> Mesh:
     """The blazer's cloth before it is cut: over trunk and arms, with its folds."""
-    mesh = fitted(tailor, tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions))
+    mesh = hung(tailor, fitted(tailor, tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions)))
     if subdivisions:
         mesh = creased(tailor, mesh)
-    return softened(tailor, _flare(tailor, _waisted(tailor, mesh)))
+    mesh = softened(tailor, _flare(tailor, _waisted(tailor, mesh)))
+    return sewn(tailor, mesh) if subdivisions else mesh
 
 
 def blazer(tailor: Tailor, cloth: Mesh) -> Mesh:
@@ -74,7 +77,7 @@ def blazer(tailor: Tailor, cloth: Mesh) -> Mesh:
     from_axis = v[:, 2] - neck_axis_z(tailor, v[:, 1])
     around_neck = np.hypot(v[:, 0], from_axis) - NECKLINE_M
     below_neck = tailor.neck_y + neckline_height(np.arctan2(v[:, 0], from_axis)) - v[:, 1]
-    return cloth.clipped(np.minimum(keep, np.maximum(around_neck, below_neck)))
+    return edged(cloth.clipped(np.minimum(keep, np.maximum(around_neck, below_neck))), EDGE_M)
 
 
 def neckline_height(angle: Array) -> Array:
@@ -246,7 +249,7 @@ def shoes(tailor: Tailor, subdivisions: int, *, vamp_m: float, strap: bool) -> M
 
 def shirt_surface(colours: Colours) -> Surface:
     """The shirt's cotton."""
-    return Surface("shirt", 0.75, colour=colours["shirt"], both_sides=True)
+    return Surface("shirt", 0.75, colour=colours["shirt"], both_sides=True, shade=(0.50, 0.50, 0.56))
 
 
 def shirt_part(

@@ -1,0 +1,103 @@
+"""How open each vertex of a model lies, so that folds and what is under another part are drawn darker.
+
+All parts are marked in a grid of cells in the rest pose; from each vertex rays go out over its normal, and count
+for as far as they come (ambient obscurance: Zhukov, Iones, Kronin, Rendering Techniques 1998).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from common.meshes import normals, smoothed
+
+if TYPE_CHECKING:
+    from common.parts import Part
+
+Array = NDArray[np.float64]
+
+CELL_M = 0.004
+START_M = 0.007  # a ray's first look: past the cells of its own surface
+REACH_M = 0.15  # what is further off shades no more
+STEPS = 18
+RAYS = 40
+SMOOTHING = 2  # rounds over a part's faces: rays are few
+
+
+class Cells:
+    """The cells that surfaces go through."""
+
+    def __init__(self, points: Array) -> None:
+        self.low: Array = points.min(axis=0) - 2 * CELL_M
+        size = np.ceil((points.max(axis=0) - self.low) / CELL_M).astype(np.int64) + 3
+        self.filled = np.zeros(size, dtype=bool)
+        self.filled[tuple(self._index(points).T)] = True
+
+    def _index(self, points: Array) -> NDArray[np.int64]:
+        index: NDArray[np.int64] = ((points - self.low) / CELL_M).astype(np.int64)
+        return index
+
+    def at(self, points: Array) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) lie in a filled cell; outside of the grid nothing is."""
+        inside = np.all((points >= self.low) & (points < self.low + CELL_M * np.array(self.filled.shape)), axis=1)
+        hit = np.zeros(len(points), dtype=bool)
+        hit[inside] = self.filled[tuple(self._index(points[inside]).T)]
+        return hit
+
+
+def covering_points(vertices: Array, faces: NDArray[np.int64]) -> Array:
+    """Points (N, 3) on triangles, closer together than a cell is wide."""
+    corners = vertices[faces]
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    splits = np.clip(np.ceil(edges / (0.7 * CELL_M)).astype(np.int64), 1, 80)
+    found: list[Array] = [vertices[np.unique(faces)]]
+    for count in np.unique(splits):
+        i, j = (axis.ravel() for axis in np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij"))
+        within = i + j <= count
+        shares = np.stack([i, j, count - i - j], axis=1)[within] / count
+        found.append(np.einsum("sk,nkj->nsj", shares, corners[splits == count]).reshape(-1, 3))
+    return np.vstack(found)
+
+
+def hemisphere(count: int) -> Array:
+    """Directions (count, 3) over the third axis, as dense as a matt surface weighs them: a sunflower's spiral."""
+    k = np.arange(count) + 0.5
+    radius = np.sqrt(k / count)
+    turn = np.pi * (3 - np.sqrt(5)) * k
+    return np.c_[radius * np.cos(turn), radius * np.sin(turn), np.sqrt(1 - radius**2)]
+
+
+def openness(cells: Cells, points: Array, out: Array) -> Array:
+    """How open (N,) each point with its unit normal (N, 3) lies: 1 in the open, 0 wholly covered."""
+    side = np.where(np.abs(out[:, :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+    first = np.cross(side, out)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    second = np.cross(out, first)
+    reached: Array = START_M * (REACH_M / START_M) ** np.linspace(0, 1, STEPS)
+    total = np.zeros(len(points))
+    for a, b, c in hemisphere(RAYS):
+        ray = a * first + b * second + c * out
+        free = np.ones(len(points), dtype=bool)
+        far = np.ones(len(points))
+        for distance in reached:
+            hit = np.zeros(len(points), dtype=bool)
+            hit[free] = cells.at(points[free] + ray[free] * distance)
+            far[hit] = (distance - START_M) / (REACH_M - START_M)
+            free &= ~hit
+        total += np.sqrt(far)
+    return total / RAYS
+
+
+def shaded(parts: list[Part]) -> None:
+    """Give each part its vertices' colours: white in the open, its surface's `shade` where nothing is seen."""
+    cells = Cells(np.vstack([covering_points(part.mesh.vertices, part.mesh.faces) for part in parts]))
+    for part in parts:
+        if part.surface.shade is None:
+            continue
+        mesh = part.mesh
+        out = normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals
+        light = smoothed(openness(cells, mesh.vertices, out)[:, None], mesh.faces, SMOOTHING)
+        shade = np.array(part.surface.shade)
+        part.colours = shade + (1 - shade) * light
