@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 SEAM_M = (0.0034, 0.0019)  # half a seam's width, and its depth
 VENT_M = (0.0034, 0.0045)
 VENT_TOP_M = 0.075  # over the hips' joint
+ARMHOLE_M = (0.0042, 0.0036)  # half width and depth: a sleeve is set in full
 ARMHOLE_REACH_M = 0.125  # from the shoulder's joint
 ARMHOLE_OUT_M = 0.006  # its plane lies so far outward of the joint
 ARMHOLE_LEAN = 0.19  # outward for each metre up
@@ -71,7 +72,7 @@ def _seams(tailor: Tailor) -> list[Seam]:
             distance: Array = np.linalg.norm(v - joint, axis=1)
             return _until(ARMHOLE_REACH_M - distance)
 
-        seams.append(Seam(out, near, *SEAM_M))
+        seams.append(Seam(out, near, *ARMHOLE_M))
 
     def in_the_back(v: Array, low: float, high: float) -> Array:
         return _until(v[:, 1] - low) * _until(high - v[:, 1]) * (v[:, 2] < 0)

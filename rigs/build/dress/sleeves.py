@@ -26,6 +26,9 @@ LOOSENESS = (0.25, 0.12)  # what is left of the cloth's further distance, below 
 SHOULDER_EASE_M = 0.0018  # by so much it is closer there
 SHOULDER_REACH_M = 0.15  # within it skin weights are eased
 SHOULDER_ROUNDS = 16
+PAD_M = (0.07, 0.045)  # a shoulder pad's reach inward and outward of the joint
+PAD_LIFT_M = 0.007
+PAD_HOLDS = 0.75  # what the shoulder keeps of what would follow the arm
 CUFF = ((0.845, 0.0060), (0.885, 0.0072), (0.938, 0.0075), (0.940, 0.0062), (0.90, 0.0052))  # place, ease m
 FOLDS = (  # centre and reach along the arm (0 shoulder, 1 elbow, 2 wrist), depth m, folds in the reach, slant
     (1.00, 0.36, 0.0085, 3.4, 0.22),
@@ -62,6 +65,27 @@ def softened(tailor: Tailor, mesh: Mesh) -> Mesh:
     for side, _ in SIDES:
         near |= np.linalg.norm(mesh.vertices - tailor.at(f"{side}UpperArm"), axis=1) < SHOULDER_REACH_M
     mesh.weights = smoothed(mesh.weights, mesh.faces, SHOULDER_ROUNDS, ~near)
+    return mesh
+
+
+def padded(tailor: Tailor, mesh: Mesh) -> Mesh:
+    """The coat with pads under its shoulders: they stand a little off, and a raised arm leaves them where they are."""
+    v = mesh.vertices
+    for side, _ in SIDES:
+        joint, base = tailor.at(f"{side}UpperArm"), tailor.column(f"{side}Shoulder")
+        outward = np.sign(joint[0]) * (v[:, 0] - joint[0])
+        above = v[:, 1] - joint[1]
+        share = (
+            smoothstep((outward + PAD_M[0]) / PAD_M[0])
+            * smoothstep((PAD_M[1] - outward) / PAD_M[1])
+            * smoothstep((above + 0.015) / 0.035)
+        )
+        arm = [tailor.column(f"{side}{part}") for part in ARM_PARTS]
+        kept = mesh.weights[:, arm] * (PAD_HOLDS * share)[:, None]
+        mesh.weights[:, arm] -= kept
+        mesh.weights[:, base] += kept.sum(axis=1)
+        v = v + share[:, None] * PAD_LIFT_M * np.array([np.sign(joint[0]) * 0.6, 1.0, 0.0])
+    mesh.vertices = v
     return mesh
 
 

@@ -14,7 +14,7 @@ from common.parts import Part, Surface
 from common.shapes import grid_faces
 from dress.hang import hung
 from dress.seams import EDGE_M, sewn
-from dress.sleeves import creased, cuffs, fitted, softened
+from dress.sleeves import creased, cuffs, fitted, padded, softened
 from dress.tailor import borrowed_weights
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def coat(tailor: Tailor, subdivisions: int) -> Mesh:
     mesh = hung(tailor, fitted(tailor, tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions)))
     if subdivisions:
         mesh = creased(tailor, mesh)
-    mesh = softened(tailor, _flare(tailor, _waisted(tailor, mesh)))
+    mesh = padded(tailor, softened(tailor, _flare(tailor, _waisted(tailor, mesh))))
     return sewn(tailor, mesh) if subdivisions else mesh
 
 
