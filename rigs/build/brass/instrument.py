@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from brass import measures as m
 from brass.body_tubes import build_body
 from brass.metals import Metals
@@ -11,6 +13,7 @@ from brass.moving_parts import first_slide, mouthpiece, second_slide, third_slid
 from brass.mute import straight_mute
 from brass.obstacles import trumpet_capsules
 from common.glb import GlbWriter
+from common.occlusion import INSTRUMENT, Cells
 from common.rig_file import write_json
 
 if TYPE_CHECKING:
@@ -18,6 +21,7 @@ if TYPE_CHECKING:
 
 NAME = "trumpet"
 JOINT = "trumpet"
+MUTE = "mute"
 DETAIL = {"full": 1.0, "medium": 0.6, "low": 0.32}
 BUTTON_EFFECTORS = ("rightIndexTip", "rightMiddleTip", "rightRingTip")
 
@@ -50,14 +54,27 @@ def write_model(path: Path, detail: float) -> None:
         "slide2": second_slide(detail, metals),
         "slide3": third_slide(detail, metals),
         "mouthpiece": mouthpiece(detail, metals),
-        "mute": straight_mute(detail, metals),
+        MUTE: straight_mute(detail, metals),
     }
+    stem = valve(detail, metals)
+    standing = [(piece, (0.0, 0.0, 0.0)) for name, piece in pieces.items() if name != MUTE]
+    standing += [(stem, (0.0, m.STEM_Y, z)) for z in m.VALVE_Z]
+    cells = Cells(
+        INSTRUMENT,
+        [(v + np.array(at), faces) for piece, at in standing for v, _, faces in piece.surfaces().values()],
+    )
     children = [
-        writer.node(name, mesh=writer.mesh(name, piece.primitives(writer))) for name, piece in pieces.items()
+        writer.node(
+            name,
+            # The mute is seldom there: it neither shades nor is shaded.
+            mesh=writer.mesh(name, piece.primitives(writer, metals.shades, None if name == MUTE else cells)),
+        )
+        for name, piece in pieces.items()
     ]
-    stem = writer.mesh("valve", valve(detail, metals).primitives(writer))
+    middle = (0.0, m.STEM_Y, m.VALVE_Z[1])
+    stem_mesh = writer.mesh("valve", stem.primitives(writer, metals.shades, cells, middle))
     for number, z in enumerate(m.VALVE_Z, start=1):
-        children.append(writer.node(f"valve{number}", mesh=stem, translation=[0.0, m.STEM_Y, z]))
+        children.append(writer.node(f"valve{number}", mesh=stem_mesh, translation=[0.0, m.STEM_Y, z]))
     writer.save(path, [writer.node(JOINT, children=children)])
 
 

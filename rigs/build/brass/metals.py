@@ -20,6 +20,12 @@ class Metals:
     aluminium: int
     cork: int
 
+    @property
+    def shades(self) -> dict[int, tuple[float, float, float]]:
+        """What is left of each one's colour (linear RGB) where other parts close it in: brass reflects brass."""
+        warm, cool = (0.50, 0.34, 0.20), (0.36, 0.35, 0.34)
+        return {self.brass: warm, **dict.fromkeys((self.silver, self.aluminium, self.felt, self.pearl, self.cork), cool)}
+
     @classmethod
     def into(cls, writer: GlbWriter) -> Metals:
         """Add the materials to a file."""

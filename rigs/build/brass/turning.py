@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from common.occlusion import Cells, openness, tinted
 from common.shapes import grid_faces
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Point = Sequence[float] | Array
+Turned = tuple[Array, Array, NDArray[np.int64]]
+Shade = tuple[float, float, float]
 
 
 class Workpiece:
@@ -39,9 +42,9 @@ class Workpiece:
         faces = faces[np.linalg.norm(area, axis=1) > 1e-11]
         self._pieces.setdefault(material, []).append((vertices, normals, faces))
 
-    def primitives(self, writer: GlbWriter) -> list[dict[str, object]]:
-        """The piece as glTF primitives, one a material."""
-        result: list[dict[str, object]] = []
+    def surfaces(self) -> dict[int, Turned]:
+        """Vertices (V, 3), normals (V, 3) and faces (F, 3) by material."""
+        result: dict[int, Turned] = {}
         for material, pieces in self._pieces.items():
             starts = np.cumsum([0] + [len(v) for v, _, _ in pieces[:-1]])
             faces = np.vstack([f + start for (_, _, f), start in zip(pieces, starts, strict=True)])
@@ -49,7 +52,20 @@ class Workpiece:
             used = np.unique(faces)
             index = np.full(len(vertices), -1)
             index[used] = np.arange(len(used))
-            result.append(writer.primitive(vertices[used], normals[used], index[faces], material))
+            result[material] = vertices[used], normals[used], index[faces]
+        return result
+
+    def primitives(
+        self, writer: GlbWriter, shades: Mapping[int, Shade], cells: Cells | None, place: Point = (0, 0, 0)
+    ) -> list[dict[str, object]]:
+        """The piece as glTF primitives, one a material, darker where `cells` shade it standing at `place`."""
+        result: list[dict[str, object]] = []
+        for material, (vertices, normals, faces) in self.surfaces().items():
+            colours = None
+            if cells is not None:
+                light = openness(cells, vertices + np.asarray(place, dtype=np.float64), normals)
+                colours = tinted(light[:, None], shades[material])
+            result.append(writer.primitive(vertices, normals, faces, material, colours=colours))
         return result
 
     def sweep(

@@ -6,6 +6,7 @@ for as far as they come (ambient obscurance: Zhukov, Iones, Kronin, Rendering Te
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,44 +15,59 @@ from numpy.typing import NDArray
 from common.meshes import normals, smoothed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from common.parts import Part
 
 Array = NDArray[np.float64]
 
-CELL_M = 0.004
-START_M = 0.007  # a ray's first look: past the cells of its own surface
-REACH_M = 0.15  # what is further off shades no more
 STEPS = 18
 RAYS = 40
 SMOOTHING = 2  # rounds over a part's faces: rays are few
 
 
-class Cells:
-    """The cells that surfaces go through."""
+@dataclass(frozen=True)
+class Grain:
+    """How fine a model is looked at, metres: a cell's width, a ray's first look, and what shades no more."""
 
-    def __init__(self, points: Array) -> None:
-        self.low: Array = points.min(axis=0) - 2 * CELL_M
-        size = np.ceil((points.max(axis=0) - self.low) / CELL_M).astype(np.int64) + 3
+    cell_m: float
+    start_m: float
+    reach_m: float
+
+
+FIGURE = Grain(0.004, 0.007, 0.15)
+INSTRUMENT = Grain(0.0012, 0.0026, 0.045)
+
+
+class Cells:
+    """The cells that surfaces, (vertices, faces) each, go through."""
+
+    def __init__(self, grain: Grain, surfaces: Sequence[tuple[Array, NDArray[np.int64]]]) -> None:
+        self.grain = grain
+        points = np.vstack([covering_points(*surface, 0.7 * grain.cell_m) for surface in surfaces])
+        self.low: Array = points.min(axis=0) - 2 * grain.cell_m
+        size = np.ceil((points.max(axis=0) - self.low) / grain.cell_m).astype(np.int64) + 3
         self.filled = np.zeros(size, dtype=bool)
         self.filled[tuple(self._index(points).T)] = True
 
     def _index(self, points: Array) -> NDArray[np.int64]:
-        index: NDArray[np.int64] = ((points - self.low) / CELL_M).astype(np.int64)
+        index: NDArray[np.int64] = ((points - self.low) / self.grain.cell_m).astype(np.int64)
         return index
 
     def at(self, points: Array) -> NDArray[np.bool_]:
         """Which of the points (N, 3) lie in a filled cell; outside of the grid nothing is."""
-        inside = np.all((points >= self.low) & (points < self.low + CELL_M * np.array(self.filled.shape)), axis=1)
+        high = self.low + self.grain.cell_m * np.array(self.filled.shape)
+        inside = np.all((points >= self.low) & (points < high), axis=1)
         hit = np.zeros(len(points), dtype=bool)
         hit[inside] = self.filled[tuple(self._index(points[inside]).T)]
         return hit
 
 
-def covering_points(vertices: Array, faces: NDArray[np.int64]) -> Array:
-    """Points (N, 3) on triangles, closer together than a cell is wide."""
+def covering_points(vertices: Array, faces: NDArray[np.int64], spacing_m: float) -> Array:
+    """Points (N, 3) on triangles, at most so far apart."""
     corners = vertices[faces]
     edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    splits = np.clip(np.ceil(edges / (0.7 * CELL_M)).astype(np.int64), 1, 80)
+    splits = np.clip(np.ceil(edges / spacing_m).astype(np.int64), 1, 200)
     found: list[Array] = [vertices[np.unique(faces)]]
     for count in np.unique(splits):
         i, j = (axis.ravel() for axis in np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij"))
@@ -75,16 +91,17 @@ def openness(cells: Cells, points: Array, out: Array) -> Array:
     first = np.cross(side, out)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     second = np.cross(out, first)
-    reached: Array = START_M * (REACH_M / START_M) ** np.linspace(0, 1, STEPS)
+    start, reach = cells.grain.start_m, cells.grain.reach_m
+    looks: Array = start * (reach / start) ** np.linspace(0, 1, STEPS)
     total = np.zeros(len(points))
     for a, b, c in hemisphere(RAYS):
         ray = a * first + b * second + c * out
         free = np.ones(len(points), dtype=bool)
         far = np.ones(len(points))
-        for distance in reached:
+        for distance in looks:
             hit = np.zeros(len(points), dtype=bool)
             hit[free] = cells.at(points[free] + ray[free] * distance)
-            far[hit] = (distance - START_M) / (REACH_M - START_M)
+            far[hit] = (distance - start) / (reach - start)
             free &= ~hit
         total += np.sqrt(far)
     return total / RAYS
@@ -92,12 +109,17 @@ def openness(cells: Cells, points: Array, out: Array) -> Array:
 
 def shaded(parts: list[Part]) -> None:
     """Give each part its vertices' colours: white in the open, its surface's `shade` where nothing is seen."""
-    cells = Cells(np.vstack([covering_points(part.mesh.vertices, part.mesh.faces) for part in parts]))
+    cells = Cells(FIGURE, [(part.mesh.vertices, part.mesh.faces) for part in parts])
     for part in parts:
         if part.surface.shade is None:
             continue
         mesh = part.mesh
         out = normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals
         light = smoothed(openness(cells, mesh.vertices, out)[:, None], mesh.faces, SMOOTHING)
-        shade = np.array(part.surface.shade)
-        part.colours = shade + (1 - shade) * light
+        part.colours = tinted(light, part.surface.shade)
+
+
+def tinted(light: Array, shade: tuple[float, float, float]) -> Array:
+    """Colours (V, 3) from the shade's to white by openness (V, 1)."""
+    dark = np.array(shade)
+    return dark + (1 - dark) * light

@@ -23,6 +23,7 @@ VENT_M = (0.0034, 0.0045)
 VENT_TOP_M = 0.075  # over the hips' joint
 ARMHOLE_M = (0.0042, 0.0036)  # half width and depth: a sleeve is set in full
 ARMHOLE_REACH_M = 0.125  # from the shoulder's joint
+ARMHOLE_DOWN_M = 0.065  # under the arm it is hidden, and would crumple
 ARMHOLE_OUT_M = 0.006  # its plane lies so far outward of the joint
 ARMHOLE_LEAN = 0.19  # outward for each metre up
 SIDE_BACK_M = ((-0.06, 0.100), (0.11, 0.068), (0.30, 0.098))  # over the hips' joint: from the middle
@@ -70,7 +71,7 @@ def _seams(tailor: Tailor) -> list[Seam]:
 
         def near(v: Array, joint: Array = joint) -> Array:
             distance: Array = np.linalg.norm(v - joint, axis=1)
-            return _until(ARMHOLE_REACH_M - distance)
+            return _until(ARMHOLE_REACH_M - distance) * _until(v[:, 1] - joint[1] + ARMHOLE_DOWN_M)
 
         seams.append(Seam(out, near, *ARMHOLE_M))
 
