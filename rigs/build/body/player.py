@@ -22,7 +22,7 @@ from common.parts import Part, Surface
 from common.rig_file import write_json
 from dress.cropped_hair import cropped
 from dress.hair import bob
-from dress.suit import suit_parts
+from dress.suit import LONGER_M, suit_parts
 from dress.tailor import Tailor
 from dress.trimmings import trimming_parts
 from dress.uniform import blazer, coat, uniform_parts
@@ -79,9 +79,10 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
     hair = Surface("hair", 0.60, image=jpeg(hair_picture(file.hair_tint), 92), both_sides=True, shade=(0.30, 0.26, 0.25))
     iris = eye_picture(file.iris_inner, file.iris_outer)
     formal = file.outfit == "suit"
+    buttoned = -1.0 if formal else 1.0
     for name, tier in TIERS.items():
-        cloth = coat(tailor, tier.subdivisions)
-        outer = blazer(tailor, cloth)
+        cloth = coat(tailor, tier.subdivisions, buttoned)
+        outer = blazer(tailor, cloth, buttoned, LONGER_M if formal else 0.0)
         locks, hair_normals = HAIR[file.hair](tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
         clothes = (
             suit_parts(tailor, tier.subdivisions, outer, file.colours)

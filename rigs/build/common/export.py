@@ -8,7 +8,7 @@ import numpy as np
 
 from body.skinning import strongest
 from common.glb import GlbWriter, linear
-from common.meshes import normals
+from common.meshes import even_normals
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -59,7 +59,7 @@ def write_skinned(path: Path, name: str, skeleton: Skeleton, parts: list[Part]) 
         joints, weights = strongest(mesh.weights)
         primitive = writer.primitive(
             mesh.vertices,
-            normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals,
+            even_normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals,
             mesh.faces,
             add_surface(writer, part.surface, materials),
             uv=mesh.uv if part.surface.image is not None else None,

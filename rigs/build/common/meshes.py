@@ -51,64 +51,69 @@ class Mesh:
 
     def clipped(self, keep: Array) -> Mesh:
         """Keep where the scalar field `keep` (V,) is positive, cutting triangles exactly at its zero."""
-        vertices, weights = list(self.vertices), list(self.weights)
-        cuts: dict[tuple[int, int], int] = {}
-        faces: list[list[int]] = []
+        mesh, field = self.scored(keep, near_m=0.004)
+        inside = (field[mesh.faces] >= 0).all(axis=1) & (field[mesh.faces] > 0).any(axis=1)
+        return replace(mesh, faces=mesh.faces[inside]).compact()
 
-        def cut(a: int, b: int) -> int:
-            edge = (min(a, b), max(a, b))
-            if edge not in cuts:
-                t = keep[edge[0]] / (keep[edge[0]] - keep[edge[1]])
-                vertices.append(self.vertices[edge[0]] * (1 - t) + self.vertices[edge[1]] * t)
-                weights.append(self.weights[edge[0]] * (1 - t) + self.weights[edge[1]] * t)
-                cuts[edge] = len(vertices) - 1
-            return cuts[edge]
+    def scored(
+        self, field: Array, within: Flags | None = None, near_m: float = 0.002
+    ) -> tuple[Mesh, Array]:
+        """Put a line of vertices along the zero of a scalar field (V,), on edges with both ends `within`.
 
-        for face in self.faces:
-            outline: list[int] = []
-            for k in range(3):
-                a, b = int(face[k]), int(face[(k + 1) % 3])
-                if keep[a] > 0:
-                    outline.append(a)
-                if (keep[a] > 0) != (keep[b] > 0):
-                    outline.append(cut(a, b))
-            faces.extend([outline[0], outline[k], outline[k + 1]] for k in range(1, len(outline) - 1))
-        return Mesh(np.array(vertices), np.array(weights), np.array(faces, dtype=np.int64)).compact()
-
-
-    def scored(self, field: Array, within: Flags | None = None) -> Mesh:
-        """Put a line of vertices along the zero of a scalar field (V,), on edges with both ends `within`."""
+        Vertices `near_m` to the line are moved on it, so that no slivers are cut. With the field (V',) at the
+        vertices after it.
+        """
         count, faces = len(self.vertices), self.faces
-        edges = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-        unique, inverse = np.unique(edges, axis=0, return_inverse=True)
-        low, high = field[unique[:, 0]], field[unique[:, 1]]
-        crossed = (low > 0) != (high > 0)
-        if within is not None:
-            crossed &= within[unique].all(axis=1)
+        sides = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        edges, inverse = np.unique(sides, axis=0, return_inverse=True)
+        edges_within = np.ones(len(edges), dtype=bool) if within is None else within[edges].all(axis=1)
+        vertices, weights, field = _snapped(self.vertices, self.weights, field, edges[edges_within], near_m)
+        low, high = field[edges[:, 0]], field[edges[:, 1]]
+        crossed = (low * high < 0) & edges_within
         t = (low[crossed] / (low[crossed] - high[crossed]))[:, None]
-        a, b = unique[crossed].T
-        new = np.full(len(unique), -1, dtype=np.int64)
+        a, b = edges[crossed].T
+        new = np.full(len(edges), -1, dtype=np.int64)
         new[crossed] = count + np.arange(len(a))
         of_face = new[np.stack(np.split(inverse.ravel(), 3), axis=1)]
-        split: list[list[int]] = []
-        for (i, j, k), cuts in zip(faces.tolist(), of_face.tolist(), strict=True):
-            corners, cut = [i, j, k], [c for c in cuts if c >= 0]
-            if not cut:
-                split.append(corners)
-                continue
-            # Turned so that the first edge is cut; a second one is then the next or the last.
-            turn = next(n for n in range(3) if cuts[n] >= 0 and (len(cut) == 1 or cuts[n - 1] < 0))
+        split: list[list[int]] = faces[(of_face < 0).all(axis=1)].tolist()
+        touched = (of_face >= 0).any(axis=1)
+        for corners, cuts in zip(faces[touched].tolist(), of_face[touched].tolist(), strict=True):
+            # Turned so that the first edge is cut; where two are, the second follows.
+            turn = max(range(3), key=lambda n: (cuts[n] >= 0) + (cuts[n] >= 0 and cuts[(n + 1) % 3] >= 0))
             i, j, k = corners[turn:] + corners[:turn]
             first, second = cuts[turn], cuts[(turn + 1) % 3]
-            if len(cut) == 1:
+            if second < 0:
                 split += [[i, first, k], [first, j, k]]
             else:
                 split += [[first, j, second], [i, first, second], [i, second, k]]
-        return Mesh(
-            np.vstack([self.vertices, self.vertices[a] * (1 - t) + self.vertices[b] * t]),
-            np.vstack([self.weights, self.weights[a] * (1 - t) + self.weights[b] * t]),
+        mesh = Mesh(
+            np.vstack([vertices, vertices[a] * (1 - t) + vertices[b] * t]),
+            np.vstack([weights, weights[a] * (1 - t) + weights[b] * t]),
             np.array(split, dtype=np.int64),
         )
+        return mesh, np.r_[field, np.zeros(len(a))]
+
+
+def _snapped(
+    vertices: Array, weights: Array, field: Array, edges: Indices, near_m: float
+) -> tuple[Array, Array, Array]:
+    """Vertices, weights and field with what is near the field's zero along one of the edges moved on it."""
+    low, high = field[edges[:, 0]], field[edges[:, 1]]
+    edges = edges[low * high < 0]
+    t = np.abs(field[edges[:, 0]]) / np.abs(field[edges[:, 0]] - field[edges[:, 1]])
+    ends = np.vstack([edges, edges[:, ::-1]])
+    share = np.r_[t, 1 - t]
+    way = share * np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1)
+    near = np.flatnonzero((share < 0.45) & (way < near_m))
+    near = near[np.lexsort((way[near], ends[near, 0]))]
+    moved, first = np.unique(ends[near, 0], return_index=True)
+    chosen = near[first]
+    toward, s = ends[chosen, 1], share[chosen][:, None]
+    vertices, weights, field = vertices.copy(), weights.copy(), field.copy()
+    vertices[moved] = vertices[moved] * (1 - s) + vertices[toward] * s
+    weights[moved] = weights[moved] * (1 - s) + weights[toward] * s
+    field[moved] = 0.0
+    return vertices, weights, field
 
 
 def welded(mesh: Mesh, digits: int = 5) -> Mesh:
@@ -145,6 +150,25 @@ def normals(vertices: Array, faces: Indices) -> Array:
     return unit
 
 
+def even_normals(vertices: Array, faces: Indices) -> Array:
+    """Angle-weighted unit vertex normals (V, 3): the same however a surface is cut into triangles.
+
+    Thürmer and Wüthrich, Journal of Graphics Tools 3 (1998).
+    """
+    total = np.zeros_like(vertices)
+    corners = vertices[faces]
+    facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    facing /= np.maximum(np.linalg.norm(facing, axis=1, keepdims=True), 1e-15)
+    for k in range(3):
+        one, other = (corners[:, (k + n) % 3] - corners[:, k] for n in (1, 2))
+        across = np.linalg.norm(np.cross(one, other), axis=1)
+        angle = np.arctan2(across, (one * other).sum(axis=1))
+        np.add.at(total, faces[:, k], facing * angle[:, None])
+    lengths = np.linalg.norm(total, axis=1, keepdims=True)
+    unit: Array = np.where(lengths > 1e-12, total / np.maximum(lengths, 1e-12), [0.0, 1.0, 0.0])
+    return unit
+
+
 def neighbour_mean(count: int, faces: Indices) -> Any:
     """The matrix (V, V) that takes each vertex to the mean of its neighbours."""
     edges = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
@@ -153,6 +177,13 @@ def neighbour_mean(count: int, faces: Indices) -> Any:
     matrix.data[:] = 1
     degree = np.maximum(np.asarray(matrix.sum(axis=1)).ravel(), 1)
     return sparse.csr_matrix(cast("Any", sparse).diags(1 / degree) @ matrix)
+
+
+def border_edges(faces: Indices) -> Indices:
+    """The open edges (E, 2), each as its one face goes along it."""
+    directed = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    _, index, uses = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True)
+    return directed[uses[index.ravel()] == 1]
 
 
 def on_border(count: int, faces: Indices) -> Flags:
@@ -167,12 +198,10 @@ def on_border(count: int, faces: Indices) -> Flags:
 def edged(mesh: Mesh, thickness_m: float) -> Mesh:
     """The mesh with its open edges turned in against its normals, as cloth of that thickness is."""
     count, faces = len(mesh.vertices), mesh.faces
-    directed = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    _, index, uses = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True)
-    a, b = directed[uses[index.ravel()] == 1].T
+    a, b = border_edges(faces).T
     rim, place = np.unique(np.r_[a, b], return_inverse=True)
     inner_a, inner_b = np.split(count + place.ravel(), 2)
-    inside = mesh.vertices[rim] - normals(mesh.vertices, faces)[rim] * thickness_m
+    inside = mesh.vertices[rim] - even_normals(mesh.vertices, faces)[rim] * thickness_m
     return Mesh(
         np.vstack([mesh.vertices, inside]),
         np.vstack([mesh.weights, mesh.weights[rim]]),

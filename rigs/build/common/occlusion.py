@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from common.meshes import normals, smoothed
+from common.meshes import even_normals, smoothed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -114,7 +114,7 @@ def shaded(parts: list[Part]) -> None:
         if part.surface.shade is None:
             continue
         mesh = part.mesh
-        out = normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals
+        out = even_normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals
         light = smoothed(openness(cells, mesh.vertices, out)[:, None], mesh.faces, SMOOTHING)
         part.colours = tinted(light, part.surface.shade)
 

@@ -10,7 +10,7 @@ from scipy.ndimage import gaussian_filter
 from scipy.spatial import ConvexHull
 
 from body.joint_names import SIDES
-from common.meshes import Mesh, smoothstep
+from common.meshes import Mesh, border_edges, on_border, smoothstep
 from dress.sleeves import ARM_PARTS
 
 if TYPE_CHECKING:
@@ -22,6 +22,10 @@ SLICE_M = 0.008
 ANGLES = 96
 SOFT = (2.0, 2.0)  # slices and angles over which radii are eased
 FADE_M = ((-0.05, 0.05), (0.08, 0.18))  # over the upper chest's joint, in front and behind: where it ends
+
+LONGER_ROWS = 6
+CUTAWAY_M = (0.034, 0.022, 0.10)  # how far the fronts part at the hem, how far they rise, and over what width
+LONGER_FLARE = 0.08  # outward for each metre down
 
 
 def hung(tailor: Tailor, mesh: Mesh) -> Mesh:
@@ -46,6 +50,54 @@ def hung(tailor: Tailor, mesh: Mesh) -> Mesh:
     grow = 1 + share * np.maximum(wide / np.maximum(own, 1e-6) - 1, 0)
     mesh.vertices = np.c_[v[:, 0] * grow, v[:, 1], centre_z + (v[:, 2] - centre_z) * grow]
     return mesh
+
+
+def lengthened(tailor: Tailor, coat: Mesh, by_m: float, front_x: float) -> Mesh:
+    """The coat carried on below its hem: straight down, or out where the legs are wider.
+
+    Its fronts part at `front_x`.
+    """
+    v, count = coat.vertices, len(coat.vertices)
+    hips = tailor.at("hips")
+    edges = border_edges(coat.faces)
+    low = v[:, 1] < float(hips[1]) + 0.03
+    front = np.abs(v[:, 0]) < 0.03
+    hem_y = float(v[low & on_border(count, coat.faces) & ~front, 1].max())
+    edges = edges[(v[edges, 1] < hem_y + 0.001).all(axis=1) & low[edges].all(axis=1)]
+    rim, place = np.unique(edges.ravel(), return_inverse=True)
+    a, b = place.reshape(-1, 2).T
+    angles: Array = np.linspace(-np.pi, np.pi, ANGLES, endpoint=False)
+    centre_z = float(tailor.at("chest")[2])
+    legs = tailor.tights.vertices
+    offset = v[rim] - [0.0, 0.0, centre_z]
+    turn, reach = np.arctan2(offset[:, 0], offset[:, 2]), np.hypot(offset[:, 0], offset[:, 2])
+    column = (turn + np.pi) / (2 * np.pi) * ANGLES
+
+    def legs_reach(y: float) -> Array:
+        eased = gaussian_filter(_span(legs, y, centre_z, angles), SOFT[1], mode="wrap")
+        return _between(np.stack([eased, eased]), np.zeros(len(rim)), column)
+
+    base = legs_reach(hem_y)
+    # The fronts part below the last button, with round corners.
+    from_parting = v[rim, 0] - front_x
+    nearby = np.clip(1 - np.abs(from_parting) / CUTAWAY_M[2], 0, 1) * (offset[:, 2] > 0)
+    beside = np.sign(from_parting) * nearby
+    vertices, weights, faces = [v], [coat.weights], [coat.faces]
+    last = rim
+    for row in range(1, LONGER_ROWS + 1):
+        drop = by_m * row / LONGER_ROWS
+        radius = reach + np.maximum(legs_reach(hem_y - drop) - base, 0) + LONGER_FLARE * drop
+        away = CUTAWAY_M[0] * beside * (drop / by_m) ** 1.6
+        rise = CUTAWAY_M[1] * np.abs(beside) ** 3 * (drop / by_m) ** 2
+        vertices.append(
+            np.c_[np.sin(turn) * radius + away, v[rim, 1] - drop + rise, centre_z + np.cos(turn) * radius]
+        )
+        weights.append(coat.weights[rim])
+        new = count + np.arange(len(rim))
+        count += len(rim)
+        faces += [np.c_[last[b], last[a], new[a]], np.c_[last[b], new[a], new[b]]]
+        last = new
+    return Mesh(np.vstack(vertices), np.vstack(weights), np.vstack(faces))
 
 
 def _span(points: Array, y: float, centre_z: float, angles: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from body.joint_names import SIDES
-from common.meshes import Flags, Mesh, normals
+from common.meshes import Mesh, even_normals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 
 SEAM_M = (0.0034, 0.0019)  # half a seam's width, and its depth
 VENT_M = (0.0034, 0.0045)
+FRONT_M = (0.0030, 0.0030)
 VENT_TOP_M = 0.075  # over the hips' joint
 ARMHOLE_M = (0.0042, 0.0036)  # half width and depth: a sleeve is set in full
 ARMHOLE_REACH_M = 0.125  # from the shoulder's joint
@@ -29,6 +30,7 @@ ARMHOLE_LEAN = 0.19  # outward for each metre up
 SIDE_BACK_M = ((-0.06, 0.100), (0.11, 0.068), (0.30, 0.098))  # over the hips' joint: from the middle
 DART_M = ((0.075, 0.088), (0.285, 0.070))
 SEAM_ENDS_M = 0.02  # over which a seam runs out
+BESIDE_EDGE_M = 0.0045
 EDGE_M = 0.0024  # the cloth's thickness where an edge shows it
 
 
@@ -44,16 +46,19 @@ class Seam:
     def into(self, mesh: Mesh) -> Mesh:
         """The cloth drawn in along the seam, by three lines of vertices that hold its shape."""
         for line in (-self.width_m, 0.0, self.width_m):
-            mesh = mesh.scored(self.across(mesh.vertices) - line, self.shown(mesh.vertices) > 0)
+            mesh, _ = mesh.scored(self.across(mesh.vertices) - line, self.shown(mesh.vertices) > 0, 0.3 * self.width_m)
         v = mesh.vertices
         sunk = self.depth_m * np.clip(1 - np.abs(self.across(v)) / self.width_m, 0, 1) * self.shown(v)
-        mesh.vertices = v - normals(v, mesh.faces) * sunk[:, None]
+        mesh.vertices = v - even_normals(v, mesh.faces) * sunk[:, None]
         return mesh
 
 
-def sewn(tailor: Tailor, mesh: Mesh) -> Mesh:
-    """The coat with its seams: round the armholes, down the back and its sides, and darts before the waist."""
-    for seam in _seams(tailor):
+def sewn(tailor: Tailor, mesh: Mesh, front: Seam) -> Mesh:
+    """The coat with its seams: round the armholes, down the back and its sides, and darts before the waist.
+
+    And along its `front` edge.
+    """
+    for seam in [*_seams(tailor), front]:
         mesh = seam.into(mesh)
     return mesh
 
@@ -71,15 +76,15 @@ def _seams(tailor: Tailor) -> list[Seam]:
 
         def near(v: Array, joint: Array = joint) -> Array:
             distance: Array = np.linalg.norm(v - joint, axis=1)
-            return _until(ARMHOLE_REACH_M - distance) * _until(v[:, 1] - joint[1] + ARMHOLE_DOWN_M)
+            return until(ARMHOLE_REACH_M - distance) * until(v[:, 1] - joint[1] + ARMHOLE_DOWN_M)
 
         seams.append(Seam(out, near, *ARMHOLE_M))
 
     def in_the_back(v: Array, low: float, high: float) -> Array:
-        return _until(v[:, 1] - low) * _until(high - v[:, 1]) * (v[:, 2] < 0)
+        return until(v[:, 1] - low) * until(high - v[:, 1]) * (v[:, 2] < 0)
 
     def in_front(v: Array, low: float, high: float) -> Array:
-        return _until(v[:, 1] - low) * _until(high - v[:, 1]) * (v[:, 2] > 0.04)
+        return until(v[:, 1] - low) * until(high - v[:, 1]) * (v[:, 2] > 0.04)
 
     vent = hips + VENT_TOP_M
     seams += [
@@ -105,7 +110,7 @@ def _seams(tailor: Tailor) -> list[Seam]:
     return seams
 
 
-def _until(distance: Array) -> Array:
+def until(distance: Array) -> Array:
     """1 within, fading to 0 over a seam's end."""
     shown: Array = np.clip(distance / SEAM_ENDS_M, 0, 1)
     return shown

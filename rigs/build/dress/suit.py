@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 TROUSER_EASE_M = 0.0075
 UNDER_JACKET_M = 0.007  # how far the trousers are drawn in where the jacket covers them
+LONGER_M = 0.085  # by so much the jacket is longer than the uniform's
 SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
 VAMP_M = 0.020  # how far before the ankle the shoe's vamp begins, under the trousers
 HEM_M = (
@@ -44,7 +45,7 @@ def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
     mesh = tailor.cloth(below, TROUSER_EASE_M, 12, subdivisions)
     border = on_border(len(mesh.vertices), mesh.faces)
     mesh.vertices = smoothed(_straight(tailor, mesh), mesh.faces, 6, border)
-    covered = smoothstep((mesh.vertices[:, 1] - hips + 0.085) / 0.05)
+    covered = smoothstep((mesh.vertices[:, 1] - hips + 0.16) / 0.05)
     out = normals(mesh.vertices, mesh.faces) * [1.0, 0.0, 1.0]
     mesh.vertices = mesh.vertices - out * (UNDER_JACKET_M * covered)[:, None]
     before: Array = mesh.vertices[:, 2] - tailor.at("leftFoot")[2]

@@ -12,8 +12,8 @@ from body.joint_names import SIDES
 from common.meshes import Mesh, edged, joined, smoothstep
 from common.parts import Part, Surface
 from common.shapes import grid_faces
-from dress.hang import hung
-from dress.seams import EDGE_M, sewn
+from dress.hang import hung, lengthened
+from dress.seams import BESIDE_EDGE_M, EDGE_M, FRONT_M, Seam, sewn, until
 from dress.sleeves import creased, cuffs, fitted, padded, softened
 from dress.tailor import borrowed_weights
 
@@ -32,6 +32,7 @@ NECKLINE_HEIGHT_M = ((0.0, -0.060), (0.9, -0.045), (1.25, -0.012), (1.6, 0.003),
 COLLAR_SEAM_M = ((0.0, -0.037), (0.7, -0.026), (1.2, 0.000), (1.6, 0.010), (2.1, 0.010), (np.pi, 0.002))
 UNDER_COLLAR_M = 0.018  # how far over the collar's seam the shirt goes on, hidden by the collar
 OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
+FRONT_EDGE_M = 0.014  # where its fronts overlap, from the middle
 BLAZER_SLEEVE = 0.86  # the sleeve ends at this share of the forearm
 
 
@@ -46,21 +47,37 @@ def opening(tailor: Tailor, y: Array) -> Array:
     return OPENING_M * np.clip((y - low) / (high - low), 0, 1.3) ** 0.85
 
 
+def front_edge(tailor: Tailor, y: Array, buttoned: float) -> Array:
+    """Where (N,) the blazer's upper front ends below the opening, metres from the middle; `buttoned`: which is it."""
+    below: Array = np.clip((top_button_y(tailor) - y) / 0.035, 0, 1)
+    return buttoned * FRONT_EDGE_M * below
+
+
 def _above_hips(tailor: Tailor) -> NDArray[np.bool_]:
     tights = tailor.tights
     return (tights.vertices[:, 1] > tailor.at("hips")[1] - 0.10) & (tailor.leg_weight(tights.weights) < 0.97)
 
 
-def coat(tailor: Tailor, subdivisions: int) -> Mesh:
-    """The blazer's cloth before it is cut: over trunk and arms, with its folds."""
+def coat(tailor: Tailor, subdivisions: int, buttoned: float) -> Mesh:
+    """The blazer's cloth before it is cut: over trunk and arms, with its folds.
+
+    `buttoned`: 1 if its right front lies over the left, as hers does, -1 if the left over the right.
+    """
     mesh = hung(tailor, fitted(tailor, tailor.cloth(_above_hips(tailor), 0.013, 22, subdivisions)))
     if subdivisions:
         mesh = creased(tailor, mesh)
     mesh = padded(tailor, softened(tailor, _flare(tailor, _waisted(tailor, mesh))))
-    return sewn(tailor, mesh) if subdivisions else mesh
+    if not subdivisions:
+        return mesh
+    front = Seam(
+        lambda v: v[:, 0] - front_edge(tailor, v[:, 1], buttoned),
+        lambda v: until(top_button_y(tailor) - 0.01 - v[:, 1]) * (v[:, 2] > 0.02),
+        *FRONT_M,
+    )
+    return sewn(tailor, mesh, front)
 
 
-def blazer(tailor: Tailor, cloth: Mesh) -> Mesh:
+def blazer(tailor: Tailor, cloth: Mesh, buttoned: float, longer_m: float) -> Mesh:
     """The coat cut: open in a V to the top button, with a neck, a hem and sleeves to the cuffs."""
     v, w = cloth.vertices, cloth.weights
     hips, chest = tailor.at("hips"), tailor.at("upperChest")
@@ -71,13 +88,17 @@ def blazer(tailor: Tailor, cloth: Mesh) -> Mesh:
     button = top_button_y(tailor)
     parted = np.where(v[:, 1] < button - 0.16, (button - 0.16 - v[:, 1]) * 0.25, 0)
     front = v[:, 2] > chest[2] + 0.01
-    keep = np.where(
-        front, np.minimum(keep, np.abs(v[:, 0]) - np.maximum(opening(tailor, v[:, 1]), parted) - 0.0005), keep
-    )
+    from_edge = np.abs(v[:, 0] - front_edge(tailor, v[:, 1], buttoned))
+    parted = np.maximum(opening(tailor, v[:, 1]), parted)
+    keep = np.where(front & (parted > 0), np.minimum(keep, from_edge - parted), keep)
     from_axis = v[:, 2] - neck_axis_z(tailor, v[:, 1])
     around_neck = np.hypot(v[:, 0], from_axis) - NECKLINE_M
     below_neck = tailor.neck_y + neckline_height(np.arctan2(v[:, 0], from_axis)) - v[:, 1]
-    return edged(cloth.clipped(np.minimum(keep, np.maximum(around_neck, below_neck))), EDGE_M)
+    keep = np.minimum(keep, np.maximum(around_neck, below_neck))
+    # A line of vertices beside the edge, that it may turn evenly.
+    cloth, beside = cloth.scored(keep - BESIDE_EDGE_M)
+    cut = cloth.clipped(beside + BESIDE_EDGE_M)
+    return edged(lengthened(tailor, cut, longer_m, buttoned * FRONT_EDGE_M) if longer_m else cut, EDGE_M)
 
 
 def neckline_height(angle: Array) -> Array:
