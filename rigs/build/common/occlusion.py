@@ -87,6 +87,7 @@ def hemisphere(count: int) -> Array:
 
 def openness(cells: Cells, points: Array, out: Array) -> Array:
     """How open (N,) each point with its unit normal (N, 3) lies: 1 in the open, 0 wholly covered."""
+    points = points + out * cells.grain.cell_m  # what is sewn on a cloth is not shaded by it
     side = np.where(np.abs(out[:, :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
     first = np.cross(side, out)
     first /= np.linalg.norm(first, axis=1, keepdims=True)

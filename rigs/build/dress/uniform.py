@@ -168,7 +168,7 @@ def shirt(tailor: Tailor, subdivisions: int, underlap_m: float, throat_m: float)
 
 PLEATS = 24
 PLEAT = (0.0, 0.41, 0.80, 0.84, 0.96)  # columns within a pleat; between the third and fourth it turns under
-UNDER_BLAZER_M = (0.0040, 0.0065)  # how far under the blazer the skirt lies at least, and at most
+UNDER_BLAZER_M = (0.0075, 0.0100)  # how far under the blazer the skirt lies at least, and at most
 HEM_BANDS = ((0.865, 0.905), (0.925, 0.940))  # stripes near the hem, as shares of the skirt's length
 
 

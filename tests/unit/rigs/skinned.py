@@ -74,13 +74,23 @@ def shaped(entry: dict[str, Any]) -> Array:
     return np.array(entry["values"], dtype=np.float64).reshape(-1, entry["width"])
 
 
-def on_border(triangles: NDArray[np.int64], positions: Array) -> NDArray[np.bool_]:
-    """Vertices of an edge that one triangle alone has; vertices at one place count as one."""
+TURNED_IN = frozenset({"Blazer", "Jacket"})
+"""Meshes whose edges are turned in: what is beside their borders is the edge itself, and faces to the side."""
+
+
+def on_border(triangles: NDArray[np.int64], positions: Array, *, turned_in: bool) -> NDArray[np.bool_]:
+    """Vertices of an edge that one triangle alone has, vertices at one place counting as one.
+
+    And those beside them, if the edge is `turned_in`.
+    """
     _, place = np.unique(np.round(positions, 5), axis=0, return_inverse=True)
     corners = place.ravel()[triangles]
     edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
     found, count = np.unique(edges, axis=0, return_counts=True)
-    return np.isin(place.ravel(), found[count == 1])
+    border = np.unique(found[count == 1])
+    if turned_in:
+        border = np.unique(corners[np.isin(corners, border).any(axis=1)])
+    return np.isin(place.ravel(), border)
 
 
 @dataclass(frozen=True)
@@ -159,7 +169,7 @@ def read_cloths(name: str, out: Path) -> dict[str, Cloth]:
             shaped(mesh["normal"]),
             order[shaped(mesh["joints_0"]).astype(np.int64)],
             weights / weights.sum(axis=1, keepdims=True),
-            on_border(triangles, positions),
+            on_border(triangles, positions, turned_in=mesh["name"] in TURNED_IN),
             triangles,
         )
     return cloths
