@@ -123,7 +123,7 @@ def lapels(tailor: Tailor, cloth: Mesh, count: int, thick: float) -> tuple[Mesh,
             rows.append(_eased(on + out * (thick * lift), 1.0))
         sheet = _sheet(rows, count)
         points = sheet.reshape(-1, 3)
-        strips.append(Mesh(points, borrowed_weights(points, cloth), grid_faces(count, 7, flip=sign > 0)))
+        strips.append(Mesh(points, borrowed_weights(points, cloth), grid_faces(count, 7, flip=sign < 0)))
         edges.append(np.vstack([sheet[:, 5], sheet[-1, 4:1:-1]]))
     return joined(strips), edges
 
@@ -157,7 +157,7 @@ def blazer_collar(tailor: Tailor, cloth: Mesh, count: int) -> tuple[Mesh, Array]
     sheet = _sheet(rows, count)
     points = sheet.reshape(-1, 3)
     weights = _eased(borrowed_weights(points, cloth).reshape(count, len(rows), -1), 2.0 * count / steps)
-    mesh = Mesh(points, weights.reshape(len(points), -1), grid_faces(count, len(rows), flip=True))
+    mesh = Mesh(points, weights.reshape(len(points), -1), grid_faces(count, len(rows)))
     return mesh, sheet[:, 5]
 
 
@@ -185,7 +185,7 @@ def shirt_collar(tailor: Tailor, count: int) -> Mesh:
     rows = [np.c_[np.sin(a) * r, y, neck_axis_z(tailor, y) + np.cos(a) * r] for a, r, y in profile]
     points = _sheet(rows, count).reshape(-1, 3)
     weights = tailor.rigid(len(points), neck=0.4, upperChest=0.6)
-    return Mesh(points, weights, grid_faces(count, len(profile), flip=True))
+    return Mesh(points, weights, grid_faces(count, len(profile)))
 
 
 def _neck_radius(tailor: Tailor, angles: Array, heights: Array) -> Array:

@@ -59,7 +59,7 @@ def patch(
     on, out = drape.surface(middle + flat)
     edge = np.maximum(np.abs(s), np.abs(t)) > 0.999
     points = on + out * np.where(edge, 0.0004, lift)[:, None]
-    return Mesh(points, borrowed_weights(points, drape.cloth), grid_faces(grid, grid, flip=not front))
+    return Mesh(points, borrowed_weights(points, drape.cloth), grid_faces(grid, grid, flip=front))
 
 
 def pockets(tailor: Tailor, drape: Drape, grid: int) -> Mesh:
@@ -118,11 +118,7 @@ def sleeve_bands(tailor: Tailor, outer: Mesh, columns: int) -> Mesh:
                 )
                 rows.append(centre + spokes * (np.r_[radii, radii[:1]] + lift)[:, None])
             points = np.vstack(rows)
-            bands.append(
-                Mesh(
-                    points, borrowed_weights(points, outer), grid_faces(4, columns + 1, flip=side == "right")
-                )
-            )
+            bands.append(Mesh(points, borrowed_weights(points, outer), grid_faces(4, columns + 1)))
     return joined(bands)
 
 

@@ -124,7 +124,7 @@ def cuffs(tailor: Tailor, columns: int) -> Mesh:
             rows.append(centre + spokes * np.r_[smooth, smooth[:1]][:, None])
         points = np.vstack(rows)
         weights = borrowed_weights(points, tailor.tights)
-        rings.append(Mesh(points, weights, grid_faces(len(CUFF), columns + 1, flip=side == "right")))
+        rings.append(Mesh(points, weights, grid_faces(len(CUFF), columns + 1)))
     return joined(rings)
 
 

@@ -73,7 +73,8 @@ def bow(tailor: Tailor, *, tails: bool) -> Mesh:
                 knot + path + np.outer(width * k, across) + [0, 0, 0.004 * (1 - abs(k))] for k in (-1, 0, 1)
             ]
             points = np.stack(rows, axis=1).reshape(-1, 3)
-            pieces.append(Mesh(points, tailor.rigid(len(points), upperChest=1), grid_faces(9, 3)))
+            faces = grid_faces(9, 3, flip=path is tail or sign > 0)
+            pieces.append(Mesh(points, tailor.rigid(len(points), upperChest=1), faces))
     path = knot + np.array([[0, 0.009, 0.002], [0, 0.005, 0.006], [0, -0.005, 0.006], [0, -0.009, 0.002]])
     points, faces, _ = tube(path, np.array([0.004, 0.008, 0.008, 0.004]), np.array([0.0, 0.0, 1.0]), 10)
     pieces.append(Mesh(points, tailor.rigid(len(points), upperChest=1), faces))
