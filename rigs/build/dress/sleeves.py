@@ -26,8 +26,9 @@ LOOSENESS = (0.25, 0.12)  # what is left of the cloth's further distance, below 
 SHOULDER_EASE_M = 0.0018  # by so much it is closer there
 SHOULDER_REACH_M = 0.15  # within it skin weights are eased
 SHOULDER_ROUNDS = 16
-PAD_M = (0.07, 0.045)  # a shoulder pad's reach inward and outward of the joint
-PAD_LIFT_M = 0.007
+PAD_M = (0.08, 0.040)  # a shoulder pad's reach inward and outward of the joint
+PAD_LIFT_M = 0.008
+HEAD_M = (0.11, 0.009)  # how far down the arm the sleeve's head is drawn in, and how much
 PAD_HOLDS = 0.75  # what the shoulder keeps of what would follow the arm
 CUFF = ((0.845, 0.0060), (0.885, 0.0072), (0.938, 0.0075), (0.940, 0.0062), (0.90, 0.0052))  # place, ease m
 FOLDS = (  # centre and reach along the arm (0 shoulder, 1 elbow, 2 wrist), depth m, folds in the reach, slant
@@ -84,9 +85,23 @@ def padded(tailor: Tailor, mesh: Mesh) -> Mesh:
         kept = mesh.weights[:, arm] * (PAD_HOLDS * share)[:, None]
         mesh.weights[:, arm] -= kept
         mesh.weights[:, base] += kept.sum(axis=1)
-        v = v + share[:, None] * PAD_LIFT_M * np.array([np.sign(joint[0]) * 0.6, 1.0, 0.0])
+        v = v + share[:, None] * PAD_LIFT_M * np.array([0.0, 1.0, 0.0])
+        # The sleeve's head goes on from the pad, no higher.
+        along = (v - joint) @ _toward(tailor, side)
+        head = smoothstep((along - 0.005) / 0.03) * smoothstep((HEAD_M[0] - along) / 0.05)
+        inward = joint + along[:, None] * _toward(tailor, side) - v
+        inward /= np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), 1e-6)
+        near = np.linalg.norm(v - joint, axis=1) < 2 * HEAD_M[0]
+        v = v + inward * (HEAD_M[1] * head * near * smoothstep((above + 0.03) / 0.05))[:, None]
     mesh.vertices = v
     return mesh
+
+
+def _toward(tailor: Tailor, side: str) -> Array:
+    """The unit direction (3,) from shoulder to elbow."""
+    arm = tailor.at(f"{side}LowerArm") - tailor.at(f"{side}UpperArm")
+    unit: Array = arm / np.linalg.norm(arm)
+    return unit
 
 
 def creased(tailor: Tailor, mesh: Mesh) -> Mesh:
