@@ -63,6 +63,21 @@ def _quiff(rng: np.random.Generator, share: float) -> list[Lock]:
     return locks
 
 
+def _front(rng: np.random.Generator, share: float) -> list[Lock]:
+    """Short hair that grows up and back from the forehead, so that its edge is no line."""
+    locks: list[Lock] = []
+    for lift, number in ((0.0035, 24), (0.0065, 18)):
+        number = max(7, round(number * share))
+        for i in range(number):
+            azimuth = -0.92 + 1.78 * (i + rng.uniform(0.2, 0.8)) / number
+            corner = 0.035 * np.exp(-(((abs(azimuth) - 0.55) / 0.2) ** 2))
+            lock = Lock(azimuth, 1.085 - corner + rng.uniform(-0.03, 0.035), 0.66, lift, 0.0075 / share**0.7)
+            lock.swing, lock.flat = -0.16 + rng.uniform(-0.07, 0.07), 0.30
+            lock.taper, lock.tip = 0.55, 0.8
+            locks.append(lock)
+    return locks
+
+
 def cropped(tailor: Tailor, steps: int, sides: int, share: float) -> tuple[Mesh, Array]:
     """The whole head of hair and its normals (V, 3).
 
@@ -71,7 +86,7 @@ def cropped(tailor: Tailor, steps: int, sides: int, share: float) -> tuple[Mesh,
     rng = np.random.default_rng(SEED)
     scalp = Scalp.of(tailor)
     meshes = [scalp_cap(tailor, scalp, HAIRLINE, 0.0045)]
-    for lock in _sides(rng, share) + _quiff(rng, share):
+    for lock in _sides(rng, share) + _quiff(rng, share) + _front(rng, share):
         vertices, faces, uv = lock.mesh(scalp, max(5, steps // 2), sides)
         meshes.append(Mesh(vertices, tailor.rigid(len(vertices), head=1), faces, uv))
     hair = facing_outward(joined(meshes), scalp)
