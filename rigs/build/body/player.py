@@ -82,7 +82,13 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
     buttoned = -1.0 if formal else 1.0
     for name, tier in TIERS.items():
         cloth = coat(tailor, tier.subdivisions, buttoned)
-        outer = blazer(tailor, cloth, buttoned, LONGER_M if formal else 0.0)
+        outer = blazer(
+            tailor,
+            cloth,
+            buttoned,
+            longer_m=LONGER_M if formal else 0.0,
+            turned_in=tier.subdivisions > 0,
+        )
         locks, hair_normals = HAIR[file.hair](tailor, tier.lock_steps, tier.lock_sides, tier.lock_share)
         clothes = (
             suit_parts(tailor, tier.subdivisions, outer, file.colours)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 TROUSER_EASE_M = 0.0075
-UNDER_JACKET_M = 0.007  # how far the trousers are drawn in where the jacket covers them
+UNDER_JACKET_M = 0.013  # how far the trousers are drawn in where the jacket covers them
 LONGER_M = 0.085  # by so much the jacket is longer than the uniform's
 SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
 VAMP_M = 0.020  # how far before the ankle the shoe's vamp begins, under the trousers

@@ -77,8 +77,13 @@ def coat(tailor: Tailor, subdivisions: int, buttoned: float) -> Mesh:
     return sewn(tailor, mesh, front)
 
 
-def blazer(tailor: Tailor, cloth: Mesh, buttoned: float, longer_m: float) -> Mesh:
-    """The coat cut: open in a V to the top button, with a neck, a hem and sleeves to the cuffs."""
+def blazer(
+    tailor: Tailor, cloth: Mesh, buttoned: float, *, longer_m: float = 0.0, turned_in: bool = True
+) -> Mesh:
+    """The coat cut: open in a V to the top button, with a neck, a hem and sleeves to the cuffs.
+
+    `longer_m` more than to the hips; its edges are `turned_in` where they can be seen to be.
+    """
     v, w = cloth.vertices, cloth.weights
     hips, chest = tailor.at("hips"), tailor.at("upperChest")
     keep = v[:, 1] - (hips[1] - 0.035) - 0.012 * np.cos(np.arctan2(v[:, 0], v[:, 2]))
@@ -95,10 +100,13 @@ def blazer(tailor: Tailor, cloth: Mesh, buttoned: float, longer_m: float) -> Mes
     around_neck = np.hypot(v[:, 0], from_axis) - NECKLINE_M
     below_neck = tailor.neck_y + neckline_height(np.arctan2(v[:, 0], from_axis)) - v[:, 1]
     keep = np.minimum(keep, np.maximum(around_neck, below_neck))
-    # A line of vertices beside the edge, that it may turn evenly.
-    cloth, beside = cloth.scored(keep - BESIDE_EDGE_M)
-    cut = cloth.clipped(beside + BESIDE_EDGE_M)
-    return edged(lengthened(tailor, cut, longer_m, buttoned * FRONT_EDGE_M) if longer_m else cut, EDGE_M)
+    if turned_in:  # evenly: along a line of vertices beside the edge
+        cloth, keep = cloth.scored(keep - BESIDE_EDGE_M)
+        keep = keep + BESIDE_EDGE_M
+    cut = cloth.clipped(keep)
+    if longer_m:
+        cut = lengthened(tailor, cut, longer_m, buttoned * FRONT_EDGE_M)
+    return edged(cut, EDGE_M) if turned_in else cut
 
 
 def neckline_height(angle: Array) -> Array:
@@ -168,6 +176,7 @@ def shirt(tailor: Tailor, subdivisions: int, underlap_m: float, throat_m: float)
 
 PLEATS = 24
 PLEAT = (0.0, 0.41, 0.80, 0.84, 0.96)  # columns within a pleat; between the third and fourth it turns under
+PLAIN_PLEAT = (0.0, 0.80, 0.86)
 UNDER_BLAZER_M = (0.0075, 0.0100)  # how far under the blazer the skirt lies at least, and at most
 HEM_BANDS = ((0.865, 0.905), (0.925, 0.940))  # stripes near the hem, as shares of the skirt's length
 
@@ -238,7 +247,7 @@ def skirt(tailor: Tailor, outer: Mesh, rows: int, pleat: tuple[float, ...] = PLE
 
 def tights(tailor: Tailor, subdivisions: int) -> Mesh:
     """Cloth close over the legs."""
-    mesh, waist = tailor.tights, tailor.at("hips")[1] + 0.0
+    mesh, waist = tailor.tights, tailor.at("hips")[1] - 0.09  # under the skirt
     return tailor.cloth(
         (tailor.leg_weight(mesh.weights) > 0.3) & (mesh.vertices[:, 1] < waist), 0.0015, 0, subdivisions
     )
@@ -291,7 +300,7 @@ def uniform_parts(
     tailor: Tailor, subdivisions: int, skirt_rows: int, outer: Mesh, colours: Colours
 ) -> list[Part]:
     """All cloth but the trimmings; `outer` is the blazer, cut beforehand because trimmings lie on it."""
-    pleated, stripes = skirt(tailor, outer, skirt_rows)
+    pleated, stripes = skirt(tailor, outer, skirt_rows, PLEAT if subdivisions else PLAIN_PLEAT)
     return [
         shirt_part(tailor, subdivisions, colours),
         Part("Blazer", outer, Surface("blazer", 0.82, colour=colours["coat"], both_sides=True)),
