@@ -2,6 +2,7 @@
 
 import { NeutralToneMapping, PCFShadowMap, SRGBColorSpace, WebGLRenderer } from "three";
 
+import { sampleInside } from "./centroid";
 import { StageUnavailableError } from "./errors";
 import type { TierSettings } from "./tiers";
 
@@ -27,6 +28,7 @@ export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings): W
         "Switch on hardware acceleration in its settings, or open Reina in a current Firefox, Chrome, Edge or Safari.",
     );
   }
+  sampleInside();
   const renderer = new WebGLRenderer({ canvas, context, ...attributes });
   renderer.outputColorSpace = SRGBColorSpace;
   // Of the mappings at hand the one that keeps hues: skin in full light stays skin, drawn colours stay bright.

@@ -12,13 +12,34 @@ const SKIN_LIGHT = ShaderChunk.lights_physical_pars_fragment.replace(
    vec3 irradiance = clamp( ( skinNL + skinWrap ) / ( 1.0 + skinWrap ), 0.0, 1.0 ) * directLight.color;`,
 );
 
+/** One spark whitens its whole pixel: skin and hair are never brighter than this, in the scene's own light. */
+const WITHOUT_SPARKS = `outgoingLight = min(outgoingLight, vec3(1.6));
+#include <opaque_fragment>`;
+
+/** Hair's normals lean toward the head's roundness; where they lean away from who looks, they would mirror the room. */
+const FACING_NORMALS = `#include <normal_fragment_maps>
+vec3 toEye = normalize(vViewPosition);
+normal = normalize(normal + toEye * max(0.25 - dot(normal, toEye), 0.0));`;
+
 type Dress = (material: MeshStandardMaterial) => MeshStandardMaterial;
 
 function softenSkin(material: MeshStandardMaterial): MeshStandardMaterial {
   material.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader.replace("#include <lights_physical_pars_fragment>", SKIN_LIGHT);
+    program.fragmentShader = program.fragmentShader
+      .replace("#include <lights_physical_pars_fragment>", SKIN_LIGHT)
+      .replace("#include <opaque_fragment>", WITHOUT_SPARKS);
   };
   material.customProgramCacheKey = () => "skin";
+  return material;
+}
+
+function turnHair(material: MeshStandardMaterial): MeshStandardMaterial {
+  material.onBeforeCompile = (program) => {
+    program.fragmentShader = program.fragmentShader
+      .replace("#include <normal_fragment_maps>", FACING_NORMALS)
+      .replace("#include <opaque_fragment>", WITHOUT_SPARKS);
+  };
+  material.customProgramCacheKey = () => "hair";
   return material;
 }
 
@@ -49,6 +70,7 @@ function knitTights(material: MeshStandardMaterial): MeshStandardMaterial {
 /** Beginnings of material names; the first that fits is taken. */
 const DRESSES: readonly (readonly [name: RegExp, dress: Dress])[] = [
   [/^skin/i, softenSkin],
+  [/^hair/i, turnHair],
   [/^tights/i, knitTights],
   [/^(blazer|jacket|lapel|skirt|trousers)/i, napCloth],
 ];
