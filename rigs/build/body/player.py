@@ -76,7 +76,9 @@ def build_player(data: Path, raw: Path, rig_folder: Path, file: FigureFile) -> N
     mouth = lip_centre(figure, positions, covered)
     skin = bare_skin(figure, skeleton, weights, paint_skin(file, figure, skeleton, positions, covered))
     tailor = Tailor.measure(figure, skeleton, weights)
-    hair = Surface("hair", 0.60, image=jpeg(hair_picture(file.hair_tint), 92), both_sides=True, shade=(0.30, 0.26, 0.25))
+    hair = Surface(
+        "hair", 0.60, image=jpeg(hair_picture(file.hair_tint), 92), both_sides=True, shade=(0.30, 0.26, 0.25)
+    )
     iris = eye_picture(file.iris_inner, file.iris_outer)
     formal = file.outfit == "suit"
     buttoned = -1.0 if formal else 1.0

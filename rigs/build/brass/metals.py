@@ -22,9 +22,13 @@ class Metals:
 
     @property
     def shades(self) -> dict[int, tuple[float, float, float]]:
-        """What is left of each one's colour (linear RGB) where other parts close it in: brass reflects brass."""
+        """What is left of each one's colour (linear RGB) where other parts close it in.
+
+        Brass reflects brass.
+        """
         warm, cool = (0.50, 0.34, 0.20), (0.36, 0.35, 0.34)
-        return {self.brass: warm, **dict.fromkeys((self.silver, self.aluminium, self.felt, self.pearl, self.cork), cool)}
+        others = (self.silver, self.aluminium, self.felt, self.pearl, self.cork)
+        return {self.brass: warm, **dict.fromkeys(others, cool)}
 
     @classmethod
     def into(cls, writer: GlbWriter) -> Metals:

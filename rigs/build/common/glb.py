@@ -107,7 +107,7 @@ class GlbWriter:
         targets: list[Array] | None = None,
         colours: Array | None = None,
     ) -> dict[str, Any]:
-        """One drawable part; joints and weights are (V, 4), targets a list of offsets (V, 3), colours (V, 3)."""
+        """One drawable part; joints, weights are (V, 4), targets a list of offsets (V, 3), colours (V, 3)."""
         attributes = {
             "POSITION": self.accessor(positions.astype("<f4"), "VEC3", ARRAY_BUFFER, bounds=True),
             "NORMAL": self.accessor(normals.astype("<f4"), "VEC3", ARRAY_BUFFER),

@@ -55,9 +55,7 @@ class Mesh:
         inside = (field[mesh.faces] >= 0).all(axis=1) & (field[mesh.faces] > 0).any(axis=1)
         return replace(mesh, faces=mesh.faces[inside]).compact()
 
-    def scored(
-        self, field: Array, within: Flags | None = None, near_m: float = 0.002
-    ) -> tuple[Mesh, Array]:
+    def scored(self, field: Array, within: Flags | None = None, near_m: float = 0.002) -> tuple[Mesh, Array]:
         """Put a line of vertices along the zero of a scalar field (V,), on edges with both ends `within`.
 
         Vertices `near_m` to the line are moved on it, so that no slivers are cut. With the field (V',) at the

@@ -1,7 +1,7 @@
 """How open each vertex of a model lies, so that folds and what is under another part are drawn darker.
 
-All parts are marked in a grid of cells in the rest pose; from each vertex rays go out over its normal, and count
-for as far as they come (ambient obscurance: Zhukov, Iones, Kronin, Rendering Techniques 1998).
+All parts are marked in a grid of cells in the rest pose; from each vertex rays go out over its normal, and
+count for as far as they come (ambient obscurance: Zhukov, Iones, Kronin, Rendering Techniques 1998).
 """
 
 from __future__ import annotations
@@ -69,16 +69,18 @@ def covering_points(vertices: Array, faces: NDArray[np.int64], spacing_m: float)
     edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     splits = np.clip(np.ceil(edges / spacing_m).astype(np.int64), 1, 200)
     found: list[Array] = [vertices[np.unique(faces)]]
-    for count in np.unique(splits):
-        i, j = (axis.ravel() for axis in np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij"))
-        within = i + j <= count
-        shares = np.stack([i, j, count - i - j], axis=1)[within] / count
-        found.append(np.einsum("sk,nkj->nsj", shares, corners[splits == count]).reshape(-1, 3))
+    for count in range(1, int(splits.max(initial=1)) + 1):
+        chosen = corners[splits == count]
+        if not len(chosen):
+            continue
+        i, j = np.indices((count + 1, count + 1)).reshape(2, -1)
+        shares: Array = np.stack([i, j, count - i - j], axis=1)[i + j <= count] / count
+        found.append(np.einsum("sk,nkj->nsj", shares, chosen).reshape(-1, 3))
     return np.vstack(found)
 
 
 def hemisphere(count: int) -> Array:
-    """Directions (count, 3) over the third axis, as dense as a matt surface weighs them: a sunflower's spiral."""
+    """Directions (count, 3) over the third axis, as dense as a matt surface weighs them, on a spiral."""
     k = np.arange(count) + 0.5
     radius = np.sqrt(k / count)
     turn = np.pi * (3 - np.sqrt(5)) * k
@@ -109,7 +111,7 @@ def openness(cells: Cells, points: Array, out: Array) -> Array:
 
 
 def shaded(parts: list[Part]) -> None:
-    """Give each part its vertices' colours: white in the open, its surface's `shade` where nothing is seen."""
+    """Give each part its vertices' colours: white in the open, the surface's `shade` where all is covered."""
     cells = Cells(FIGURE, [(part.mesh.vertices, part.mesh.faces) for part in parts])
     for part in parts:
         if part.surface.shade is None:

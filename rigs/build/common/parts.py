@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 class Surface:
     """A material: `colour` in sRGB 0…1 or an `image` (bytes, MIME type); `extensions` as glTF has them.
 
-    `shade` is what is left of its colour (linear RGB) where no light comes in; None: it is the same everywhere.
+    `shade` is what is left of its colour (linear RGB) where no light comes in; None: all of it.
     """
 
     name: str

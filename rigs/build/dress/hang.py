@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter
-from scipy.spatial import ConvexHull
+from scipy import ndimage
 
 from body.joint_names import SIDES
 from common.meshes import Mesh, border_edges, on_border, smoothstep
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 SLICE_M = 0.008
-ANGLES = 96
+ANGLES = 180
 SOFT = (2.0, 2.0)  # slices and angles over which radii are eased
 FADE_M = ((-0.05, 0.05), (0.08, 0.18))  # over the upper chest's joint, in front and behind: where it ends
 
@@ -37,8 +36,7 @@ def hung(tailor: Tailor, mesh: Mesh) -> Mesh:
     top = float(tailor.at("upperChest")[1]) + FADE_M[1][1]
     heights: Array = np.arange(float(v[:, 1].min()), top + SLICE_M, SLICE_M)
     angles: Array = np.linspace(-np.pi, np.pi, ANGLES, endpoint=False)
-    radii = np.array([_span(v[trunk], y, centre_z, angles) for y in heights])
-    radii = gaussian_filter(radii, SOFT, mode=("nearest", "wrap"))
+    radii = _soft(np.array([_span(v[trunk], float(y), centre_z, angles) for y in heights]))
     turn = np.arctan2(v[:, 0], v[:, 2] - centre_z)
     own = np.hypot(v[:, 0], v[:, 2] - centre_z)
     wide = _between(radii, (v[:, 1] - heights[0]) / SLICE_M, (turn + np.pi) / (2 * np.pi) * ANGLES)
@@ -74,7 +72,7 @@ def lengthened(tailor: Tailor, coat: Mesh, by_m: float, front_x: float) -> Mesh:
     column = (turn + np.pi) / (2 * np.pi) * ANGLES
 
     def legs_reach(y: float) -> Array:
-        eased = gaussian_filter(_span(legs, y, centre_z, angles), SOFT[1], mode="wrap")
+        eased = _soft(_span(legs, y, centre_z, angles))
         return _between(np.stack([eased, eased]), np.zeros(len(rim)), column)
 
     base = legs_reach(hem_y)
@@ -103,14 +101,21 @@ def lengthened(tailor: Tailor, coat: Mesh, by_m: float, front_x: float) -> Mesh:
 def _span(points: Array, y: float, centre_z: float, angles: Array) -> Array:
     """Radii (A,) toward each angle of the band drawn tight round the points near a height."""
     near = points[np.abs(points[:, 1] - y) < 1.5 * SLICE_M]
-    flat = np.c_[near[:, 0], near[:, 2] - centre_z]
-    hull = ConvexHull(flat)
-    # Each side of the hull is a line n·p = d; a ray goes out as far as the first of them lets it.
-    normal, distance = hull.equations[:, :2], -hull.equations[:, 2]
-    toward = normal @ np.stack([np.sin(angles), np.cos(angles)])
-    reach = np.where(toward > 1e-9, distance[:, None] / np.maximum(toward, 1e-9), np.inf)
+    outward = np.stack([np.sin(angles), np.cos(angles)], axis=1)
+    # The band touches no point's far side: toward each normal it is as far out as the furthest point.
+    support = (outward @ np.stack([near[:, 0], near[:, 2] - centre_z])).max(axis=1)
+    toward = outward @ outward.T
+    reach = np.where(toward > 0.05, support[:, None] / np.maximum(toward, 0.05), np.inf)
     radii: Array = reach.min(axis=0)
     return radii
+
+
+def _soft(radii: Array) -> Array:
+    """Radii (…, A) eased round and, if there are several slices, from slice to slice."""
+    width = SOFT[-radii.ndim :]
+    mode = ("nearest", "wrap")[-radii.ndim :]
+    eased: Array = cast("Any", ndimage).gaussian_filter(radii, width, mode=mode)
+    return eased
 
 
 def _between(table: Array, row: Array, column: Array) -> Array:

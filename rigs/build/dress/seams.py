@@ -46,7 +46,9 @@ class Seam:
     def into(self, mesh: Mesh) -> Mesh:
         """The cloth drawn in along the seam, by three lines of vertices that hold its shape."""
         for line in (-self.width_m, 0.0, self.width_m):
-            mesh, _ = mesh.scored(self.across(mesh.vertices) - line, self.shown(mesh.vertices) > 0, 0.3 * self.width_m)
+            mesh, _ = mesh.scored(
+                self.across(mesh.vertices) - line, self.shown(mesh.vertices) > 0, 0.3 * self.width_m
+            )
         v = mesh.vertices
         sunk = self.depth_m * np.clip(1 - np.abs(self.across(v)) / self.width_m, 0, 1) * self.shown(v)
         mesh.vertices = v - even_normals(v, mesh.faces) * sunk[:, None]
@@ -64,50 +66,47 @@ def sewn(tailor: Tailor, mesh: Mesh, front: Seam) -> Mesh:
 
 
 def _seams(tailor: Tailor) -> list[Seam]:
+    seams = [_armhole(tailor.at(f"{side}UpperArm")) for side, _ in SIDES]
     hips, neck = float(tailor.at("hips")[1]), tailor.neck_y
-    seams: list[Seam] = []
-    for side, _ in SIDES:
-        joint = tailor.at(f"{side}UpperArm")
-        sign = float(np.sign(joint[0]))
-
-        def out(v: Array, joint: Array = joint, sign: float = sign) -> Array:
-            offset: Array = v - joint
-            return sign * offset[:, 0] - ARMHOLE_LEAN * offset[:, 1] - ARMHOLE_OUT_M
-
-        def near(v: Array, joint: Array = joint) -> Array:
-            distance: Array = np.linalg.norm(v - joint, axis=1)
-            return until(ARMHOLE_REACH_M - distance) * until(v[:, 1] - joint[1] + ARMHOLE_DOWN_M)
-
-        seams.append(Seam(out, near, *ARMHOLE_M))
-
-    def in_the_back(v: Array, low: float, high: float) -> Array:
-        return until(v[:, 1] - low) * until(high - v[:, 1]) * (v[:, 2] < 0)
-
-    def in_front(v: Array, low: float, high: float) -> Array:
-        return until(v[:, 1] - low) * until(high - v[:, 1]) * (v[:, 2] > 0.04)
-
     vent = hips + VENT_TOP_M
     seams += [
-        Seam(lambda v: v[:, 0], lambda v: in_the_back(v, vent, neck - 0.05), *SEAM_M),
-        Seam(lambda v: v[:, 0] - 0.001, lambda v: in_the_back(v, -1.0, vent), *VENT_M),
-        *(
-            Seam(
-                lambda v, sign=sign: sign * v[:, 0] - _along(SIDE_BACK_M, v[:, 1] - hips),
-                lambda v, sign=sign: in_the_back(v, -1.0, hips + SIDE_BACK_M[-1][0]) * (sign * v[:, 0] > 0),
-                *SEAM_M,
-            )
-            for sign in (1, -1)
-        ),
-        *(
-            Seam(
-                lambda v, sign=sign: sign * v[:, 0] - _along(DART_M, v[:, 1] - hips),
-                lambda v, sign=sign: in_front(v, hips + DART_M[0][0], hips + DART_M[-1][0]) * (sign * v[:, 0] > 0),
-                *SEAM_M,
-            )
-            for sign in (1, -1)
-        ),
+        Seam(lambda v: v[:, 0], lambda v: _between(v, vent, neck - 0.05) * (v[:, 2] < 0), *SEAM_M),
+        Seam(lambda v: v[:, 0] - 0.001, lambda v: until(vent - v[:, 1]) * (v[:, 2] < 0), *VENT_M),
     ]
+    for sign in (1.0, -1.0):
+        seams += [_beside(sign, hips, SIDE_BACK_M, front=False), _beside(sign, hips, DART_M, front=True)]
     return seams
+
+
+def _armhole(joint: Array) -> Seam:
+    """Where a sleeve is set in, round the shoulder's joint."""
+    sign = float(np.sign(joint[0]))
+
+    def across(v: Array) -> Array:
+        outward: Array = sign * (v[:, 0] - joint[0]) - ARMHOLE_LEAN * (v[:, 1] - joint[1])
+        return outward - ARMHOLE_OUT_M
+
+    def shown(v: Array) -> Array:
+        distance: Array = np.linalg.norm(v - joint, axis=1)
+        return until(ARMHOLE_REACH_M - distance) * until(v[:, 1] - joint[1] + ARMHOLE_DOWN_M)
+
+    return Seam(across, shown, *ARMHOLE_M)
+
+
+def _beside(sign: float, hips: float, places: tuple[tuple[float, float], ...], *, front: bool) -> Seam:
+    """A seam on one side of the middle through places: heights over the hips, distances from the middle."""
+    heights, distances = np.array(places).T
+    low, high = hips + (float(heights[0]) if front else -1.0), hips + float(heights[-1])
+
+    def across(v: Array) -> Array:
+        line: Array = np.asarray(np.interp(v[:, 1] - hips, heights, distances), dtype=np.float64)
+        return sign * v[:, 0] - line
+
+    def shown(v: Array) -> Array:
+        there = (v[:, 2] > 0.04) if front else (v[:, 2] < 0)
+        return _between(v, low, high) * (there & (sign * v[:, 0] > 0))
+
+    return Seam(across, shown, *SEAM_M)
 
 
 def until(distance: Array) -> Array:
@@ -116,6 +115,5 @@ def until(distance: Array) -> Array:
     return shown
 
 
-def _along(places: tuple[tuple[float, float], ...], height: Array) -> Array:
-    values: Array = np.asarray(np.interp(height, *np.array(places).T), dtype=np.float64)
-    return values
+def _between(v: Array, low: float, high: float) -> Array:
+    return until(v[:, 1] - low) * until(high - v[:, 1])

@@ -70,7 +70,7 @@ def softened(tailor: Tailor, mesh: Mesh) -> Mesh:
 
 
 def padded(tailor: Tailor, mesh: Mesh) -> Mesh:
-    """The coat with pads under its shoulders: they stand a little off, and a raised arm leaves them where they are."""
+    """The coat with pads under its shoulders, which a raised arm leaves where they are."""
     v = mesh.vertices
     for side, _ in SIDES:
         joint, base = tailor.at(f"{side}UpperArm"), tailor.column(f"{side}Shoulder")

@@ -48,7 +48,7 @@ def opening(tailor: Tailor, y: Array) -> Array:
 
 
 def front_edge(tailor: Tailor, y: Array, buttoned: float) -> Array:
-    """Where (N,) the blazer's upper front ends below the opening, metres from the middle; `buttoned`: which is it."""
+    """Where (N,) the upper front ends below the opening, metres from the middle; `buttoned`: which it is."""
     below: Array = np.clip((top_button_y(tailor) - y) / 0.035, 0, 1)
     return buttoned * FRONT_EDGE_M * below
 

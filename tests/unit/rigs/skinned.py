@@ -75,7 +75,7 @@ def shaped(entry: dict[str, Any]) -> Array:
 
 
 TURNED_IN = frozenset({"Blazer", "Jacket"})
-"""Meshes whose edges are turned in: what is beside their borders is the edge itself, and faces to the side."""
+"""Meshes whose edges are turned in: what is beside their borders is the edge, and faces to the side."""
 
 
 def on_border(triangles: NDArray[np.int64], positions: Array, *, turned_in: bool) -> NDArray[np.bool_]:
