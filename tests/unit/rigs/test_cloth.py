@@ -66,6 +66,8 @@ NECK_M = 0.03
 CLEAR_M = 0.005
 """Fingers keep at least so far from all cloth."""
 
+FEET = {"trumpeter": ("Tights", "Shoes"), "soloist": ("Shoes", "Trousers")}
+
 SEWN_ON = {"Lapels", "Pockets", "Buttons"}
 
 SHIFTS = 0.010 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
@@ -134,6 +136,12 @@ def test_what_is_worn_under_the_coat_stays_under_it(model: Model) -> None:
     legs = model.cloths[LEGS[model.player]]
     assert most_outside(model, legs, coat) < GRAZE_M
     assert max(most_outside(model, legs, coat, shift=shift) for shift in SHIFTS) > GRAZE_M
+
+
+def test_feet_are_in_their_shoes_and_shoes_under_the_trousers(model: Model) -> None:
+    inner, outer = FEET[model.player]
+    assert most_outside(model, model.cloths[inner], outer) < GRAZE_M
+    assert max(most_outside(model, model.cloths[inner], outer, shift=shift) for shift in SHIFTS) > GRAZE_M
 
 
 def test_what_is_sewn_on_the_coat_faces_as_the_coat_does(model: Model) -> None:
