@@ -21,6 +21,7 @@ GORGE_RAD = 1.12  # where round the neck (0 is the front) collar and lapel are s
 LAPEL_M = 0.060  # the lapel's width at its notch, and the blazer collar's beside it
 COLLAR_M = 0.034
 OVERLAP = 2  # rows of the edge that lapel and collar share
+UNDER_LAPEL = 0.03  # the share of the collar's edge at each end that the lapels cover
 STAND_M = 0.014  # how high the blazer collar stands at the nape
 
 
@@ -158,7 +159,8 @@ def blazer_collar(tailor: Tailor, cloth: Mesh, count: int) -> tuple[Mesh, Array]
     points = sheet.reshape(-1, 3)
     weights = _eased(borrowed_weights(points, cloth).reshape(count, len(rows), -1), 2.0 * count / steps)
     mesh = Mesh(points, weights.reshape(len(points), -1), grid_faces(count, len(rows)))
-    return mesh, sheet[:, 5]
+    covered = round(count * UNDER_LAPEL)
+    return mesh, sheet[covered : count - covered, 5]
 
 
 def shirt_collar(tailor: Tailor, count: int) -> Mesh:
