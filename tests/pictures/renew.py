@@ -1,4 +1,6 @@
-"""Draw the pictures of docs/images anew: `.venv/bin/python -m tests.pictures.renew [page] [sheet] [editor]`.
+"""Draw the pictures of docs/images anew, or those that are named.
+
+`.venv/bin/python -m tests.pictures.renew [page] [sheet] [players] [editor]`.
 
 Needs what `make test` sets up: the development packages, the built page and a Chromium.
 """
@@ -10,7 +12,7 @@ import io
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import httpx
 from PIL import Image, ImageDraw, ImageFont
@@ -49,6 +51,29 @@ PIECES = {
         {"time": 11.6, "light": "one spot", "style": "physical", "finish": "lacquer"},
         {"time": 21.2, "light": "concert", "style": "toon", "finish": "lacquer"},
         {"time": 27.4, "light": "night", "style": "physical", "finish": "silver"},
+    ),
+}
+PORTRAYED = "prince-of-denmarks-march.mid"
+PORTRAIT = (640, 720)
+PORTRAIT_VIEW: dict[str, Any] = {
+    "time": 4.2,
+    "light": "as the show has it",
+    "style": "physical",
+    "camera": "the show's",
+}
+View = tuple[list[float], list[float], float, dict[str, Any]]
+PORTRAITS: dict[str, tuple[View, ...]] = {
+    "trumpeter": (
+        ([0.5, 1.6, 1.0], [0.02, 1.43, 0.22], 0.42, {}),
+        ([-1.5, 1.3, 2.3], [0.08, 0.98, 0.15], 0.6, {}),
+        ([0.75, 1.4, -1.5], [0.02, 1.15, 0.05], 0.55, {}),
+        ([0.75, 1.5, 1.3], [0.02, 1.32, 0.15], 0.45, {"style": "toon"}),
+    ),
+    "soloist": (
+        ([0.5, 1.72, 1.0], [0.02, 1.52, 0.22], 0.42, {}),
+        ([-1.5, 1.35, 2.4], [0.08, 1.02, 0.15], 0.64, {}),
+        ([0.65, 1.4, -1.5], [0.02, 1.2, 0.05], 0.6, {}),
+        ([0.85, 1.5, 1.5], [0.05, 1.4, 0.3], 0.45, {"light": "concert", "values": {"trumpet/mute": [1.0]}}),
     ),
 }
 EDITED = "prince-of-denmarks-march"
@@ -108,6 +133,23 @@ def draw_sheet(browser: Browser, server: Running) -> None:
     sheet.save(IMAGES / "contact-sheet.webp", quality=86, method=6)
 
 
+def draw_players(browser: Browser, server: Running) -> None:
+    """Each player from near and from all about, as the rigs' readme shows them."""
+    with httpx.Client(base_url=server.address, timeout=60.0) as client, vite(server.address) as address:
+        for player, views in PORTRAITS.items():
+            score = ROOT / "examples/scores" / PORTRAYED
+            session = upload(client, score.read_bytes(), PORTRAYED, player=player)
+            gallery = GalleryPage(browser, address, session.id, size=PORTRAIT, tier="full")
+            strip = Image.new("RGB", (len(views) * (PORTRAIT[0] + GAP) - GAP, PORTRAIT[1]), INK)
+            for column, (position, target, fov, rest) in enumerate(views):
+                values = {"camera/position": position, "camera/target": target, "camera/fov": [fov]}
+                values |= rest.get("values", {})
+                png = gallery.picture({**PORTRAIT_VIEW, **rest, "values": values})
+                strip.paste(Image.open(io.BytesIO(png)).convert("RGB"), (column * (PORTRAIT[0] + GAP), 0))
+            strip.save(IMAGES / f"{player}.webp", quality=88, method=6)
+            gallery.page.close()
+
+
 def draw_editor(browser: Browser, server: Running) -> None:
     """The show's editor over its own example, some of the camera's keyframes chosen."""
     with httpx.Client(base_url=server.address, timeout=60.0) as client:
@@ -134,7 +176,7 @@ def draw_editor(browser: Browser, server: Running) -> None:
     Image.open(io.BytesIO(png)).convert("RGB").save(IMAGES / "editor.webp", quality=86, method=6)
 
 
-PICTURES = {"page": draw_page, "sheet": draw_sheet, "editor": draw_editor}
+PICTURES = {"page": draw_page, "sheet": draw_sheet, "players": draw_players, "editor": draw_editor}
 
 
 def main() -> None:
