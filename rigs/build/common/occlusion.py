@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
-from common.meshes import even_normals, smoothed
+from common.meshes import even_normals, smoothed, smoothstep
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,8 +22,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-STEPS = 18
 RAYS = 40
+WAY_OUT = 0.1  # a place is as open as its walls are far if this share of its rays gets out
+FACING_M = 0.011
+FACING_AMONG = 32  # of the nearest vertices
+NEARLY_CLOSED = 0.22
+CLOSED = 0.3  # of its shade's light a place has into which no ray comes
 SMOOTHING = 2  # rounds over a part's faces: rays are few
 
 
@@ -95,8 +100,8 @@ def openness(cells: Cells, points: Array, out: Array) -> Array:
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     second = np.cross(out, first)
     start, reach = cells.grain.start_m, cells.grain.reach_m
-    looks: Array = start * (reach / start) ** np.linspace(0, 1, STEPS)
-    total = np.zeros(len(points))
+    looks: Array = np.arange(start, reach, cells.grain.cell_m)  # no wall is thinner than a cell
+    total, gone = np.zeros(len(points)), np.zeros(len(points))
     for a, b, c in hemisphere(RAYS):
         ray = a * first + b * second + c * out
         free = np.ones(len(points), dtype=bool)
@@ -107,7 +112,23 @@ def openness(cells: Cells, points: Array, out: Array) -> Array:
             far[hit] = (distance - start) / (reach - start)
             free &= ~hit
         total += np.sqrt(far)
-    return total / RAYS
+        gone += free
+    # However far its walls are, a place is dark from which nothing gets out.
+    return total / RAYS * np.minimum(gone / (RAYS * WAY_OUT), 1)
+
+
+def apart(vertices: Array, out: Array) -> Array:
+    """How far (V,) what faces a vertex stands off, as a share of `FACING_M`: 0 where lips or lids are closed.
+
+    Rays begin too far out to see it.
+    """
+    distance, index = cKDTree(vertices).query(vertices, k=min(FACING_AMONG, len(vertices)))
+    way = vertices[index] - vertices[:, None]
+    ahead = (way * out[:, None]).sum(axis=2) > 0.5 * distance
+    opposite = (out[index] * out[:, None]).sum(axis=2) < -0.3
+    off = np.where(ahead & opposite & (distance > 0), distance / FACING_M, 1.0)
+    nearest: Array = np.minimum(off.min(axis=1), 1.0)
+    return nearest
 
 
 def shaded(parts: list[Part]) -> None:
@@ -118,11 +139,12 @@ def shaded(parts: list[Part]) -> None:
             continue
         mesh = part.mesh
         out = even_normals(mesh.vertices, mesh.faces) if part.normals is None else part.normals
-        light = smoothed(openness(cells, mesh.vertices, out)[:, None], mesh.faces, SMOOTHING)
+        light = openness(cells, mesh.vertices, out) * apart(mesh.vertices, out)
+        light = smoothed(light[:, None], mesh.faces, SMOOTHING)
         part.colours = tinted(light, part.surface.shade)
 
 
 def tinted(light: Array, shade: tuple[float, float, float]) -> Array:
-    """Colours (V, 3) from the shade's to white by openness (V, 1)."""
+    """Colours (V, 3) from the shade's to white by openness (V, 1); what is nearly closed goes on to black."""
     dark = np.array(shade)
-    return dark + (1 - dark) * light
+    return (dark + (1 - dark) * light) * (CLOSED + (1 - CLOSED) * smoothstep(light / NEARLY_CLOSED))

@@ -71,7 +71,7 @@ const meshes = gltf.nodes.flatMap((node, index) =>
         material: gltf.materials[primitive.material].name,
         triangles: read(primitive.indices),
         ...Object.fromEntries(
-          ["POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0"]
+          ["POSITION", "NORMAL", "COLOR_0", "JOINTS_0", "WEIGHTS_0"]
             .filter((key) => key in primitive.attributes)
             .map((key) => [key.toLowerCase(), read(primitive.attributes[key])]),
         ),
