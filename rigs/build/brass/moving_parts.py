@@ -108,7 +108,9 @@ def valve(detail: float, metals: Metals) -> Workpiece:
     """Stem, felt and button, in the valve's own frame."""
     piece = Workpiece(detail)
     base = m.BUTTON_TOP - 0.0042
-    piece.lathe(metals.silver, [0, 0, 0], [0, 1, 0], [(-0.030, 0.0030), (0.020, 0.0030)], 20)
+    # In short steps: the shade ends where it comes out of the casing.
+    stem = [(float(y), 0.0030) for y in np.linspace(-0.030, 0.020, 11)]
+    piece.lathe(metals.silver, [0, 0, 0], [0, 1, 0], stem, 20)
     piece.lathe(
         metals.felt,
         [0, base - 0.0020, 0],
