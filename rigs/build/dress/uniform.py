@@ -182,6 +182,8 @@ def tights(tailor: Tailor, subdivisions: int) -> Mesh:
 
 VAMP_M = 0.090  # how far before the ankle her vamp begins
 SOLE_M = (0.014, 0.022)  # up to where the sole reaches, and over what height upper and sole meet
+WELT_M = (0.010, 0.018)  # how high the sole is at the toes and at the heel
+WELT_SEAM_M = (0.0022, 0.0024)
 STRAP_M = (0.052, 0.016)  # the strap's middle before the ankle, and its width
 
 
@@ -201,7 +203,15 @@ def shoes(tailor: Tailor, subdivisions: int, *, vamp_m: float, strap: bool) -> M
     height = mesh.vertices[:, 1]
     low = 1 - smoothstep((height - SOLE_M[0]) / SOLE_M[1])
     mesh.vertices[:, 1] = np.maximum(height - 0.0105 * low, 0.0)
-    return mesh
+    if not subdivisions:
+        return mesh
+    # The welt: higher at the heel, where the sole is thicker.
+    ankle = float(tailor.at("leftFoot")[2])
+    return Seam(
+        lambda v: v[:, 1] - WELT_M[0] - (WELT_M[1] - WELT_M[0]) * smoothstep((ankle + 0.03 - v[:, 2]) / 0.04),
+        lambda v: np.ones(len(v)),
+        *WELT_SEAM_M,
+    ).into(mesh)
 
 
 def shirt_surface(colours: Colours) -> Surface:
