@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from body.joint_names import SIDES
 from common.meshes import Mesh, normals, on_border, smoothed, smoothstep
 from common.parts import Part, Surface
+from dress.seams import Seam, until
 from dress.uniform import shirt_part, shoes_part
 
 if TYPE_CHECKING:
@@ -34,7 +35,9 @@ HEM_M = (
     (0.066, 0.090),
     (0.2, 0.16),
 )  # before the ankle; height
-LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.060), (1.0, 0.063), (1.5, 0.061), (2.0, 0.067))  # 0 hip, 1 knee, 2 ankle
+CREASE_M = (0.007, -0.0045)
+CREASE_FROM_M = 0.16  # below the hips' joint
+LEG_RADIUS_M = ((0.0, 0.0), (0.55, 0.066), (1.0, 0.070), (1.5, 0.069), (2.0, 0.070))  # 0 hip, 1 knee, 2 ankle
 
 
 def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
@@ -48,10 +51,27 @@ def trousers(tailor: Tailor, subdivisions: int) -> Mesh:
     covered = smoothstep((mesh.vertices[:, 1] - hips + 0.16) / 0.05)
     out = normals(mesh.vertices, mesh.faces) * [1.0, 0.0, 1.0]
     mesh.vertices = mesh.vertices - out * (UNDER_JACKET_M * covered)[:, None]
+    if subdivisions:
+        for side, _ in SIDES:
+            mesh = _crease(tailor, side, hips).into(mesh)
     before: Array = mesh.vertices[:, 2] - tailor.at("leftFoot")[2]
     places, heights = np.array(HEM_M).T
     hem: Array = np.asarray(np.interp(before, places, heights), dtype=np.float64)
     return mesh.clipped(np.minimum(mesh.vertices[:, 1] - hem, hips + 0.035 - mesh.vertices[:, 1]))
+
+
+def _crease(tailor: Tailor, side: str, hips: float) -> Seam:
+    """The pressed fold down the front of a leg: a seam that stands out."""
+    joints = np.array([tailor.at(f"{side}{part}") for part in ("Foot", "LowerLeg", "UpperLeg")])
+
+    def across(v: Array) -> Array:
+        return v[:, 0] - np.asarray(np.interp(v[:, 1], joints[:, 1], joints[:, 0]), dtype=np.float64)
+
+    def shown(v: Array) -> Array:
+        depth: Array = np.asarray(np.interp(v[:, 1], joints[:, 1], joints[:, 2]), dtype=np.float64)
+        return until(hips - CREASE_FROM_M - v[:, 1]) * ((v[:, 2] > depth) & (v[:, 0] * joints[0, 0] > 0))
+
+    return Seam(across, shown, *CREASE_M)
 
 
 def _straight(tailor: Tailor, mesh: Mesh) -> Array:
