@@ -1,6 +1,6 @@
 /** How skin, cloth and metal of a model take the stage's light: by the names of their materials. */
 
-import { BackSide, DoubleSide, Mesh, MeshPhysicalMaterial, MeshStandardMaterial, type Object3D, ShaderChunk } from "three";
+import { BackSide, Color, DoubleSide, Mesh, MeshPhysicalMaterial, MeshStandardMaterial, type Object3D, ShaderChunk } from "three";
 
 import type { TierSettings } from "./tiers";
 
@@ -43,13 +43,18 @@ function turnHair(material: MeshStandardMaterial): MeshStandardMaterial {
   return material;
 }
 
+/** Cloth as light as this, linear, has the whole of its nap; black cloth would turn grey by it. */
+const NAPPED = 0.06;
+
 /** Wool's nap: folds turn toward a paler edge. */
 function napCloth(material: MeshStandardMaterial): MeshStandardMaterial {
   const cloth = new MeshPhysicalMaterial();
   MeshStandardMaterial.prototype.copy.call(cloth, material);
   cloth.sheen = 0.2;
   cloth.sheenRoughness = 0.45;
-  cloth.sheenColor.copy(material.color).lerp(cloth.sheenColor.set(0x8fa0c8), 0.35);
+  const { r, g, b } = material.color;
+  const pale = 0.35 * Math.min(1, Math.max(r, g, b) / NAPPED);
+  cloth.sheenColor.copy(material.color).lerp(new Color(0x8fa0c8), pale);
   return cloth;
 }
 
