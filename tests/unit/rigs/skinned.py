@@ -154,9 +154,9 @@ def read_model(model: Path, out: Path) -> dict[str, Any]:
     return content
 
 
-def read_cloths(name: str, out: Path) -> dict[str, Cloth]:
+def read_cloths(name: str, out: Path, tier: str = "full") -> dict[str, Cloth]:
     """A player's meshes by their names."""
-    content = read_model(ROOT / "rigs" / name / "full.glb", out)
+    content = read_model(ROOT / "rigs" / name / f"{tier}.glb", out)
     nodes = {node: index for index, node in enumerate(load_rig(ROOT / "rigs" / name).nodes)}
     order = np.array([nodes[node] for node in content["joints"]])
     cloths: dict[str, Cloth] = {}

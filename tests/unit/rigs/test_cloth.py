@@ -19,6 +19,8 @@ from reina.music import read_score
 from reina.skeleton import load_rig
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
 FRAMES = 6
@@ -65,6 +67,13 @@ NECK_M = 0.03
 
 CLEAR_M = 0.005
 """Fingers keep at least so far from all cloth."""
+
+UNDER = {
+    "trumpeter": (("Skirt", "Blazer"), ("Tights", "Skirt"), ("Tights", "Shoes")),
+    "soloist": (("Trousers", "Jacket"), ("Shoes", "Trousers")),
+}
+COARSE_GRAZE_M = 0.004
+"""The lesser tiers' triangles are longer, and seen from further away."""
 
 FEET = {"trumpeter": ("Tights", "Shoes"), "soloist": ("Shoes", "Trousers")}
 
@@ -136,6 +145,14 @@ def test_what_is_worn_under_the_coat_stays_under_it(model: Model) -> None:
     legs = model.cloths[LEGS[model.player]]
     assert most_outside(model, legs, coat) < GRAZE_M
     assert max(most_outside(model, legs, coat, shift=shift) for shift in SHIFTS) > GRAZE_M
+
+
+@pytest.mark.parametrize("tier", ["medium", "low"])
+def test_hems_hold_in_the_lesser_tiers(model: Model, tier: str, tmp_path: Path) -> None:
+    cloths = read_cloths(model.player, tmp_path / "model.json", tier)
+    lesser = Model(model.player, cloths, model.names, model.poses[::6])
+    for inner, outer in UNDER[model.player]:
+        assert most_outside(lesser, cloths[inner], outer) < COARSE_GRAZE_M, (inner, outer)
 
 
 def test_feet_are_in_their_shoes_and_shoes_under_the_trousers(model: Model) -> None:
