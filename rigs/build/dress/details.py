@@ -11,6 +11,7 @@ from body.joint_names import SIDES
 from common.meshes import Mesh, joined
 from common.raycast import ray_distances
 from common.shapes import grid_faces, tube
+from dress.buttons import SHIRT, button
 from dress.collars import Drape
 from dress.tailor import Tailor, borrowed_weights
 from dress.uniform import opening, top_button_y
@@ -136,18 +137,5 @@ def placket(tailor: Tailor, shirt: Mesh, rows: int) -> Mesh:
     points = np.stack(lines, axis=1).reshape(-1, 3)
     pieces = [Mesh(points, borrowed_weights(points, shirt), grid_faces(rows, 5))]
     heights: list[float] = np.arange(float(y[-1]) - 0.035, float(y[0]) + 0.02, -0.062).tolist()
-    pieces.extend(_shirt_button(drape, _before(drape, 0.0, height)) for height in heights)
+    pieces.extend(button(drape, _before(drape, 0.0, height), SHIRT, 10) for height in heights)
     return joined(pieces)
-
-
-def _shirt_button(drape: Drape, place: Array, sides: int = 10) -> Mesh:
-    angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)
-    spokes = np.c_[np.cos(angle), np.sin(angle), 0 * angle]
-    flat = np.vstack([place + 0.0052 * spokes, place + 0.0044 * spokes, place[None]])
-    on, out = drape.surface(flat)
-    points = on + out * np.r_[np.full(sides, 0.0014), np.full(sides, 0.0036), 0.0031][:, None]
-    faces: list[list[int]] = []
-    for i in range(sides):
-        j = (i + 1) % sides
-        faces += [[i, j, sides + i], [j, sides + j, sides + i], [sides + i, sides + j, 2 * sides]]
-    return Mesh(points, borrowed_weights(points, drape.cloth), np.array(faces))

@@ -6,55 +6,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from common.meshes import Mesh, joined
 from common.parts import Part, Surface
 from common.shapes import grid_faces, tube
+from dress.buttons import coat_buttons
 from dress.collars import Drape, blazer_collar, lapels, shirt_collar
 from dress.details import crest, piping, placket, pockets, sleeve_bands
-from dress.tailor import Tailor, borrowed_weights
-from dress.uniform import shirt_surface, top_button_y
+from dress.uniform import shirt_surface
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from body.figure_file import Colour
+    from dress.tailor import Tailor
 
     Colours = Mapping[str, Colour]
 
 Array = NDArray[np.float64]
 
 BOW_Z_M = 0.103  # depth of the bow's knot
-
-
-def _front_z(tailor: Tailor, outer: Mesh, x: Array, y: Array) -> Array:
-    """Depth (N,) of the chest's front at (x, y), carried on into the opening by the nearest cloth."""
-    cloth = outer.vertices[outer.vertices[:, 2] > tailor.at("upperChest")[2] - 0.02]
-    distance, index = cKDTree(cloth[:, :2]).query(np.c_[x, y], k=8)
-    near = 1 / (distance + 0.004)
-    depth: Array = (cloth[index, 2] * near).sum(axis=1) / near.sum(axis=1)
-    return depth
-
-
-def buttons(tailor: Tailor, outer: Mesh, sides: int = 16) -> Mesh:
-    """Brass buttons below the opening."""
-    discs: list[Mesh] = []
-    for k in range(2):
-        y = top_button_y(tailor) - 0.025 - 0.075 * k
-        depth = float(_front_z(tailor, outer, np.array([0.004]), np.array([y]))[0])
-        angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)
-        rings = [
-            np.c_[0.004 + r * np.cos(angle), y + r * np.sin(angle), np.full(sides, depth + z)]
-            for r, z in ((0.0092, 0.0), (0.0082, 0.0034))
-        ]
-        points = np.vstack([*rings, [[0.004, y, depth + 0.0044]]])
-        faces: list[list[int]] = []
-        for i in range(sides):
-            j = (i + 1) % sides
-            faces += [[i, j, sides + i], [j, sides + j, sides + i], [sides + i, sides + j, 2 * sides]]
-        discs.append(Mesh(points, borrowed_weights(points, outer), np.array(faces)))
-    return joined(discs)
 
 
 def bow(tailor: Tailor, *, tails: bool) -> Mesh:
@@ -101,10 +72,10 @@ def trimming_parts(
     collar, collar_edge = blazer_collar(tailor, cloth, round(60 * detail) + 1)
     turned_over = [turned, collar]
     linen = [shirt_collar(tailor, round(72 * detail))]
-    metal = [buttons(tailor, outer)]
+    drape = Drape(outer)
+    metal = [coat_buttons(tailor, drape)]
     sewn: list[Part] = []
     if not formal:
-        drape = Drape(outer)
         linen.append(placket(tailor, shirt, max(round(20 * detail), 6)))
         metal.append(crest(tailor, drape))
         cords = piping([*edges, collar_edge], cloth)
