@@ -22,16 +22,12 @@ function triangles(document) {
   return parts.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
 }
 
-// These are built at each tier's own fineness: thin overlapping pieces do not survive being reduced, nor do hems.
-const KEPT = new Set(["Hair", "Lapels", "Collar", "Ribbon", "Shirt", "Hem", "Pockets", "Piping"]);
-const KEPT_IF_COARSE = new Set(["Blazer", "Jacket", "Skirt"]);
-const COARSE = 4000;
+// These are built at each tier's own fineness: thin overlapping pieces do not survive being reduced.
+const KEPT = new Set(["Hair", "Lapels", "Collar", "Ribbon", "Shirt"]);
 function reduce(document, wantedTriangles) {
-  const size = (primitives) => primitives.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
-  const isKept = (mesh) =>
-    KEPT.has(mesh.getName()) || (KEPT_IF_COARSE.has(mesh.getName()) && size(mesh.listPrimitives()) <= COARSE);
-  const meshes = document.getRoot().listMeshes().filter((mesh) => !isKept(mesh));
+  const meshes = document.getRoot().listMeshes().filter((mesh) => !KEPT.has(mesh.getName()));
   const parts = meshes.flatMap((mesh) => mesh.listPrimitives());
+  const size = (primitives) => primitives.reduce((sum, part) => sum + part.getIndices().getCount() / 3, 0);
   const drawnMoreThanOnce = triangles(document) - size(document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives()));
   const kept = triangles(document) - size(parts) - drawnMoreThanOnce;
   const ratio = (wantedTriangles - kept) / (size(parts) + drawnMoreThanOnce);

@@ -34,7 +34,6 @@ LIT: dict[str, Any] = {
     "camera/aperture": 0.03,
     "lights/back_wash/intensity": 3.0,
     "lights/haze": 1.0,
-    "lights/key/softness": 0.0,
     "stage/bloom/strength": 0.8,
     **{f"lights/spots/{number}/intensity": 5.0 for number in (1, 2, 3)},
 }

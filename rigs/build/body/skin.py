@@ -140,7 +140,7 @@ def bare_skin(figure: Figure, skeleton: Skeleton, weights: Array, picture: Pictu
         keep |= (arm > 0.3) & (along > 0.88)
     rise = v[:, 1] - skeleton.positions["neck"][1]
     from_axis = np.hypot(v[:, 0], v[:, 2] - 0.0205 - 0.37 * np.clip(rise, -0.03, 0.06))
-    above_collar = (rise > 0.05) | ((rise > -0.055) & (from_axis < 0.060))
+    above_collar = (rise > 0.05) | ((rise > -0.055) & (from_axis < 0.066))
     head, neck = weights[:, column["head"]], weights[:, column["neck"]]
     keep |= (head > 0.4) | ((head + neck > 0.12) & above_collar)
     faces = [face for face in figure.mesh.groups["body"] if keep[face[0]].all()]

@@ -53,12 +53,7 @@ def button(drape: Drape, place: Array, profile: tuple[tuple[float, float], ...],
 
 def coat_buttons(tailor: Tailor, drape: Drape, sides: int = 16) -> Mesh:
     """Two on the front below the opening, and two at the back of each cuff."""
-    front = drape.cloth.vertices[drape.cloth.vertices[:, 2] > 0.0]
-    discs: list[Mesh] = []
-    for x, below in FRONT_M:
-        y = top_button_y(tailor) + below
-        near = np.argsort((front[:, 0] - x) ** 2 + (front[:, 1] - y) ** 2)[:6]
-        discs.append(button(drape, np.array([x, y, float(front[near, 2].mean())]), COAT, sides))
+    discs = [button(drape, drape.front(x, top_button_y(tailor) + below), COAT, sides) for x, below in FRONT_M]
     vertices, faces = drape.cloth.vertices, drape.cloth.faces
     for side, _ in SIDES:
         elbow, wrist = tailor.at(f"{side}LowerArm"), tailor.at(f"{side}Hand")

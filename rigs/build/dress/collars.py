@@ -33,6 +33,12 @@ class Drape:
         self.tree = cKDTree(cloth.vertices)
         self.normals = normals(cloth.vertices, cloth.faces)
 
+    def front(self, x: float, y: float) -> Array:
+        """The place (3,) on the cloth's front at x, y."""
+        before = self.cloth.vertices[self.cloth.vertices[:, 2] > 0.0]
+        near = np.argsort((before[:, 0] - x) ** 2 + (before[:, 1] - y) ** 2)[:6]
+        return np.array([x, y, float(before[near, 2].mean())])
+
     def surface(self, points: Array) -> tuple[Array, Array]:
         """The nearest places (N, 3) on the cloth and its normals (N, 3) there, eased over a centimetre."""
         normal = points
@@ -200,5 +206,5 @@ def _neck_radius(tailor: Tailor, angles: Array, heights: Array) -> Array:
     for angle, y in zip(angles, heights, strict=True):
         axis = np.array([0.0, y, float(neck_axis_z(tailor, np.array([y]))[0])])
         hits = ray_distances(axis, np.array([np.sin(angle), 0.0, np.cos(angle)]), body, faces)
-        radii.append(min(float(hits[0]) if len(hits) else 0.05, 0.062))
+        radii.append(min(float(hits[0]) if len(hits) else 0.05, 0.068))
     return np.array(radii)

@@ -69,23 +69,13 @@ def pockets(tailor: Tailor, drape: Drape, grid: int) -> Mesh:
     places = [(sign * 0.088, float(hips[1]) + 0.042, (0.092, 0.036), sign * 0.10) for sign in (1, -1)] + [
         (0.092, float(chest[1]) - 0.015, (0.070, 0.014), 0.16)
     ]
-    return joined(
-        [patch(drape, _before(drape, x, y), size, 0.0042, tilt, grid) for x, y, size, tilt in places]
-    )
-
-
-def _before(drape: Drape, x: float, y: float) -> Array:
-    """The place (3,) on the cloth's front at x, y."""
-    v = drape.cloth.vertices
-    front = v[v[:, 2] > 0.0]
-    near = np.argsort((front[:, 0] - x) ** 2 + (front[:, 1] - y) ** 2)[:6]
-    return np.array([x, y, float(front[near, 2].mean())])
+    return joined([patch(drape, drape.front(x, y), size, 0.0042, tilt, grid) for x, y, size, tilt in places])
 
 
 def crest(tailor: Tailor, drape: Drape) -> Mesh:
     """The band's badge over the welt of the breast pocket: a small shield."""
     chest = tailor.at("upperChest")
-    middle = _before(drape, 0.092, float(chest[1]) + 0.022)
+    middle = drape.front(0.092, float(chest[1]) + 0.022)
     rim = np.array(CREST) * CREST_M
     rings = [np.c_[rim * share, np.zeros(len(rim))] for share in (1.0, 0.8)]
     on, out = drape.surface(np.vstack([middle + ring for ring in rings] + [middle[None]]))
@@ -131,11 +121,11 @@ def placket(tailor: Tailor, shirt: Mesh, rows: int) -> Mesh:
     lines: list[Array] = []
     for share, lift in ((-1.0, 0.0002), (-0.94, 0.0014), (0.0, 0.0016), (0.94, 0.0014), (1.0, 0.0002)):
         at = np.c_[share * half, y, np.full(rows, 0.1)]
-        at[:, 2] = [_before(drape, x, height)[2] for x, height in at[:, :2]]
+        at[:, 2] = [drape.front(x, height)[2] for x, height in at[:, :2]]
         on, out = drape.surface(at)
         lines.append(on + out * lift)
     points = np.stack(lines, axis=1).reshape(-1, 3)
     pieces = [Mesh(points, borrowed_weights(points, shirt), grid_faces(rows, 5))]
     heights: list[float] = np.arange(float(y[-1]) - 0.035, float(y[0]) + 0.02, -0.062).tolist()
-    pieces.extend(button(drape, _before(drape, 0.0, height), SHIRT, 10) for height in heights)
+    pieces.extend(button(drape, drape.front(0.0, height), SHIRT, 10) for height in heights)
     return joined(pieces)

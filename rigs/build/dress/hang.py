@@ -33,15 +33,14 @@ def hung(tailor: Tailor, mesh: Mesh) -> Mesh:
     arms = tailor.weight_of(mesh.weights, *(f"{side}{part}" for side, _ in SIDES for part in ARM_PARTS))
     trunk = arms < 0.25
     centre_z = float(tailor.at("chest")[2])
-    top = float(tailor.at("upperChest")[1]) + FADE_M[1][1]
-    heights: Array = np.arange(float(v[:, 1].min()), top + SLICE_M, SLICE_M)
+    chest = float(tailor.at("upperChest")[1])
+    heights: Array = np.arange(float(v[:, 1].min()), chest + FADE_M[1][1] + SLICE_M, SLICE_M)
     angles: Array = np.linspace(-np.pi, np.pi, ANGLES, endpoint=False)
     radii = _soft(np.array([_span(v[trunk], float(y), centre_z, angles) for y in heights]))
     turn = np.arctan2(v[:, 0], v[:, 2] - centre_z)
     own = np.hypot(v[:, 0], v[:, 2] - centre_z)
     wide = _between(radii, (v[:, 1] - heights[0]) / SLICE_M, (turn + np.pi) / (2 * np.pi) * ANGLES)
     back = 0.5 - 0.5 * np.cos(turn)
-    chest = float(tailor.at("upperChest")[1])
     begins = chest + FADE_M[0][0] + (FADE_M[1][0] - FADE_M[0][0]) * back
     ends = chest + FADE_M[0][1] + (FADE_M[1][1] - FADE_M[0][1]) * back
     share = smoothstep((ends - v[:, 1]) / (ends - begins)) * smoothstep((0.5 - arms) / 0.5)

@@ -46,7 +46,7 @@ class Around:
         return np.asarray(index), near / near.sum(axis=1, keepdims=True)
 
 
-def skirt(tailor: Tailor, outer: Mesh, rows: int, pleat: tuple[float, ...] = PLEAT) -> tuple[Mesh, Mesh]:
+def skirt(tailor: Tailor, outer: Mesh, rows: int, pleat: tuple[float, ...]) -> tuple[Mesh, Mesh]:
     """A knife-pleated skirt from waist to above the knee over the helper skirt, and its two stripes.
 
     What the blazer `outer` covers lies flat just under it. Columns stand on the pleats' edges, so that these

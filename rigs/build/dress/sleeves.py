@@ -81,27 +81,22 @@ def padded(tailor: Tailor, mesh: Mesh) -> Mesh:
             * smoothstep((PAD_M[1] - outward) / PAD_M[1])
             * smoothstep((above + 0.015) / 0.035)
         )
-        arm = [tailor.column(f"{side}{part}") for part in ARM_PARTS]
-        kept = mesh.weights[:, arm] * (PAD_HOLDS * share)[:, None]
-        mesh.weights[:, arm] -= kept
+        columns = [tailor.column(f"{side}{part}") for part in ARM_PARTS]
+        kept = mesh.weights[:, columns] * (PAD_HOLDS * share)[:, None]
+        mesh.weights[:, columns] -= kept
         mesh.weights[:, base] += kept.sum(axis=1)
         v = v + share[:, None] * PAD_LIFT_M * np.array([0.0, 1.0, 0.0])
         # The sleeve's head goes on from the pad, no higher.
-        along = (v - joint) @ _toward(tailor, side)
+        arm = tailor.at(f"{side}LowerArm") - joint
+        arm /= np.linalg.norm(arm)
+        along = (v - joint) @ arm
         head = smoothstep((along - 0.005) / 0.03) * smoothstep((HEAD_M[0] - along) / 0.05)
-        inward = joint + along[:, None] * _toward(tailor, side) - v
+        inward = joint + along[:, None] * arm - v
         inward /= np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), 1e-6)
         near = np.linalg.norm(v - joint, axis=1) < 2 * HEAD_M[0]
         v = v + inward * (HEAD_M[1] * head * near * smoothstep((above + 0.03) / 0.05))[:, None]
     mesh.vertices = v
     return mesh
-
-
-def _toward(tailor: Tailor, side: str) -> Array:
-    """The unit direction (3,) from shoulder to elbow."""
-    arm = tailor.at(f"{side}LowerArm") - tailor.at(f"{side}UpperArm")
-    unit: Array = arm / np.linalg.norm(arm)
-    return unit
 
 
 def creased(tailor: Tailor, mesh: Mesh) -> Mesh:

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 TROUSER_EASE_M = 0.0075
 UNDER_JACKET_M = 0.013  # how far the trousers are drawn in where the jacket covers them
 LONGER_M = 0.085  # by so much the jacket is longer than the uniform's
-SHIRT_UNDERLAP_M = 0.010  # the lapels lie closer than the uniform's
+SHIRT_UNDERLAP_M = 0.014  # the lapels lie closer than the uniform's
 VAMP_M = 0.020  # how far before the ankle the shoe's vamp begins, under the trousers
 HEM_M = (
     (-0.045, 0.028),
@@ -97,7 +97,7 @@ def _straight(tailor: Tailor, mesh: Mesh) -> Array:
 def suit_parts(tailor: Tailor, subdivisions: int, outer: Mesh, colours: Colours) -> list[Part]:
     """All cloth but the trimmings; `outer` is the jacket, cut beforehand because trimmings lie on it."""
     return [
-        shirt_part(tailor, subdivisions, colours, SHIRT_UNDERLAP_M, throat_m=0.0),
+        shirt_part(tailor, subdivisions, colours, SHIRT_UNDERLAP_M),
         Part("Jacket", outer, Surface("jacket", 0.72, colour=colours["coat"], both_sides=True)),
         Part(
             "Trousers",

@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 NECKLINE_M = 0.066  # radius of the blazer's neck
 NECKLINE_HEIGHT_M = ((0.0, -0.060), (0.9, -0.045), (1.25, -0.012), (1.6, 0.003), (2.2, 0.006), (np.pi, 0.001))
 COLLAR_SEAM_M = ((0.0, -0.037), (0.7, -0.026), (1.2, 0.000), (1.6, 0.010), (2.1, 0.010), (np.pi, 0.002))
-UNDER_COLLAR_M = 0.018  # how far over the collar's seam the shirt goes on, hidden by the collar
+UNDER_COLLAR_M = 0.028  # how far over the collar's seam the shirt goes on, hidden by the collar
 OPENING_M = 0.068  # half the width of the V between the lapels, at the neck
 FRONT_EDGE_M = 0.014  # where its fronts overlap, from the middle
 BLAZER_SLEEVE = 0.86  # the sleeve ends at this share of the forearm
@@ -150,17 +150,15 @@ def _waisted(tailor: Tailor, mesh: Mesh) -> Mesh:
     return mesh
 
 
-def shirt(tailor: Tailor, subdivisions: int, underlap_m: float, throat_m: float) -> Mesh:
+def shirt(tailor: Tailor, subdivisions: int, underlap_m: float) -> Mesh:
     """Only the shirt that shows: the V at the chest, which goes on under the lapels, and the neck.
 
-    Between the collar's wings it stands `throat_m` lower, so that the throat is bare.
+    It ends under the collar.
     """
     mesh = tailor.cloth(_above_hips(tailor), 0.0032, 4, subdivisions)
     v = mesh.vertices
     turn = np.arctan2(v[:, 0], v[:, 2] - neck_axis_z(tailor, v[:, 1]))
-    top = tailor.neck_y + 0.022 - throat_m * smoothstep((0.75 - np.abs(turn)) / 0.45)
-    if throat_m:
-        top = np.minimum(top, tailor.neck_y + collar_seam_height(turn) + UNDER_COLLAR_M)
+    top = tailor.neck_y + collar_seam_height(turn) + UNDER_COLLAR_M
     keep = np.minimum(v[:, 1] - (tailor.at("hips")[1] + 0.02), top - v[:, 1])
     front = (v[:, 2] > tailor.at("upperChest")[2]) & (v[:, 1] > top_button_y(tailor) - 0.03)
     under_collar = 0.012 * np.clip((v[:, 1] - tailor.neck_y + 0.055) / 0.03, 0, 1)
@@ -219,11 +217,9 @@ def shirt_surface(colours: Colours) -> Surface:
     return Surface("shirt", 0.75, colour=colours["shirt"], both_sides=True, shade=(0.50, 0.50, 0.56))
 
 
-def shirt_part(
-    tailor: Tailor, subdivisions: int, colours: Colours, underlap_m: float = 0.022, throat_m: float = 0.046
-) -> Part:
+def shirt_part(tailor: Tailor, subdivisions: int, colours: Colours, underlap_m: float = 0.022) -> Part:
     """What shows of the shirt, with its cuffs."""
-    cloth = joined([shirt(tailor, subdivisions, underlap_m, throat_m), cuffs(tailor, 20 + 12 * subdivisions)])
+    cloth = joined([shirt(tailor, subdivisions, underlap_m), cuffs(tailor, 20 + 12 * subdivisions)])
     return Part("Shirt", cloth, shirt_surface(colours))
 
 

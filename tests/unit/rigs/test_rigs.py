@@ -143,7 +143,7 @@ def test_models_are_small_and_valid() -> None:
             assert (said["errors"], said["warnings"]) == (0, 0)
             assert said["bytes"] == (RIGS / name / f"{tier}.glb").stat().st_size
     assert sum(models[f"{name}/full.glb"]["bytes"] for name in NAMES) <= 4_000_000
-    assert models["trumpeter/low.glb"]["triangles"] <= 15_000
+    assert models["trumpeter/low.glb"]["triangles"] <= 12_000
     assert models["trumpet/low.glb"]["triangles"] <= 8_000
 
 

@@ -41,7 +41,7 @@ export class StageLights {
     }
     scene.add(this.ambient, this.#target);
     for (const { light, cone } of this.spots) scene.add(light, light.target, cone);
-    this.#shadowRadius = tier.shadowMapSize / 512;
+    this.#shadowRadius = tier.shadowMapSize / 256;
     this.key.position.set(-2.5, 2.8, 2.6);
     this.rim.position.set(1.6, 2.6, -2.2);
     if (tier.shadowMapSize > 0) {

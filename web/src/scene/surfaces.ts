@@ -23,24 +23,22 @@ normal = normalize(normal + toEye * max(0.25 - dot(normal, toEye), 0.0));`;
 
 type Dress = (material: MeshStandardMaterial) => MeshStandardMaterial;
 
-function softenSkin(material: MeshStandardMaterial): MeshStandardMaterial {
-  material.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader
-      .replace("#include <lights_physical_pars_fragment>", SKIN_LIGHT)
-      .replace("#include <opaque_fragment>", WITHOUT_SPARKS);
-  };
-  material.customProgramCacheKey = () => "skin";
-  return material;
-}
+/** Fine knit: where it is seen straight on, the leg shows through; toward its outline it closes. */
+const KNIT = `#include <normal_fragment_maps>
+float across = max(dot(normal, normalize(vViewPosition)), 0.0);
+diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.12, 0.072, 0.06), 0.42 * pow(across, 2.2));`;
 
-function turnHair(material: MeshStandardMaterial): MeshStandardMaterial {
-  material.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader
-      .replace("#include <normal_fragment_maps>", FACING_NORMALS)
-      .replace("#include <opaque_fragment>", WITHOUT_SPARKS);
+/** A dress that puts pieces of its own for pieces of three.js's fragment shader; `name` tells its programs apart. */
+function reshade(name: string, pieces: Readonly<Record<string, string>>): Dress {
+  return (material) => {
+    material.onBeforeCompile = (program) => {
+      for (const [piece, own] of Object.entries(pieces)) {
+        program.fragmentShader = program.fragmentShader.replace(`#include <${piece}>`, own);
+      }
+    };
+    material.customProgramCacheKey = () => name;
+    return material;
   };
-  material.customProgramCacheKey = () => "hair";
-  return material;
 }
 
 /** Cloth as light as this, linear, has the whole of its nap; black cloth would turn grey by it. */
@@ -58,25 +56,11 @@ function napCloth(material: MeshStandardMaterial): MeshStandardMaterial {
   return cloth;
 }
 
-/** Fine knit: where it is seen straight on, the leg shows through; toward its outline it closes. */
-function knitTights(material: MeshStandardMaterial): MeshStandardMaterial {
-  material.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader.replace(
-      "#include <normal_fragment_maps>",
-      `#include <normal_fragment_maps>
-      float across = max(dot(normal, normalize(vViewPosition)), 0.0);
-      diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.12, 0.072, 0.06), 0.42 * pow(across, 2.2));`,
-    );
-  };
-  material.customProgramCacheKey = () => "tights";
-  return material;
-}
-
 /** Beginnings of material names; the first that fits is taken. */
 const DRESSES: readonly (readonly [name: RegExp, dress: Dress])[] = [
-  [/^skin/i, softenSkin],
-  [/^hair/i, turnHair],
-  [/^tights/i, knitTights],
+  [/^skin/i, reshade("skin", { lights_physical_pars_fragment: SKIN_LIGHT, opaque_fragment: WITHOUT_SPARKS })],
+  [/^hair/i, reshade("hair", { normal_fragment_maps: FACING_NORMALS, opaque_fragment: WITHOUT_SPARKS })],
+  [/^tights/i, reshade("tights", { normal_fragment_maps: KNIT })],
   [/^(blazer|jacket|lapel|skirt|trousers)/i, napCloth],
 ];
 
