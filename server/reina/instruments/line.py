@@ -1,11 +1,17 @@
 """The playable line: chords and overlaps of a part become one note at a time, and nothing goes silently."""
 
+from bisect import bisect_left
+from collections.abc import Container
+from itertools import pairwise
+from typing import NamedTuple
+
 import numpy as np
 
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Line
 from reina.music.arrays import read_only
 from reina.music.score import Score
+from reina.music.taps import TAP_S
 from reina.music.warnings import WarningLog
 
 CHORD_S = 0.03
@@ -21,18 +27,51 @@ BREATH_S = 0.25
 TOLD_OVERLAP_S = 0.001
 """Overlaps of less are cut without a word: they are rounding."""
 
+GRACE_S = 0.06
+"""What is no longer, and lasts a third of the note that it begins with at most, ornaments that note."""
 
-def playable_line(score: Score, part: int, transposition: int, log: WarningLog) -> Line:
+LEGATO_S = 0.08
+"""How far a note may reach into the next where both are meant to follow each other."""
+
+ROUNDING_S = 1e-6
+
+
+class _Note(NamedTuple):
+    index: int
+    onset_s: float
+    end_s: float
+    pitch: int
+
+    @property
+    def duration_s(self) -> float:
+        return self.end_s - self.onset_s
+
+    def ornaments(self, other: "_Note") -> bool:
+        """Whether it is an ornament of a note at its place: written without length, or far shorter."""
+        if self.pitch == other.pitch:
+            return False
+        is_tap = abs(self.duration_s - TAP_S) < ROUNDING_S
+        if is_tap and other.duration_s > self.duration_s + ROUNDING_S:
+            return True
+        return self.duration_s <= GRACE_S and 3 * self.duration_s <= other.duration_s
+
+
+def playable_line(
+    score: Score, part: int, transposition: int, log: WarningLog, *, playable: Container[int] = range(128)
+) -> Line:
     """Make the line of a part.
 
     Of a chord the top note is played. Of two notes that overlap the earlier ends where the later begins,
-    unless the later is lower and ends no later: then it is an inner voice and left out.
+    unless the later is lower and ends no later: then it is an inner voice and left out. An ornament that
+    begins with its note sounds before it where there is room, else it is left out. What the instrument does
+    not have is in the line only where it takes the place of nothing that can be played.
 
     Args:
         score: The score.
         part: Index of the part.
         transposition: Semitones added to its pitches.
         log: Is told of each note that is dropped or shortened.
+        playable: The sounding pitches that the instrument has.
     """
     notes = score.notes
     indices = score.note_indices(part)
@@ -44,36 +83,17 @@ def playable_line(score: Score, part: int, transposition: int, log: WarningLog) 
         pitches.tolist(),
         strict=True,
     )
-    dropped: list[int] = []
-    shortened: list[int] = []
-    line: list[tuple[int, float, float, int]] = []
-
-    def drop(kind: str, note: tuple[int, float, float, int], why: str) -> None:
-        dropped.append(note[0])
-        log.add(kind, _place(part, note), f"{pitch_name(note[3])} is not played: {why}")
-
-    for note in columns:
-        index, onset, end, pitch = note
-        if not 0 <= pitch <= 127:
-            drop("pitch_out_of_midi", note, f"transposed by {transposition} it is no pitch")
-            continue
-        if line and line[-1][2] > onset:
-            last = line[-1]
-            overlap = last[2] - onset
-            apart = onset - last[1]
-            if apart <= SOUND_TOGETHER_S or (apart <= CHORD_S and overlap > SOUND_TOGETHER_S):
-                lower, line[-1] = (last, note) if pitch > last[3] else (note, last)
-                drop("chord_note_dropped", lower, f"{pitch_name(line[-1][3])} sounds above it")
-                continue
-            if pitch < last[3] and end <= last[2] + SOUND_TOGETHER_S:
-                drop("inner_note_dropped", note, f"{pitch_name(last[3])} is held above it")
-                continue
-            line[-1] = (last[0], last[1], onset, last[3])
-            if overlap > TOLD_OVERLAP_S:
-                shortened.append(last[0])
-                what = f"{pitch_name(last[3])} ends {overlap * 1000:.0f} ms earlier"
-                log.add("note_shortened", _place(part, last), f"{what}, where {pitch_name(pitch)} begins")
-        line.append((index, onset, end, pitch))
+    maker = _LineMaker(part, log)
+    within: list[_Note] = []
+    beyond: list[_Note] = []
+    for note in map(_Note._make, columns):
+        if not 0 <= note.pitch <= 127:
+            maker.drop("pitch_out_of_midi", note, f"transposed by {transposition} it is no pitch")
+        else:
+            (within if note.pitch in playable else beyond).append(note)
+    line = maker.one_at_a_time(within)
+    if beyond:
+        line = maker.fill_in(line, beyond)
     table = np.array(line, dtype=np.float64).reshape(-1, 4)
     note_index = table[:, 0].astype(np.int64)
     onset_s, end_s = table[:, 1], table[:, 2]
@@ -85,10 +105,105 @@ def playable_line(score: Score, part: int, transposition: int, log: WarningLog) 
         sounding_pitch=read_only(table[:, 3].astype(np.int64)),
         velocity=read_only(notes.velocity[note_index]),
         phrase=read_only(np.concatenate((np.zeros(1), np.cumsum(rests)))[: len(table)].astype(np.int64)),
-        dropped=read_only(np.array(sorted(dropped), dtype=np.int64)),
-        shortened=read_only(np.array(sorted(set(shortened) - set(dropped)), dtype=np.int64)),
+        dropped=read_only(np.array(sorted(maker.dropped), dtype=np.int64)),
+        shortened=read_only(np.array(sorted(maker.shortened - maker.dropped), dtype=np.int64)),
     )
 
 
-def _place(part: int, note: tuple[int, float, float, int]) -> str:
-    return f"part {part}, note {note[0]} at {note[1]:.3f} s"
+class _LineMaker:
+    """Makes lines of notes, and keeps what became of those that are not in them as they were."""
+
+    def __init__(self, part: int, log: WarningLog) -> None:
+        self._part = part
+        self._log = log
+        self.dropped: set[int] = set()
+        self.shortened: set[int] = set()
+
+    def drop(self, kind: str, note: _Note, why: str) -> None:
+        """Leave a note out and tell of it."""
+        self.dropped.add(note.index)
+        self._log.add(kind, self._place(note), f"{pitch_name(note.pitch)} is not played: {why}")
+
+    def one_at_a_time(self, notes: list[_Note]) -> list[_Note]:
+        """Make a line of notes that are sorted by onset."""
+        line: list[_Note] = []
+        for note in notes:
+            if not line or line[-1].end_s <= note.onset_s:
+                line.append(note)
+                continue
+            last = line[-1]
+            overlap = last.end_s - note.onset_s
+            apart = note.onset_s - last.onset_s
+            together = apart <= SOUND_TOGETHER_S or (apart <= CHORD_S and overlap > SOUND_TOGETHER_S)
+            if together and last.ornaments(note):
+                self._ornament(line, last, note)
+            elif together and note.ornaments(last):
+                self._ornament(line, note, last)
+            elif together:
+                lower, line[-1] = sorted((last, note), key=lambda one: (one.pitch, one.duration_s))
+                self.drop("chord_note_dropped", lower, f"{pitch_name(line[-1].pitch)} sounds above it")
+            elif note.pitch < last.pitch and note.end_s <= last.end_s + SOUND_TOGETHER_S:
+                self.drop("inner_note_dropped", note, f"{pitch_name(last.pitch)} is held above it")
+            else:
+                line[-1] = self._cut(last, note)
+                line.append(note)
+        return line
+
+    def fill_in(self, line: list[_Note], others: list[_Note]) -> list[_Note]:
+        """Put notes, sorted by onset, into a line where they take no other note's place."""
+        fitting = self.one_at_a_time(self._fitting(line, others))
+        filled = sorted([*line, *self._fitting(line, fitting)], key=lambda note: note.onset_s)
+        for at, (note, following) in enumerate(pairwise(filled)):
+            if note.end_s > following.onset_s:
+                filled[at] = self._cut(note, following)
+        return filled
+
+    def _fitting(self, line: list[_Note], others: list[_Note]) -> list[_Note]:
+        """Return those of the others that are in no note's place; the rest is dropped."""
+        onsets = [note.onset_s for note in line]
+        fitting: list[_Note] = []
+        for note in others:
+            at = bisect_left(onsets, note.onset_s)
+            before = line[at - 1] if at else None
+            after = line[at] if at < len(line) else None
+            sounding = None
+            if before and before.end_s - note.onset_s > min(
+                LEGATO_S, note.duration_s / 2, before.duration_s / 2
+            ):
+                sounding = before
+            elif after and after.onset_s - note.onset_s <= CHORD_S and after.onset_s < note.end_s:
+                sounding = after
+            if sounding:
+                why = f"it is out of range, and {pitch_name(sounding.pitch)} sounds in its place"
+                self.drop("out_of_range_dropped", note, why)
+            else:
+                fitting.append(note)
+        return fitting
+
+    def _ornament(self, line: list[_Note], ornament: _Note, note: _Note) -> None:
+        """Put an ornament before its note, the last of the line, or leave it out."""
+        line[-1] = note
+        begins = note.onset_s - ornament.duration_s
+        earliest = line[-2].end_s if len(line) > 1 else 0.0
+        main = pitch_name(note.pitch)
+        if ornament.onset_s < note.onset_s - SOUND_TOGETHER_S:
+            line[-1:] = [self._cut(ornament, note), note]
+        elif begins >= earliest:
+            line[-1:] = [ornament._replace(onset_s=begins, end_s=note.onset_s), note]
+            what = f"{pitch_name(ornament.pitch)} sounds before {main}, which it ornaments"
+            self._log.add("ornament_moved", self._place(ornament), what)
+        else:
+            self.drop("ornament_dropped", ornament, f"it ornaments {main}, before which there is no room")
+
+    def _cut(self, note: _Note, following: _Note) -> _Note:
+        """End a note where the following begins."""
+        overlap = note.end_s - following.onset_s
+        if overlap > TOLD_OVERLAP_S:
+            self.shortened.add(note.index)
+            what = f"{pitch_name(note.pitch)} ends {overlap * 1000:.0f} ms earlier"
+            where = f"where {pitch_name(following.pitch)} begins"
+            self._log.add("note_shortened", self._place(note), f"{what}, {where}")
+        return note._replace(end_s=following.onset_s)
+
+    def _place(self, note: _Note) -> str:
+        return f"part {self._part}, note {note.index} at {note.onset_s:.3f} s"

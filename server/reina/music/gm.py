@@ -26,3 +26,27 @@ Bird Tweet,Telephone Ring,Helicopter,Applause,Gunshot"""
 
 DRUM_CHANNEL = 9
 """The channel of the drums, counted from 0."""
+
+VARIANTS = (
+    frozenset({16, 17, 18, 19, 20}),  # organs: registrations
+    frozenset(
+        {24, 25, 26, 27, 28, 29, 30, 31, 120}
+    ),  # guitars: open, muted, overdriven, harmonics, fret noise
+    frozenset({32, 33, 34, 35, 36, 37, 38, 39}),  # basses: fingers, pick, slap
+    frozenset({40, 44, 45, 48, 49, 50, 51}),  # violins: bowed, tremolo, plucked, a section
+    frozenset({41, 44, 45, 48, 49, 50, 51}),
+    frozenset({42, 44, 45, 48, 49, 50, 51}),
+    frozenset({43, 32, 44, 45, 48, 49, 50, 51}),
+    frozenset({52, 53, 54}),  # voices
+    frozenset({56, 59}),  # brass, open and muted; there is one program for all that is muted
+    frozenset({57, 59}),
+    frozenset({58, 59}),
+    frozenset({60, 59}),
+    frozenset({61, 62, 63, 59}),
+)
+"""Programs that one player has on one instrument, and changes between."""
+
+
+def are_variants(program: int, other: int) -> bool:
+    """Return whether two programs are one instrument, played in different ways."""
+    return program == other or any(program in variants and other in variants for variants in VARIANTS)

@@ -8,6 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from reina.music.arrays import FloatArray, IntArray, read_only
 
+NO_PROGRAM = -1
+
 
 @dataclass(frozen=True)
 class Note:
@@ -21,6 +23,7 @@ class Note:
     duration_beats: float
     sounding_pitch: int
     velocity: float
+    program: int | None
 
     @property
     def end_s(self) -> float:
@@ -34,13 +37,14 @@ class Notes:
 
     Attributes:
         part: (N,) int32, index into the score's parts.
-        channel: (N,) int16, MIDI channel counted from 0 (9 is the drums').
+        channel: (N,) int16, MIDI channel counted from 0, 16 to a port (9 of each is the drums' by default).
         onset_s: (N,) float64, seconds.
         duration_s: (N,) float64, seconds, greater than 0.
         onset_beats: (N,) float64, quarter notes.
         duration_beats: (N,) float64, quarter notes, greater than 0.
         sounding_pitch: (N,) int16, MIDI number as sounded.
         velocity: (N,) float64 in 0..1.
+        program: (N,) int16, General MIDI program that sounds it, counted from 0; -1 if the file says none.
     """
 
     part: NDArray[np.int32]
@@ -51,6 +55,7 @@ class Notes:
     duration_beats: FloatArray
     sounding_pitch: NDArray[np.int16]
     velocity: FloatArray
+    program: NDArray[np.int16]
 
     @classmethod
     def from_columns(
@@ -64,8 +69,11 @@ class Notes:
         duration_beats: ArrayLike,
         sounding_pitch: ArrayLike,
         velocity: ArrayLike,
+        program: ArrayLike | None = None,
     ) -> "Notes":
         """Make the table from columns of any dtype and order; sorted by onset, then part, then pitch.
+
+        Without `program` no note names one.
 
         Raises:
             ValueError: If the columns differ in length or hold what is not a note.
@@ -79,6 +87,9 @@ class Notes:
             duration_beats=np.asarray(duration_beats, dtype=np.float64),
             sounding_pitch=np.asarray(sounding_pitch, dtype=np.int16),
             velocity=np.asarray(velocity, dtype=np.float64),
+            program=np.full(np.shape(onset_s), NO_PROGRAM, dtype=np.int16)
+            if program is None
+            else np.asarray(program, dtype=np.int16),
         )
         shapes = {column.shape for column in vars(notes).values()}
         if len(shapes) != 1 or any(len(shape) != 1 for shape in shapes):
@@ -107,6 +118,7 @@ class Notes:
             duration_beats=float(self.duration_beats[index]),
             sounding_pitch=int(self.sounding_pitch[index]),
             velocity=float(self.velocity[index]),
+            program=int(self.program[index]) if self.program[index] != NO_PROGRAM else None,
         )
 
     def __iter__(self) -> Iterator[Note]:

@@ -9,6 +9,7 @@ import numpy as np
 from reina.keyframes import Parameter
 
 if TYPE_CHECKING:
+    from reina.instruments import Line
     from reina.keyframes import ParameterRegistry
     from reina.music.score import Score
     from reina.rotations.arrays import FloatArray
@@ -42,29 +43,19 @@ def mute_parameter(instrument: str) -> Parameter:
 class Mute:
     """Whether the mute is in, at any times: a pure function of score and show.
 
-    It goes in and out at the end of the last note before the program changes, while nothing sounds.
+    It goes in and out at the end of the last note before one of another program, while nothing sounds.
 
     Args:
-        score: Its program changes ask for the mute.
-        part: Index of the part that is played.
-        ends_s: Ends of the part's notes ``(M,)``, seconds, increasing.
+        score: The programs of its notes ask for the mute, whatever channel they come on.
+        line: The notes that are played.
         registry: The show's parameters; where `MUTE_CHOICE` is not among them the score decides.
     """
 
-    def __init__(self, score: Score, part: int, ends_s: FloatArray, registry: ParameterRegistry) -> None:
-        of_part = score.parts[part]
-        changes = [
-            (control.onset_s, control.value)
-            for control in score.controls
-            if control.kind == "program" and control.channel == of_part.channel
-        ]
-        alone = sum(other.channel == of_part.channel for other in score.parts) == 1
-        if not changes or not alone:
-            changes = [(0.0, of_part.program if of_part.program is not None else 0)]
-        times = np.array([onset_s for onset_s, _ in changes])
-        before = np.searchsorted(ends_s, times, side="right") - 1
-        self._from_s: FloatArray = np.where(before < 0, 0.0, ends_s[before]) if len(ends_s) else times
-        self._scored = np.array([float(program == MUTED_TRUMPET) for _, program in changes])
+    def __init__(self, score: Score, line: Line, registry: ParameterRegistry) -> None:
+        muted = score.notes.program[line.note_index] == MUTED_TRUMPET
+        changes = np.flatnonzero(np.diff(muted)) + 1
+        self._from_s: FloatArray = np.concatenate(([0.0], line.end_s[changes - 1]))
+        self._scored: FloatArray = np.concatenate((muted[:1], muted[changes])).astype(np.float64)
         path = MUTE_CHOICE.path
         self._column = registry.layout()[path][0] if path in registry else None
 

@@ -83,7 +83,7 @@ class Performance:
             np.float32
         )
         self._face = Face(player_rig)
-        self._mute = Mute(score, played.part, played.line.end_s, registry)
+        self._mute = Mute(score, played.line, registry)
         self._end_s = score.duration_s + TAIL_S
 
         curves = GESTURE_PLANNERS[instrument.name](played, seed=seed)

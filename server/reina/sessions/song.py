@@ -83,6 +83,10 @@ class RenderedSong:
             if self._request:
                 self._request.cancel()
             raise
+        except Exception as error:
+            # Whoever waits for the song is to hear that there will be none, whatever went wrong.
+            self.error = "the server made a mistake while it planned the sound, and has noted it"
+            _log.error("no song for the score %r: %r", score.title, error)
         ready()
 
 

@@ -4,12 +4,14 @@ The plan is canonical: scores that sound the same give the same bytes, and so sh
 """
 
 from collections import Counter, defaultdict
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reina.errors import InputError
 from reina.music.controls import Control
+from reina.music.notes import NO_PROGRAM
 from reina.music.score import Part, Score
 from reina.sessions.sound_events import (
     CHANNELS_OF_PORT,
@@ -29,23 +31,46 @@ SHORTEST_NOTE = SAMPLE_RATE // 50
 
 MELODIC_CHANNELS = tuple(channel for channel in range(CHANNELS_OF_PORT) if channel != DRUM_CHANNEL)
 MOST_VOICES = 4 * len(MELODIC_CHANNELS)
-"""With more melodic parts than this, those of one channel and program share a voice."""
+"""With more melodic voices than this, those of one channel and program share a channel."""
 
 HEARD_CONTROLLERS = frozenset({1, 33, 7, 39, 10, 42, 11, 43, 64, 91, 93, 6, 38, 98, 99, 100, 101, 121})
 """Those the synthesizer acts on: modulation, volume, pan, expression, hold, reverb, chorus, registered
 parameters, reset. All Sound Off and All Notes Off are left out, since the score's notes already end where
 they end."""
 BANK_SELECT = 0
+MARKING_BANKS = frozenset({120, 121, 126, 127})
+"""Banks that say whether a channel is drums, and name no sound."""
 KEYS = 128
 """MIDI's pitches."""
+
+
+@dataclass(frozen=True)
+class _Voice:
+    """What a part plays on one channel of the file.
+
+    Attributes:
+        part: The part.
+        channel: The file's channel.
+        program: With what it begins.
+        programs: From which sample on it has which program afterwards.
+        port: On which port it is rendered.
+        seat: On which channel of that port.
+    """
+
+    part: Part
+    channel: int
+    program: int
+    programs: tuple[tuple[int, int], ...]
+    port: int = 0
+    seat: int = 0
 
 
 def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: int = 0) -> SoundPlan:
     """Plan how a score sounds.
 
-    Every part gets a channel of its own (drums of one kit share theirs), on as many ports of sixteen channels
-    as that takes, so that a file whose parts collide on a channel, or that names no channels, sounds right.
-    The controls of a part's channel go with the part.
+    Every part gets a channel of its own for each channel that the file has it on (drums of one kit share
+    theirs), on as many ports of sixteen channels as that takes, so that a file whose parts collide on a
+    channel, or that names no channels, sounds right. The controls of the file's channel go with it.
 
     Args:
         score: The score.
@@ -63,13 +88,14 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
             f"the score lasts {minutes:.0f} minutes; sound is made for at most {LONGEST_S / 60:.0f}: "
             "cut it, or send a song with it"
         )
-    seats = _seats(score.parts, trumpet_part)
+    voices, voice_of_note = _voices(score, trumpet_part)
     moved = np.where(score.notes.part == trumpet_part, transposition, 0)
     keys = score.notes.sounding_pitch.astype(np.int64) + moved
     if not np.any(_is_key(keys)):
         raise InputError(f"moved by {transposition} semitones, no note of the score is a pitch: move it less")
+    seats = np.array([(voice.port, voice.seat) for voice in voices], dtype=np.uint16)
     return SoundPlan(
-        notes=_plan_notes(score, seats, keys), controls=_plan_controls(score, seats, trumpet_part)
+        notes=_plan_notes(score, seats[voice_of_note], keys), controls=_plan_controls(score, voices)
     )
 
 
@@ -77,40 +103,67 @@ def _is_key(keys: NDArray[np.int64]) -> NDArray[np.bool_]:
     return (keys >= 0) & (keys < KEYS)
 
 
-def _seats(parts: tuple[Part, ...], trumpet_part: int | None) -> NDArray[np.uint16]:
-    """Return (parts, 2): the port and the channel of each part."""
-    melodic = sum(not part.is_drums for part in parts)
-    keys: list[tuple[object, ...]] = []
-    for part in parts:
-        program = default_program(part, is_trumpet=part.index == trumpet_part)
-        if part.is_drums:
-            keys.append(("drums", program))
-        elif melodic <= MOST_VOICES:
-            keys.append(("part", part.index))
-        else:
-            keys.append(("shared", part.channel, program))
+def _voices(score: Score, trumpet_part: int | None) -> tuple[list[_Voice], NDArray[np.int64]]:
+    """Return the voices of a score, seated, and (N,) which one each note belongs to."""
+    notes = score.notes
+    keys = notes.part.astype(np.int64) << 16 | notes.channel
+    values, first, voice_of_note = np.unique(keys, return_index=True, return_inverse=True)
+    known = notes.program != NO_PROGRAM
+    # A voice's program changes at notes that name another one than the last of its notes that names one.
+    order = np.flatnonzero(known)[np.argsort(voice_of_note[known], kind="stable")]
+    changed = np.ones(len(order), dtype=np.bool_)
+    changed[1:] = (np.diff(voice_of_note[order]) != 0) | (np.diff(notes.program[order]) != 0)
+    changes: dict[int, list[tuple[int, int]]] = defaultdict(list)
+    for note in order[changed].tolist():
+        tick = round(float(notes.onset_s[note]) * SAMPLE_RATE)
+        changes[int(voice_of_note[note])].append((tick, int(notes.program[note])))
+    voices: list[_Voice] = []
+    for index, value in enumerate(values.tolist()):
+        part = score.parts[value >> 16]
+        programs = changes[index]
+        begins_with_it = programs and notes.program[first[index]] != NO_PROGRAM
+        program = (
+            programs.pop(0)[1]
+            if begins_with_it
+            else default_program(part, is_trumpet=part.index == trumpet_part)
+        )
+        voices.append(_Voice(part, value & 0xFFFF, program, tuple(programs)))
+    return _seat(voices), voice_of_note
+
+
+def _seat(voices: list[_Voice]) -> list[_Voice]:
+    """Give each voice its port and channel."""
+    melodic = sum(not voice.part.is_drums for voice in voices)
     seats: dict[tuple[object, ...], tuple[int, int]] = {}
+    seated: list[_Voice] = []
     drums = tones = 0
-    for key in keys:
-        if key in seats:
-            continue
-        if key[0] == "drums":
+    for index, voice in enumerate(voices):
+        if voice.part.is_drums:
+            key: tuple[object, ...] = ("drums", voice.program)
+        elif melodic <= MOST_VOICES:
+            key = ("voice", index)
+        else:
+            key = ("shared", voice.channel, voice.program)
+        if key not in seats and voice.part.is_drums:
             seats[key] = (drums, DRUM_CHANNEL)
             drums += 1
-        else:
+        elif key not in seats:
             port, place = divmod(tones, len(MELODIC_CHANNELS))
             seats[key] = (port, MELODIC_CHANNELS[place])
             tones += 1
-    return np.array([seats[key] for key in keys], dtype=np.uint16)
+        port, seat = seats[key]
+        seated.append(replace(voice, port=port, seat=seat))
+    return seated
 
 
 def _plan_notes(score: Score, seats: NDArray[np.uint16], keys: NDArray[np.int64]) -> NDArray[np.void]:
+    """Return the notes; (N, 2) seats are the port and the channel of each, (N,) keys its pitch."""
     notes = np.zeros(len(score.notes), dtype=NOTE_DTYPE)
     on = np.rint(score.notes.onset_s * SAMPLE_RATE).astype(np.int64)
     end = np.rint(score.notes.end_s * SAMPLE_RATE).astype(np.int64)
     notes["on"] = on
     notes["off"] = np.maximum(end, on + SHORTEST_NOTE)
-    notes["port"], notes["channel"] = seats[score.notes.part].T
+    notes["port"], notes["channel"] = seats.T
     notes["key"] = np.clip(keys, 0, KEYS - 1)
     notes["velocity"] = np.clip(np.rint(score.notes.velocity * 127), 1, 127)
     return _without_overlaps(notes[_is_key(keys)])
@@ -137,48 +190,43 @@ def _without_overlaps(notes: NDArray[np.void]) -> NDArray[np.void]:
     return notes[np.lexsort((notes["key"], notes["channel"], notes["port"], notes["on"]))]
 
 
-def _plan_controls(score: Score, seats: NDArray[np.uint16], trumpet_part: int | None) -> NDArray[np.void]:
-    first_onset_s: dict[int, float] = {}
-    for index in range(len(score.parts)):
-        first_onset_s[index] = float(score.notes.onset_s[score.note_indices(index)].min(initial=np.inf))
-    by_channel: dict[int, list[Control]] = defaultdict(list)
+def _plan_controls(score: Score, voices: list[_Voice]) -> NDArray[np.void]:
+    last_tick = round((score.duration_s + AFTER_LAST_NOTE_S) * SAMPLE_RATE)
+    by_channel: dict[int, list[tuple[int, Control]]] = defaultdict(list)
     for control in score.controls:
-        by_channel[control.channel].append(control)
-    crowd = Counter((part.channel, part.is_drums) for part in score.parts)
+        tick = max(0, round(control.onset_s * SAMPLE_RATE))
+        if tick <= last_tick:
+            by_channel[control.channel].append((tick, control))
+    crowd = Counter((voice.channel, voice.part.is_drums) for voice in voices)
     rows: list[tuple[int, int, int, int, int]] = []
     seated: set[tuple[int, int]] = set()
-    for part in score.parts:
-        port, channel = (int(number) for number in seats[part.index])
-        if (port, channel) in seated:
+    for voice in voices:
+        if (voice.port, voice.seat) in seated:
             continue
-        seated.add((port, channel))
-        alone = crowd[part.channel, part.is_drums] == 1
-        controls = by_channel[part.channel]
-        programs = [control for control in controls if control.kind == "program"] if alone else []
-        if not any(control.onset_s <= first_onset_s[part.index] for control in programs):
-            program = default_program(part, is_trumpet=part.index == trumpet_part)
-            rows.append((0, port, 0xC0 | channel, program, 0))
-        for control in controls:
-            message = _message(control, is_drums=part.is_drums, follows_programs=alone)
+        seated.add((voice.port, voice.seat))
+        alone = crowd[voice.channel, voice.part.is_drums] == 1
+        for tick, program in ((0, voice.program), *voice.programs):
+            rows.append((tick, voice.port, 0xC0 | voice.seat, program, 0))
+        for tick, control in by_channel[voice.channel]:
+            message = _message(control, has_banks=alone and not voice.part.is_drums)
             if message is not None:
                 status, data1, data2 = message
-                tick = max(0, round(control.onset_s * SAMPLE_RATE))
-                rows.append((tick, port, status | channel, data1, data2))
+                rows.append((tick, voice.port, status | voice.seat, data1, data2))
     table = np.array(rows, dtype=CONTROL_DTYPE)
-    table = table[table["tick"] <= (score.duration_s + AFTER_LAST_NOTE_S) * SAMPLE_RATE]
     return table[np.argsort(table["tick"], kind="stable")]
 
 
-def _message(control: Control, *, is_drums: bool, follows_programs: bool) -> tuple[int, int, int] | None:
-    """Return status (channel 0) and data bytes of a control that is heard, or None."""
-    if control.kind == "program":
-        return (0xC0, control.value, 0) if follows_programs else None
+def _message(control: Control, *, has_banks: bool) -> tuple[int, int, int] | None:
+    """Return status (channel 0) and data bytes of a control that is heard, or None.
+
+    Programs are not: notes have theirs.
+    """
     if control.kind == "pitch_bend":
         bend = min(max(control.value + 8192, 0), 16383)
         return 0xE0, bend & 0x7F, bend >> 7
     if control.kind == "controller":
         heard = control.number in HEARD_CONTROLLERS
         if control.number == BANK_SELECT:
-            heard = follows_programs and not is_drums
+            heard = has_banks and control.value not in MARKING_BANKS
         return (0xB0, control.number, control.value) if heard else None
     return None

@@ -69,6 +69,62 @@ def test_a_grace_note_is_no_chord():
     assert warnings == ()
 
 
+def test_a_note_without_length_gives_way_to_the_note_at_its_place():
+    line, warnings = line_of((0.0, 0.05, 74), (0.0, 0.49, 72), (0.5, 0.55, 74), (0.5, 0.99, 72))
+    assert line.sounding_pitch.tolist() == [72, 72]
+    np.testing.assert_allclose(line.end_s - line.onset_s, 0.49)
+    assert [warning.kind for warning in warnings] == ["ornament_dropped", "ornament_dropped"]
+    assert "no room" in warnings[0].message
+
+
+def test_a_grace_note_at_the_place_of_its_note_sounds_before_it_where_there_is_room():
+    line, warnings = line_of((0.0, 0.4, 70), (0.5, 0.54, 74), (0.5, 1.0, 72), (1.0, 1.5, 60), (1.0, 1.04, 74))
+    assert line.sounding_pitch.tolist() == [70, 74, 72, 60]
+    np.testing.assert_allclose(line.onset_s, [0.0, 0.46, 0.5, 1.0])
+    assert [warning.kind for warning in warnings] == ["ornament_moved", "ornament_dropped"]
+
+
+def test_a_grace_note_that_reaches_into_its_note_sounds_before_it():
+    line, warnings = line_of((0.48, 0.53, 74), (0.5, 1.0, 72))
+    assert line.sounding_pitch.tolist() == [74, 72]
+    assert line.onset_s.tolist() == [0.48, 0.5]
+    assert [warning.kind for warning in warnings] == ["note_shortened"]
+
+
+def test_a_chord_of_taps_and_a_staccato_melody_keep_their_top_note():
+    line, _ = line_of((0.0, 0.05, 60), (0.0, 0.05, 67), (1.0, 2.0, 60), (1.0, 1.1, 67))
+    assert line.sounding_pitch.tolist() == [67, 67]
+
+
+def test_a_note_that_stands_twice_keeps_its_longer_copy():
+    line, _ = line_of((0.0, 0.05, 60), (0.0, 1.0, 60))
+    assert line.end_s.tolist() == [1.0]
+
+
+def test_what_is_out_of_range_takes_the_place_of_nothing_that_can_be_played():
+    specs = [
+        (0.0, 0.01, 108),
+        (0.0, 0.5, 60),
+        (0.5, 1.0, 24),
+        (0.5, 1.0, 62),
+        (0.7, 0.8, 108),
+        (1.2, 1.5, 108),
+    ]
+    log = WarningLog()
+    line = playable_line(score_of(specs), 0, 0, log, playable=range(52, 90))
+    assert line.sounding_pitch.tolist() == [60, 62, 108]
+    assert line.end_s.tolist() == [0.5, 1.0, 1.5]
+    assert [warning.kind for warning in log.warnings()] == ["out_of_range_dropped"] * 3
+    assert "C4 sounds in its place" in log.warnings()[0].message
+
+
+def test_a_held_key_switch_ends_where_the_music_begins():
+    specs = [(0.0, 9.0, 24), (1.0, 1.5, 60), (1.48, 2.0, 24), (2.0, 2.5, 62)]
+    line = playable_line(score_of(specs), 0, 0, WarningLog(), playable=range(52, 90))
+    assert line.sounding_pitch.tolist() == [24, 60, 24, 62]
+    assert line.end_s.tolist() == [1.0, 1.48, 2.0, 2.5]
+
+
 def test_transposition_out_of_midi_is_told():
     line, warnings = line_of((0.0, 1.0, 60), (1.0, 2.0, 120), transposition=12)
     assert line.sounding_pitch.tolist() == [72]
@@ -102,8 +158,27 @@ def test_one_note_at_a_time_and_nothing_is_lost_unsaid(specs: list[NoteSpec]):
     assert np.all(line.onset_s[1:] >= line.end_s[:-1])
     assert sorted([*line.note_index.tolist(), *line.dropped.tolist()]) == list(range(len(specs)))
     score = score_of(specs)
-    ends = score.notes.end_s[line.note_index]
-    cut = set(line.note_index[ends - line.end_s > 0.001].tolist())
-    assert cut == set(line.shortened.tolist())
+    lost = score.notes.duration_s[line.note_index] - (line.end_s - line.onset_s)
+    assert set(line.note_index[lost > 0.001].tolist()) == set(line.shortened.tolist())
     assert sum(warning.kind.endswith("dropped") for warning in warnings) == len(line.dropped)
-    assert line.sounding_pitch.max() == max(pitch for _, _, pitch in specs)
+    if not any(warning.kind == "ornament_dropped" for warning in warnings):
+        assert line.sounding_pitch.max() == max(pitch for _, _, pitch in specs)
+
+
+@given(notes, st.integers(40, 90), st.integers(0, 40))
+def test_what_the_instrument_does_not_have_changes_nothing_that_it_has(
+    specs: list[NoteSpec], lowest: int, span: int
+):
+    instrument = range(lowest, lowest + span)
+    score = score_of(specs)
+    line = playable_line(score, 0, 0, WarningLog(), playable=instrument)
+    assert np.all(line.end_s > line.onset_s)
+    assert np.all(line.onset_s[1:] >= line.end_s[:-1])
+    assert sorted([*line.note_index.tolist(), *line.dropped.tolist()]) == list(range(len(specs)))
+    alone = [spec for spec in specs if spec[2] in instrument]
+    if alone:
+        wanted, _ = line_of(*alone)
+        within = np.isin(line.sounding_pitch, instrument)
+        assert line.sounding_pitch[within].tolist() == wanted.sounding_pitch.tolist()
+        assert line.onset_s[within].tolist() == wanted.onset_s.tolist()
+        assert np.all(wanted.end_s - line.end_s[within] <= 0.5 * (wanted.end_s - wanted.onset_s))

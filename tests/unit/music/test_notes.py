@@ -23,13 +23,18 @@ def columns(**changed: Any) -> dict[str, Any]:
 def test_notes_are_a_sorted_table():
     notes = Notes.from_columns(**columns())
     assert len(notes) == 2
-    assert notes[0] == Note(1, 9, 0.0, 2.0, 0.0, 4.0, 36, 1.0)
+    assert notes[0] == Note(1, 9, 0.0, 2.0, 0.0, 4.0, 36, 1.0, None)
     assert [note.end_s for note in notes] == notes.end_s.tolist() == [2.0, 1.5]
     dtypes = {name: str(column.dtype) for name, column in vars(notes).items()}
     assert dtypes["part"] == "int32"
     assert dtypes["channel"] == dtypes["sounding_pitch"] == "int16"
     assert set(dtypes.values()) == {"int32", "int16", "float64"}
     assert not any(column.flags.writeable for column in vars(notes).values())
+
+
+def test_notes_have_the_program_that_the_file_says():
+    notes = Notes.from_columns(**columns(program=[56, -1]))
+    assert [note.program for note in notes] == [None, 56]
 
 
 def test_a_table_does_not_change_with_the_arrays_it_was_made_from():

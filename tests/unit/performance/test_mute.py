@@ -29,7 +29,7 @@ def muted(programs: list[tuple[float, int]], registry: ParameterRegistry) -> Mut
     mido.MidiFile(ticks_per_beat=480, tracks=[track]).save(file=data)
     score = read_score(data.getvalue())
     played = INSTRUMENTS["trumpet"].play(score, 0)
-    return Mute(score, 0, played.line.end_s, registry)
+    return Mute(score, played.line, registry)
 
 
 TIMES = np.array([0.5, 2.5, 3.5, 4.5, 6.5, 90.0])

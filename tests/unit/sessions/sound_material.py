@@ -24,18 +24,30 @@ def a_part(
     return Part(index, name, program, is_drums, channel if channel is not None else 9 if is_drums else 0)
 
 
-def a_score(rows: Sequence[Row], parts: Sequence[Part] = (), controls: Iterable[Control] = ()) -> Score:
-    """A score at 60 beats a minute, so that beats are seconds."""
+def a_score(
+    rows: Sequence[Row],
+    parts: Sequence[Part] = (),
+    controls: Iterable[Control] = (),
+    *,
+    programs: Sequence[int | None] = (),
+    channels: Sequence[int] = (),
+) -> Score:
+    """A score at 60 beats a minute, so that beats are seconds.
+
+    Notes have the program and the channel of their part, unless `programs` or `channels` says theirs.
+    """
     parts = tuple(parts) or (a_part(),)
+    program_of = programs or [parts[row[0]].program for row in rows]
     notes = Notes.from_columns(
         part=[row[0] for row in rows],
-        channel=[parts[row[0]].channel for row in rows],
+        channel=channels or [parts[row[0]].channel for row in rows],
         onset_s=[row[1] for row in rows],
         duration_s=[row[2] for row in rows],
         onset_beats=[row[1] for row in rows],
         duration_beats=[row[2] for row in rows],
         sounding_pitch=[row[3] for row in rows],
         velocity=[row[4] for row in rows],
+        program=[-1 if program is None else program for program in program_of],
     )
     return Score(
         title="test",

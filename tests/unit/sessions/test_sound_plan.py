@@ -84,10 +84,33 @@ def test_the_file_s_program_wins_over_choice_and_name() -> None:
 
 
 def test_program_changes_within_a_piece_are_kept() -> None:
-    muted = Control("program", 2.0, 2.0, 0, 0, 59)
-    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8), (0, 2.0, 1.0, 60, 0.8)], [a_part()], [muted]))
+    rows: list[Row] = [(0, float(at), 0.5, 60, 0.8) for at in range(5)]
+    plan = plan_sound(a_score(rows, [a_part()], programs=[None, None, 59, None, 59]))
     changes = plan.controls[plan.controls["status"] == 0xC0]
     assert [(int(row["tick"]), int(row["data1"])) for row in changes] == [(0, 56), (2 * SAMPLE_RATE, 59)]
+
+
+def test_a_part_on_two_channels_sounds_by_the_controls_of_each() -> None:
+    rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (0, 1.0, 1.0, 60, 0.8)]
+    controls = [a_controller(7, 100), a_controller(7, 30, channel=17)]
+    plan = plan_sound(a_score(rows, [a_part()], controls, programs=[56, 59], channels=[0, 17]))
+    assert plan.notes["channel"].tolist() == [0, 1]
+    assert programs(plan) == {(0, 0): 56, (0, 1): 59}
+    volumes = plan.controls[plan.controls["status"] & 0xF0 == 0xB0]
+    assert [(int(row["status"]), int(row["data2"])) for row in volumes] == [(0xB0, 100), (0xB1, 30)]
+
+
+def test_banks_that_mark_drums_and_tones_name_no_sound() -> None:
+    controls = [a_controller(0, bank) for bank in (8, 120, 121, 126, 127)]
+    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8)], [a_part()], controls))
+    banks = plan.controls[(plan.controls["status"] & 0xF0 == 0xB0) & (plan.controls["data1"] == 0)]
+    assert banks["data2"].tolist() == [8]
+
+
+@pytest.mark.parametrize("at_s", [21.1, 89_479.0, 1e9])
+def test_what_comes_long_after_the_last_note_is_left_out(at_s: float) -> None:
+    score = a_score([(0, 0.0, 1.0, 60, 0.8)], [a_part()], [a_controller(7, 1, at_s=at_s)])
+    assert np.all(plan_sound(score).controls["status"] & 0xF0 == 0xC0)
 
 
 def test_controls_go_with_every_part_of_their_channel() -> None:
@@ -148,12 +171,13 @@ ROWS = st.lists(
 def test_a_key_is_never_struck_while_it_sounds_and_nothing_falls_silent(rows: Sequence[Row]) -> None:
     plan = plan_sound(a_score(rows, [a_part(0), a_part(1, "Flute")]))
     assert np.all(np.diff(plan.notes["on"].astype(np.int64)) >= 0)
-    for part in (0, 1):
+    parts = sorted({row[0] for row in rows})
+    for part in parts:
         for pitch in range(60, 63):
             wanted = [(row[1], row[1] + row[2]) for row in rows if row[0] == part and row[3] == pitch]
             if not wanted:
                 continue
-            got = plan.notes[(plan.notes["key"] == pitch) & (plan.notes["channel"] == part)]
+            got = plan.notes[(plan.notes["key"] == pitch) & (plan.notes["channel"] == parts.index(part))]
             on, off = got["on"].astype(np.int64), got["off"].astype(np.int64)
             assert np.all(off > on)
             assert np.all(on[1:] >= off[:-1])

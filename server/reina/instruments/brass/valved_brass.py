@@ -118,7 +118,7 @@ class ValvedBrass:
                 place,
                 f"moved by {_octaves(octaves)}, more of its notes would be in range",
             )
-        line = playable_line(score, part, transposition, log)
+        line = playable_line(score, part, transposition, log, playable=self.model.chart)
         fingering = self.finger(line)
         for note in np.flatnonzero(~fingering.playable).tolist():
             where = f"{place}, note {line.note_index[note]} at {line.onset_s[note]:.3f} s"

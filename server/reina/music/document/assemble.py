@@ -11,7 +11,7 @@ from reina.music.errors import ScoreError
 from reina.music.gm import PROGRAM_NAMES
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap
-from reina.music.notes import Notes
+from reina.music.notes import NO_PROGRAM, Notes
 from reina.music.score import Part, Score
 from reina.music.taps import TAP_S, lengthen_taps
 from reina.music.tempo import TempoMap
@@ -100,6 +100,7 @@ def assemble(
         duration_beats=end_beats - onset_beats,
         sounding_pitch=np.concatenate([part.pitch for part in played]),
         velocity=np.concatenate([part.velocity for part in played]),
+        program=np.array([NO_PROGRAM if part.program is None else part.program for part in played])[path],
     )
     return Score(
         title=title,

@@ -18,7 +18,8 @@ CONTROL_KINDS: dict[int, ControlKind] = {
 
 
 def read_controls(messages: Messages, division: Division, tempo_map: TempoMap) -> tuple[Control, ...]:
-    """Return messages that are no notes as controls, sorted by time."""
+    """Return the messages that are controls, sorted by time."""
+    messages = messages.take(np.flatnonzero(np.isin(messages.command, tuple(CONTROL_KINDS))))
     messages = messages.take(np.argsort(messages.tick, kind="stable"))
     beats = messages.tick / division.ticks_per_beat
     has_number = (messages.command == CONTROLLER) | (messages.command == KEY_PRESSURE)

@@ -8,6 +8,8 @@ import numpy as np
 from reina.music.arrays import IntArray
 from reina.music.midi.track import Track
 
+CHANNELS_OF_PORT = 16
+
 
 @dataclass(frozen=True)
 class Messages:
@@ -17,7 +19,7 @@ class Messages:
         track: Index of the track.
         tick: Time in ticks.
         command: Upper four bits of the status.
-        channel: Counted from 0.
+        channel: Counted from 0, 16 to a port.
         first: First data byte.
         second: Second data byte, or 0.
     """
@@ -35,11 +37,14 @@ class Messages:
         lengths = [len(track.packed) for track in tracks]
         packed = np.concatenate([np.array(track.packed, dtype=np.int64) for track in tracks])
         status = packed >> 16 & 0xFF
+        ports = np.concatenate([_ports(track) for track in tracks])
+        # Numbered by their order: a file whose only port is the third has channels 0 to 15 like any other.
+        port = np.unique(ports, return_inverse=True)[1].astype(np.int64)
         return cls(
             track=np.repeat(np.arange(len(tracks)), lengths),
             tick=packed >> 24,
             command=status >> 4,
-            channel=status & 0xF,
+            channel=port * CHANNELS_OF_PORT + (status & 0xF),
             first=packed >> 8 & 0xFF,
             second=packed & 0xFF,
         )
@@ -48,3 +53,16 @@ class Messages:
         """Return the messages at the given indices."""
         columns = (self.track, self.tick, self.command, self.channel, self.first, self.second)
         return Messages(*(column[chosen] for column in columns))
+
+
+def _ports(track: Track) -> IntArray:
+    """Return the port of each channel message of a track.
+
+    Until the first port is named that one holds too: programs often stand before it.
+    """
+    if not track.ports:
+        return np.zeros(len(track.packed), dtype=np.int64)
+    begins = np.array([begin for begin, _ in track.ports])
+    ports = np.array([port for _, port in track.ports])
+    named = np.searchsorted(begins, np.arange(len(track.packed)), side="right") - 1
+    return ports[np.maximum(named, 0)]

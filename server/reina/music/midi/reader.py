@@ -5,18 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reina.music.arrays import FloatArray, IntArray
+from reina.music.arrays import BoolArray, FloatArray
 from reina.music.errors import NotInScoreError, ScoreError
 from reina.music.limits import Limits
+from reina.music.midi.channel_state import read_channel_state
 from reina.music.midi.chunks import read_header, unwrap
 from reina.music.midi.control_messages import read_controls
 from reina.music.midi.division import Division, read_division
 from reina.music.midi.maps import read_metre_map, read_tempo_map
 from reina.music.midi.messages import Messages
+from reina.music.midi.note_ends import NoteEnds, find_note_ends
 from reina.music.midi.pairing import Pairs, pair_notes
 from reina.music.midi.parts import find_parts
 from reina.music.midi.text import decode_text
-from reina.music.midi.track import NOTE_OFF, NOTE_ON, PROGRAM, TRACK_NAME, Track
+from reina.music.midi.track import NOTE_OFF, NOTE_ON, TRACK_NAME, Track
 from reina.music.midi.tracks import read_tracks
 from reina.music.notes import Notes
 from reina.music.score import Score
@@ -57,10 +59,15 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     limits.check("notes", int(np.count_nonzero(is_on)), what="number of notes")
 
     tempo_map = read_tempo_map(tracks, division, log)
-    key = note_messages.track << 11 | note_messages.channel << 7 | note_messages.first
-    pairs = pair_notes(key, is_on)
-    notes, part_of_note = _time_notes(note_messages, pairs, tracks, division, tempo_map, log)
-    parts, part = find_parts(tracks, part_of_note, notes.tick, _programs(messages))
+    key = note_messages.track << 19 | note_messages.channel << 7 | note_messages.first
+    pairs = pair_notes(key, is_on, note_messages.tick)
+    on = note_messages.take(pairs.on)
+    track_end = np.array([track.end_tick for track in tracks], dtype=np.int64)
+    ends = find_note_ends(messages, note_messages, is_on, pairs, track_end, division.ticks_per_beat)
+    notes = _time_notes(on, ends, tracks, division, tempo_map, log)
+    _tell_of_pairs(note_messages, pairs, tracks, log)
+    state = read_channel_state(messages, on, tracks)
+    parts, part = find_parts(tracks, on, state)
     end_s, end_beats = float(np.max(notes.end_s)), float(np.max(notes.end_beats))
     limits.check("duration_s", end_s, what="length in seconds")
     limits.check("beats", end_beats, what="length in beats")
@@ -68,13 +75,14 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     limits.check("bars", metre_map.bar_count(end_beats), what="number of bars")
     table = Notes.from_columns(
         part=part,
-        channel=notes.channel,
+        channel=on.channel,
         onset_s=notes.onset_s,
         duration_s=notes.end_s - notes.onset_s,
         onset_beats=notes.onset_beats,
         duration_beats=notes.end_beats - notes.onset_beats,
-        sounding_pitch=notes.pitch,
-        velocity=notes.velocity,
+        sounding_pitch=on.first,
+        velocity=on.second / 127.0,
+        program=state.program,
     )
     return Score(
         title=_title(tracks, header.format) or title,
@@ -82,7 +90,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         notes=table,
         tempo_map=tempo_map,
         metre_map=metre_map,
-        controls=read_controls(messages.take(np.flatnonzero(~sounding)), division, tempo_map),
+        controls=read_controls(messages, division, tempo_map),
         warnings=log.warnings(),
         duration_s=float(np.max(table.end_s)),
         sequence=sequence or 0,
@@ -114,12 +122,8 @@ def _choose_sequence(
 
 @dataclass(frozen=True)
 class TimedNotes:
-    """Notes in the order of their messages, as columns of one length."""
+    """When notes sound, in the order of their messages, as columns of one length."""
 
-    channel: IntArray
-    pitch: IntArray
-    velocity: FloatArray
-    tick: IntArray
     onset_beats: FloatArray
     end_beats: FloatArray
     onset_s: FloatArray
@@ -127,59 +131,74 @@ class TimedNotes:
 
 
 def _time_notes(
-    messages: Messages,
-    pairs: Pairs,
+    on: Messages,
+    ends: NoteEnds,
     tracks: Sequence[Track],
     division: Division,
     tempo_map: TempoMap,
     log: WarningLog,
-) -> tuple[TimedNotes, IntArray]:
-    on = messages.take(pairs.on)
-    released = pairs.off >= 0
-    track_end = np.array([track.end_tick for track in tracks], dtype=np.int64)[on.track]
-    end_tick = np.where(released, messages.tick[pairs.off], np.maximum(track_end, on.tick))
+) -> TimedNotes:
     onset_beats = on.tick / division.ticks_per_beat
-    end_beats = end_tick / division.ticks_per_beat
+    end_beats = ends.tick / division.ticks_per_beat
     onset_s, end_s = tempo_map.seconds(onset_beats), tempo_map.seconds(end_beats)
     end_s, end_beats, taps = lengthen_taps(onset_s, end_s, end_beats, tempo_map)
+    _tell(
+        log,
+        tracks,
+        on,
+        "unreleased_note",
+        ends.struck_again,
+        "is never released; it ends where its key is struck again",
+    )
+    _tell(
+        log,
+        tracks,
+        on,
+        "unreleased_note",
+        ends.left,
+        "is never released; it ends with the notes of its track",
+    )
+    _tell(log, tracks, on, "silenced_note", ends.silenced, "ends where a controller silences its channel")
+    is_tap = np.zeros(len(onset_s), dtype=np.bool_)
+    is_tap[taps] = True
+    _tell(
+        log,
+        tracks,
+        on,
+        "zero_length_note",
+        is_tap,
+        f"ends where it begins; it sounds for {TAP_S * 1000:.0f} ms",
+    )
+    return TimedNotes(onset_beats, end_beats, onset_s, end_s)
 
-    numbers = np.array([track.number for track in tracks])[on.track]
 
-    def tell(kind: str, chosen: IntArray, what: str) -> None:
-        for done, note in enumerate(chosen.tolist()):
-            if not log.room(kind):
-                log.add(kind, "", "", count=len(chosen) - done)
-                break
-            place = f"track {numbers[note]}, tick {on.tick[note]}"
-            log.add(kind, place, f"note {on.first[note]} {what}")
-
-    tell("unreleased_note", np.flatnonzero(~released), "is never released; it ends with its track")
-    tell("zero_length_note", taps, f"ends where it begins; it sounds for {TAP_S * 1000:.0f} ms")
-    tell(
+def _tell_of_pairs(messages: Messages, pairs: Pairs, tracks: Sequence[Track], log: WarningLog) -> None:
+    on = messages.take(pairs.on)
+    _tell(
+        log,
+        tracks,
+        on,
         "overlapping_note",
-        np.flatnonzero(pairs.overlapping),
+        pairs.overlapping,
         "begins while it sounds; the first to begin ends first",
     )
     if len(pairs.stray):
         count, first = len(pairs.stray), int(pairs.stray[0])
         place = f"track {tracks[int(messages.track[first])].number}, tick {messages.tick[first]}"
         log.add("stray_note_off", place, f"{count} note-offs end no note, the first here; they were left out")
-    notes = TimedNotes(
-        channel=on.channel,
-        pitch=on.first,
-        velocity=on.second / 127.0,
-        tick=on.tick,
-        onset_beats=onset_beats,
-        end_beats=end_beats,
-        onset_s=onset_s,
-        end_s=end_s,
-    )
-    return notes, on.track << 4 | on.channel
 
 
-def _programs(messages: Messages) -> Messages:
-    chosen = np.flatnonzero(messages.command == PROGRAM)
-    return messages.take(chosen[np.argsort(messages.tick[chosen], kind="stable")])
+def _tell(
+    log: WarningLog, tracks: Sequence[Track], on: Messages, kind: str, chosen: BoolArray, what: str
+) -> None:
+    """Tell of notes what was found; `on` are their messages."""
+    found = np.flatnonzero(chosen).tolist()
+    for done, note in enumerate(found):
+        if not log.room(kind):
+            log.add(kind, "", "", count=len(found) - done)
+            break
+        place = f"track {tracks[int(on.track[note])].number}, tick {on.tick[note]}"
+        log.add(kind, place, f"note {on.first[note]} {what}")
 
 
 def _title(tracks: Sequence[Track], file_format: int) -> str:

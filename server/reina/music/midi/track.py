@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from reina.music.errors import ScoreLimitError
+from reina.music.midi.sysex import LONGEST_SYSEX, Standard, read_part_mode, read_standard
 from reina.music.warnings import WarningLog
 
 TICK_SHIFT = 24
@@ -15,10 +16,21 @@ NOTE_OFF, NOTE_ON, KEY_PRESSURE, CONTROLLER, PROGRAM, CHANNEL_PRESSURE, PITCH_BE
 SYSTEM_DATA_BYTES = {0xF1: 1, 0xF2: 2, 0xF3: 1}
 """System messages that have data; they do not belong into a file, and are skipped."""
 
-TRACK_NAME, INSTRUMENT_NAME, END_OF_TRACK, SET_TEMPO, TIME_SIGNATURE = 0x03, 0x04, 0x2F, 0x51, 0x58
+TRACK_NAME, INSTRUMENT_NAME, PORT, END_OF_TRACK, SET_TEMPO, TIME_SIGNATURE = (
+    0x03,
+    0x04,
+    0x21,
+    0x2F,
+    0x51,
+    0x58,
+)
 """Types of the meta events that are read."""
 
 KEPT_METAS = frozenset({TRACK_NAME, INSTRUMENT_NAME, SET_TEMPO, TIME_SIGNATURE})
+
+PART_MODE = 0xF
+"""Not a command of MIDI: what a system exclusive message says of a channel is kept as a channel message,
+whose first data byte is 1 for drums and 0 for tones."""
 
 TOO_MANY_EVENTS = "more events than are read"
 
@@ -48,6 +60,8 @@ class Track:
         number: Its place in the file, from 1.
         packed: Channel messages, each as ``tick << 24 | status << 16 | first data byte << 8 | second``.
         metas: Meta events of `KEPT_METAS`.
+        ports: Where the track changes its port: the number of channel messages before, and the port.
+        standards: The standards that the track switches to, in order, each with its tick.
         end_tick: When the track ends.
         end: Position after the last byte read.
         ended: Whether an end-of-track event was found.
@@ -57,6 +71,8 @@ class Track:
     number: int
     packed: list[int] = field(default_factory=list[int])
     metas: list[Meta] = field(default_factory=list[Meta])
+    ports: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
+    standards: list[tuple[int, Standard]] = field(default_factory=list[tuple[int, Standard]])
     end_tick: int = 0
     end: int = 0
     ended: bool = False
@@ -196,6 +212,9 @@ def _read_system(
             raise _BrokenError(f"a meta event of {length} bytes where {len(data) - begin} are left")
         if kind == END_OF_TRACK:
             track.ended = True
+        elif kind == PORT and length:
+            if not track.ports or track.ports[-1][1] != data[begin]:
+                track.ports.append((len(track.packed), data[begin]))
         elif kind in KEPT_METAS:
             if len(track.metas) == MOST_METAS:
                 raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
@@ -204,6 +223,7 @@ def _read_system(
     if status in {0xF0, 0xF7}:
         length, begin = _read_length(data, at)
         if begin + length <= len(data):
+            _keep_sysex(data[begin : begin + min(length, LONGEST_SYSEX)], tick, track)
             return begin + length
         closing = data.find(b"\xf7", at)
         if closing < 0:
@@ -216,6 +236,15 @@ def _read_system(
         return closing + 1
     log.add("system_message", place(at - 1), f"status {status:#04x} does not belong into a file; skipped")
     return at + SYSTEM_DATA_BYTES.get(status, 0)
+
+
+def _keep_sysex(data: bytes, tick: int, track: Track) -> None:
+    """Keep what a system exclusive message says of drums, if it says anything of them."""
+    if (mode := read_part_mode(data)) is not None and tick <= MOST_TICKS:
+        status = PART_MODE << 4 | mode.channel
+        track.packed.append(tick << TICK_SHIFT | status << 16 | int(mode.is_drums) << 8)
+    elif (standard := read_standard(data)) is not None:
+        track.standards.append((tick, standard))
 
 
 def _skip_stray(data: bytes, at: int, place: _Place, log: WarningLog) -> int:
