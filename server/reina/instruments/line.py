@@ -37,7 +37,7 @@ ROUNDING_S = 1e-6
 
 
 class _Note(NamedTuple):
-    index: int
+    note: int
     onset_s: float
     end_s: float
     pitch: int
@@ -121,7 +121,7 @@ class _LineMaker:
 
     def drop(self, kind: str, note: _Note, why: str) -> None:
         """Leave a note out and tell of it."""
-        self.dropped.add(note.index)
+        self.dropped.add(note.note)
         self._log.add(kind, self._place(note), f"{pitch_name(note.pitch)} is not played: {why}")
 
     def one_at_a_time(self, notes: list[_Note]) -> list[_Note]:
@@ -199,11 +199,11 @@ class _LineMaker:
         """End a note where the following begins."""
         overlap = note.end_s - following.onset_s
         if overlap > TOLD_OVERLAP_S:
-            self.shortened.add(note.index)
+            self.shortened.add(note.note)
             what = f"{pitch_name(note.pitch)} ends {overlap * 1000:.0f} ms earlier"
             where = f"where {pitch_name(following.pitch)} begins"
             self._log.add("note_shortened", self._place(note), f"{what}, {where}")
         return note._replace(end_s=following.onset_s)
 
     def _place(self, note: _Note) -> str:
-        return f"part {self._part}, note {note.index} at {note.onset_s:.3f} s"
+        return f"part {self._part}, note {note.note} at {note.onset_s:.3f} s"

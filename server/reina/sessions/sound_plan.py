@@ -107,7 +107,7 @@ def _voices(score: Score, trumpet_part: int | None) -> tuple[list[_Voice], NDArr
     """Return the voices of a score, seated, and (N,) which one each note belongs to."""
     notes = score.notes
     keys = notes.part.astype(np.int64) << 16 | notes.channel
-    values, first, voice_of_note = np.unique(keys, return_index=True, return_inverse=True)
+    unique, first, voice_of_note = np.unique(keys, return_index=True, return_inverse=True)
     known = notes.program != NO_PROGRAM
     # A voice's program changes at notes that name another one than the last of its notes that names one.
     order = np.flatnonzero(known)[np.argsort(voice_of_note[known], kind="stable")]
@@ -118,7 +118,8 @@ def _voices(score: Score, trumpet_part: int | None) -> tuple[list[_Voice], NDArr
         tick = round(float(notes.onset_s[note]) * SAMPLE_RATE)
         changes[int(voice_of_note[note])].append((tick, int(notes.program[note])))
     voices: list[_Voice] = []
-    for index, value in enumerate(values.tolist()):
+    values: list[int] = unique.tolist()
+    for index, value in enumerate(values):
         part = score.parts[value >> 16]
         programs = changes[index]
         begins_with_it = programs and notes.program[first[index]] != NO_PROGRAM

@@ -67,7 +67,7 @@ def read_channel_state(messages: Messages, notes: Messages, tracks: Sequence[Tra
     mode_holds = (by_bank == UNSAID) | (modes.tick > banks.tick)
     said = np.where(mode_holds, modes.value, by_bank)
     by_channel = notes.channel % CHANNELS_OF_PORT == DRUM_CHANNEL
-    is_drums = np.where(said == UNSAID, by_channel, said == DRUMS)
+    is_drums = (said == DRUMS) | ((said == UNSAID) & by_channel)
     return ChannelState(np.where(programs.tick == NEVER, NO_PROGRAM, programs.value), is_drums)
 
 
