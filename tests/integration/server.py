@@ -47,13 +47,16 @@ class Running:
 
 
 @contextmanager
-def serve(data_dir: Path, *arguments: str) -> Generator[Running]:
-    """Start a server on a free port, and end it."""
+def serve(data_dir: Path, *arguments: str, source: Path | None = None) -> Generator[Running]:
+    """Start a server on a free port, from another work tree if one is named, and end it."""
+    environment = os.environ | ({"PYTHONPATH": str(source / "server")} if source else {})
     command = [sys.executable, "-c", "import sys; from reina.cli import main; sys.exit(main())"]
     process = subprocess.Popen(
         [*command, "serve", "--port", "0", "--data-dir", str(data_dir), *arguments],
         stdout=subprocess.PIPE,
         text=True,
+        env=environment,
+        cwd=source,
     )
     try:
         assert process.stdout is not None
