@@ -32,6 +32,7 @@ from reina.api.body_limit import BodyLimit
 from reina.api.compression import Compression
 from reina.api.description import describe
 from reina.api.guard import Guard
+from reina.api.retrieval import Retrieval
 from reina.api.settings import Settings
 from reina.protocol.links import API
 from reina.sessions.production import Stage
@@ -45,7 +46,9 @@ DESCRIPTION = """\
 A score becomes a trumpeter. Make a session of a MIDI or JSON score, then watch it: over the WebSocket
 `/api/v1/sessions/{id}/stream` (docs/protocol.md says what comes), or frame by frame over HTTP.
 
-Errors are problem details (RFC 9457). Watching needs a session's id, changing it its control token.
+Whatever answers to GET answers to HEAD too, and to conditions (RFC 9110, 13): keep what was answered, and ask
+again with its `ETag`. Errors are problem details (RFC 9457). Watching needs a session's id, changing it its
+control token.
 """
 
 
@@ -108,4 +111,5 @@ def create_app(
     app.add_middleware(Compression)
     app.add_middleware(BodyLimit)
     app.add_middleware(Guard, settings=chosen)
+    app.add_middleware(Retrieval)
     return app

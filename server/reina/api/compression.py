@@ -5,14 +5,17 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import GZipMiddleware
 
 if TYPE_CHECKING:
-    from starlette.types import ASGIApp, Receive, Scope, Send
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LEAST_BYTES = 1000
 PLAIN = re.compile(r"/api/v1/(sessions/[^/]+/(frames|song)|rigs/[^/]+/.+|examples/.+|lab/bvh)$")
 """Floats, sound and models hardly shrink, and their ranges and lengths are to stay what they are."""
+REFUSED = re.compile(rb"(^|,)\s*gzip\s*;\s*q=0(\.0*)?\s*(,|$)", re.IGNORECASE)
+"""gzip is named as what is not wanted (RFC 9110, 12.4.2)."""
 ANEW = re.compile(r"/api/v1/sessions/")
 """Answers that are written anew each time and waited for: a fifth larger, in less than half the time."""
 
@@ -28,7 +31,26 @@ class Compression:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass on, compressing the answer or not."""
         if scope["type"] != "http" or PLAIN.match(scope["path"]):
-            way = self._plain
-        else:
-            way = self._quickly if ANEW.match(scope["path"]) else self._compressed
-        await way(scope, receive, send)
+            await self._plain(scope, receive, send)
+            return
+        headers = [
+            (name, value)
+            for name, value in scope["headers"]
+            if name != b"accept-encoding" or not REFUSED.search(value)
+        ]
+        scope = {**scope, "headers": headers}
+        if ANEW.match(scope["path"]):
+            # These validators name a state, in whatever form it is sent, and writes are made on top of it.
+            await self._quickly(scope, receive, send)
+            return
+
+        async def marked(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(raw=message["headers"])
+                etag = headers.get("etag")
+                if etag and headers.get("content-encoding") == "gzip":
+                    # Other bytes, another validator (RFC 9110, 8.8.3.3).
+                    headers["ETag"] = f'{etag[:-1]}+gzip"'
+            await send(message)
+
+        await self._compressed(scope, receive, marked)

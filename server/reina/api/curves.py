@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Depends, Query, Response
 
 from reina.api.access import Controlled, Store, Watched
-from reina.api.conditions import IfNoneMatch, conditional
+from reina.api.conditions import IfNoneMatch, named, not_modified, validated
 from reina.api.frames import LATEST_S
 from reina.api.problems import ProblemError
 from reina.api.tracks import known_parameter
@@ -84,13 +84,12 @@ async def get_curves(
     production, kept = session.production, session.kept_show
     identity = "\n".join([str(span), *curves_identity(production, kept.text, parameter)])
     etag = f'"{hashlib.sha256(identity.encode()).hexdigest()[:24]}"'
-    unchanged = conditional("", etag, if_none_match)
-    if unchanged.status_code != 200:
-        return unchanged
+    if if_none_match is not None and named(if_none_match, etag, strongly=False):
+        return not_modified(etag)
     text = await asyncio.to_thread(
         lambda: curves_of_show(production, kept, parameter, span).model_dump_json()
     )
-    return conditional(text, etag, None)
+    return validated(text, etag)
 
 
 @router.post("/sessions/{session_id}/show/curves")

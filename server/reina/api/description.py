@@ -4,10 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from reina.api.conditions import IF_NONE_MATCH_TEXT
 from reina.api.problems import MEDIA_TYPE
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
+
+IF_NONE_MATCH: dict[str, Any] = {
+    "name": "if-none-match",
+    "in": "header",
+    "required": False,
+    "description": IF_NONE_MATCH_TEXT,
+    "schema": {"anyOf": [{"type": "string"}, {"type": "null"}], "title": "If-None-Match"},
+}
 
 
 def describe(app: FastAPI) -> None:
@@ -17,17 +26,26 @@ def describe(app: FastAPI) -> None:
     def openapi() -> dict[str, Any]:
         document = generate()
         for operations in document["paths"].values():
-            for operation in operations.values():
+            for method, operation in operations.items():
                 responses: dict[str, Any] = operation["responses"]
                 problem: dict[str, Any] = responses.get("4XX", {})
                 # FastAPI gives it the media type of the route's good answers.
                 if "content" in problem:
                     (body,) = problem["content"].values()
                     problem["content"] = {MEDIA_TYPE: body}
+                if method == "get":
+                    _add_if_none_match(operation)
                 _describe_conditions(operation, problem)
         return document
 
     app.openapi = openapi
+
+
+def _add_if_none_match(operation: dict[str, Any]) -> None:
+    """Which every GET takes, whether its route looks at it or not."""
+    parameters: list[dict[str, Any]] = operation.setdefault("parameters", [])
+    if all(parameter["name"] != IF_NONE_MATCH["name"] for parameter in parameters):
+        parameters.append(dict(IF_NONE_MATCH))
 
 
 def _describe_conditions(operation: dict[str, Any], problem: dict[str, Any]) -> None:

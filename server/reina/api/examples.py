@@ -7,7 +7,7 @@ from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
 from reina.api.access import ServerSettings
-from reina.api.files import file_below
+from reina.api.files import ServedFile, file_below
 from reina.api.problems import ProblemError
 from reina.music import read_score
 from reina.protocol.links import API
@@ -49,14 +49,14 @@ def list_examples(settings: ServerSettings) -> ExampleList:
 
 
 @router.get("/examples/{folder}/{name}", response_class=FileResponse)
-def get_example_file(folder: str, name: str, settings: ServerSettings) -> FileResponse:
+def get_example_file(folder: str, name: str, settings: ServerSettings) -> ServedFile:
     """One file of a bundled piece."""
     path = file_below(settings.examples_dir / folder, name) if folder in FOLDERS else None
     if path is None:
         raise ProblemError(
             404, "unknown-example", "There is no such example", f"the examples have no file {folder}/{name}"
         )
-    return FileResponse(path, headers={"Cache-Control": "no-cache"})
+    return ServedFile(path)
 
 
 def _href(path: Path) -> str:

@@ -3,17 +3,15 @@
 from pathlib import Path
 
 from fastapi import APIRouter
-from fastapi.responses import FileResponse
 from starlette.convertors import PathConvertor, register_url_convertor
 
 from reina.api.access import ServerSettings
-from reina.api.files import file_below
+from reina.api.files import IMMUTABLE, REVALIDATED, ServedFile, file_below
 from reina.api.problems import ProblemError
 from reina.api.settings import Settings
 
 router = APIRouter(include_in_schema=False)
 
-READING = ["GET", "HEAD"]
 HASHED = "assets"
 """Files in this folder have their content's hash in their name: they never change."""
 
@@ -27,20 +25,20 @@ class PageFileConvertor(PathConvertor):
 register_url_convertor("page_file", PageFileConvertor())
 
 
-@router.api_route("/", methods=READING)
-@router.api_route("/s/{session_id}", methods=READING)
-def get_page(settings: ServerSettings) -> FileResponse:
+@router.get("/")
+@router.get("/s/{session_id}")
+def get_page(settings: ServerSettings) -> ServedFile:
     """The page; which session it shows it reads from its own address."""
     return _document(settings, "index.html")
 
 
-@router.api_route("/lab", methods=READING)
-def get_lab(settings: ServerSettings) -> FileResponse:
+@router.get("/lab")
+def get_lab(settings: ServerSettings) -> ServedFile:
     """The laboratory: a page of its own."""
     return _document(settings, "lab.html")
 
 
-def _document(settings: Settings, name: str) -> FileResponse:
+def _document(settings: Settings, name: str) -> ServedFile:
     path = settings.page_dir / name
     if not path.is_file():
         raise ProblemError(
@@ -49,11 +47,11 @@ def _document(settings: Settings, name: str) -> FileResponse:
             "The page has not been built",
             "`make setup` builds it; the API answers without it",
         )
-    return FileResponse(path, headers={"Cache-Control": "no-cache"})
+    return ServedFile(path)
 
 
-@router.api_route("/{file:page_file}", methods=READING)
-def get_file(file: str, settings: ServerSettings) -> FileResponse:
+@router.get("/{file:page_file}")
+def get_file(file: str, settings: ServerSettings) -> ServedFile:
     """A file of the page."""
     path = file_below(settings.page_dir, file)
     if path is None:
@@ -63,6 +61,4 @@ def get_file(file: str, settings: ServerSettings) -> FileResponse:
             "Not Found",
             f"there is nothing at /{file}; the API stands under /api/v1, see /docs",
         )
-    lasting = Path(file).parts[0] == HASHED
-    caching = "public, max-age=31536000, immutable" if lasting else "no-cache"
-    return FileResponse(path, headers={"Cache-Control": caching})
+    return ServedFile(path, caching=IMMUTABLE if Path(file).parts[0] == HASHED else REVALIDATED)

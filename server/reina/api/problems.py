@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
 from starlette.exceptions import HTTPException
+from starlette.routing import Match
 
 from reina.errors import InputError
 from reina.keyframes.errors import KeyNotFoundError, ShowError
@@ -20,8 +21,11 @@ if TYPE_CHECKING:
 
     from fastapi import FastAPI, Request
     from pydantic import ValidationError
+    from starlette.routing import BaseRoute
 
 MEDIA_TYPE = "application/problem+json"
+METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
+"""What an address may answer to of itself."""
 
 
 RESPONSES: dict[int | str, dict[str, Any]] = {
@@ -128,10 +132,27 @@ def _problem_of_status(error: HTTPException) -> ProblemError:
     return ProblemError(error.status_code, kind, phrase, detail, headers=error.headers)
 
 
+def _not_answered(request: Request) -> Response:
+    """To a method that an address does not have: which it has; OPTIONS asks for nothing else."""
+    scope = {name: request.scope[name] for name in ("type", "path", "root_path", "headers")}
+    routes: list[BaseRoute] = request.app.routes
+    methods = {
+        method
+        for method in METHODS
+        if any(route.matches({**scope, "method": method})[0] is Match.FULL for route in routes)
+    }
+    # HEAD is answered as GET is.
+    methods |= {"OPTIONS"} | ({"HEAD"} if "GET" in methods else set())
+    allow = {"Allow": ", ".join(sorted(methods))}
+    if request.method == "OPTIONS":
+        return Response(status_code=204, headers=allow)
+    return _problem_of_status(HTTPException(405, headers=allow)).response()
+
+
 def install(app: FastAPI) -> None:
     """Make the application answer every error so."""
 
-    async def refused(_: Request, error: Exception) -> Response:
+    async def refused(request: Request, error: Exception) -> Response:
         match error:
             case ProblemError():
                 return error.response()
@@ -139,6 +160,8 @@ def install(app: FastAPI) -> None:
                 return problem_of_input(error).response()
             case RequestValidationError():
                 return problem_of_validation(error).response()
+            case HTTPException(status_code=405):
+                return _not_answered(request)
             case HTTPException():
                 return _problem_of_status(error).response()
             case _:

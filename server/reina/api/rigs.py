@@ -8,7 +8,7 @@ from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
 from reina.api.access import ServerSettings
-from reina.api.files import file_below
+from reina.api.files import ServedFile, file_below
 from reina.api.problems import ProblemError
 from reina.protocol.links import rig_href
 from reina.protocol.resources import RigList, RigSummary
@@ -40,15 +40,11 @@ def get_rig(name: str, settings: ServerSettings) -> dict[str, Any]:
 
 
 @router.get("/rigs/{name}/{file:path}", response_class=FileResponse)
-def get_rig_file(name: str, file: str, settings: ServerSettings) -> FileResponse:
+def get_rig_file(name: str, file: str, settings: ServerSettings) -> ServedFile:
     """One of a rig's files: a model, a clip, its licence."""
     path = _file(settings.rigs_dir, name, file)
-    return FileResponse(
-        path,
-        media_type=MEDIA_TYPES.get(path.suffix),
-        # A model that is built anew keeps its name: it is asked for each time, and mostly not sent.
-        headers={"Cache-Control": "no-cache"},
-    )
+    # A model that is built anew keeps its name.
+    return ServedFile(path, media_type=MEDIA_TYPES.get(path.suffix))
 
 
 def _file(rigs_dir: Path, name: str, file: str) -> Path:

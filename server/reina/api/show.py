@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Request, Response
 
 from reina.api.access import Controlled, Store, Watched
 from reina.api.body import read_show_body
-from reina.api.conditions import NOT_MODIFIED, IfMatch, IfNoneMatch, conditional
+from reina.api.conditions import IfMatch, IfNoneMatch, named, not_modified, validated
 from reina.api.show_change import ShowChange
 from reina.protocol.messages import ShowState
 from reina.protocol.resources import ShowWarnings
@@ -48,10 +48,9 @@ async def get_show(
 ) -> Response:
     """The whole show, as docs/show.schema.json describes it, or its own fields and some of its tracks."""
     text = session.kept_show.text
-    known = conditional("", text.etag, if_none_match)
-    if known.status_code == NOT_MODIFIED:
-        return known
-    return conditional(await asyncio.to_thread(text.of_tracks, parameter), text.etag, None)
+    if if_none_match is not None and named(if_none_match, text.etag, strongly=False):
+        return not_modified(text.etag)
+    return validated(await asyncio.to_thread(text.of_tracks, parameter), text.etag)
 
 
 @router.put(
@@ -68,7 +67,7 @@ async def put_show(session: Controlled, store: Store, request: Request, if_match
     """Another show in its place. Tracks of parameters that nobody knows are kept, without effect."""
     show = read_show(await read_show_body(request), store.stage.registry)
     kept = await ShowChange(session, store, if_match).edit(lambda _: show)
-    return conditional(kept.text.text, kept.text.etag, None)
+    return validated(kept.text.text, kept.text.etag)
 
 
 @router.get("/sessions/{session_id}/show/history")

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
 
 from reina.api.access import Watched
+from reina.api.files import ServedFile
 from reina.api.problems import ProblemError
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
@@ -36,7 +37,7 @@ async def get_song(session: Watched) -> Response:
     path = _song_path(session)
     if path is None:
         return _under_way(session)
-    return FileResponse(path, media_type=session.song.media_type, headers=HEADERS)
+    return ServedFile(path, media_type=session.song.media_type, headers=HEADERS)
 
 
 @router.get(

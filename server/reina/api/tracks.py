@@ -7,7 +7,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Body, Path, Response
 
 from reina.api.access import Controlled, Store, Watched
-from reina.api.conditions import IfMatch, IfNoneMatch, conditional
+from reina.api.conditions import IfMatch, validated
 from reina.api.problems import ProblemError
 from reina.api.show_change import ShowChange
 from reina.keyframes import (
@@ -55,14 +55,12 @@ TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
 
 
 @router.get(KEYFRAMES, response_model=Document)
-async def list_keyframes(
-    session: Watched, path: TrackPath, store: Store, if_none_match: IfNoneMatch = None
-) -> Response:
+async def list_keyframes(session: Watched, path: TrackPath, store: Store) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
     known_parameter(store.stage.registry, path)
     kept = session.kept_show
     keyframes = [keyframe_document(keyframe) for keyframe in _keyframes(kept.show, path)]
-    return conditional(json.dumps({"keyframes": keyframes}), kept.text.track_etag(path), if_none_match)
+    return validated(json.dumps({"keyframes": keyframes}), kept.text.track_etag(path))
 
 
 @router.post(KEYFRAMES, status_code=201)
@@ -98,14 +96,12 @@ async def add_keyframe(
 
 
 @router.get(f"{KEYFRAMES}/{{key}}", response_model=Document)
-async def get_keyframe(
-    session: Watched, path: TrackPath, key: Key, store: Store, if_none_match: IfNoneMatch = None
-) -> Response:
+async def get_keyframe(session: Watched, path: TrackPath, key: Key, store: Store) -> Response:
     """One keyframe, under its track's validator."""
     known_parameter(store.stage.registry, path)
     kept = session.kept_show
     document = keyframe_document(kept.show.track(path).keyframe(key))
-    return conditional(json.dumps(document), kept.text.track_etag(path), if_none_match)
+    return validated(json.dumps(document), kept.text.track_etag(path))
 
 
 @router.patch(f"{KEYFRAMES}/{{key}}")
@@ -144,15 +140,13 @@ async def remove_keyframe(
 
 
 @router.get(TRACK, response_model=Document)
-async def get_track(
-    session: Watched, path: TrackPath, store: Store, if_none_match: IfNoneMatch = None
-) -> Response:
+async def get_track(session: Watched, path: TrackPath, store: Store) -> Response:
     """A whole track: its keyframes, their unit, what comes before and after them, what it answers."""
     known_parameter(store.stage.registry, path)
     written = session.kept_show.text.tracks.get(path)
     if written is None:
         raise KeyNotFoundError("the show has no such track", track=path)
-    return conditional(written.text, written.etag, if_none_match)
+    return validated(written.text, written.etag)
 
 
 @router.put(TRACK, response_model=Document)
@@ -180,7 +174,7 @@ async def put_track(
         lambda show: with_edits(show, [{"edit": "put_track", "track": track}], registry)
     )
     written = kept.text.tracks[path]
-    return conditional(written.text, written.etag, None)
+    return validated(written.text, written.etag)
 
 
 @router.delete(TRACK, status_code=204)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, BinaryIO
 from python_multipart.exceptions import FormParserError
 from python_multipart.multipart import MultipartParser, parse_options_header
 
+from reina.api.filename import filename_of
 from reina.api.problems import ProblemError
 
 if TYPE_CHECKING:
@@ -147,7 +148,8 @@ class _PartWriter:
         self._header = (bytearray(), bytearray())
 
     def _begin(self) -> None:
-        _, options = parse_options_header(self._headers.get(b"content-disposition"))
+        disposition = self._headers.get(b"content-disposition", b"")
+        _, options = parse_options_header(disposition)
         self._name = options.get(b"name", b"").decode("utf-8", "replace")
         self._size = 0
         if self._name not in LIMITS:
@@ -160,11 +162,9 @@ class _PartWriter:
         if self._name in FIELD_LIMITS:
             self._text = bytearray()
             return
-        filename = options.get(b"filename")
         path = self._folder / self._name
-        self.upload.files[self._name] = UploadedFile(
-            path, filename.decode("utf-8", "replace") if filename else None
-        )
+        filename = filename_of(options.get(b"filename"), disposition)
+        self.upload.files[self._name] = UploadedFile(path, filename)
         self._file = path.open("wb")
 
     def _write(self, data: bytes) -> None:

@@ -1,5 +1,6 @@
 """Any score that people have, from its bytes."""
 
+import re
 from pathlib import PurePath
 
 from reina.music.document.reader import read_json
@@ -8,6 +9,8 @@ from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.midi import read_midi
 from reina.music.score import Score
 
+ENDING = re.compile(r"\.(?=[0-9]*[A-Za-z])[A-Za-z0-9]{1,5}$")
+"""What tells a file's kind in its name: ``.mid``, but not the ``. 5`` of a symphony."""
 JSON_BEGINNINGS = (b"{", b"[", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 
 
@@ -36,11 +39,16 @@ def read_score(
     if not data:
         raise ScoreError("the file is empty", where="byte 0")
     limits.check("size_bytes", len(data), what="size in bytes")
-    title = PurePath(filename).stem if filename else ""
+    title = _title(filename) if filename else "Untitled"
     if data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS):
         if sequence not in {None, 0}:
             raise NotInScoreError(
                 f"a JSON score holds one sequence, 0; there is no sequence {sequence}", where="sequence"
             )
-        return read_json(data, title=title or "Untitled", limits=limits)
-    return read_midi(data, title=title or "Untitled", sequence=sequence, limits=limits)
+        return read_json(data, title=title, limits=limits)
+    return read_midi(data, title=title, sequence=sequence, limits=limits)
+
+
+def _title(filename: str) -> str:
+    title = ENDING.sub("", PurePath(filename).name).strip()
+    return title if title.strip(". ") else "Untitled"
