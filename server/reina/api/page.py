@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fastapi import APIRouter
+from fastapi import APIRouter, WebSocket
 from starlette.convertors import PathConvertor, register_url_convertor
 
 from reina.api.access import ServerSettings
@@ -62,3 +62,10 @@ def get_file(file: str, settings: ServerSettings) -> ServedFile:
             f"there is nothing at /{file}; the API stands under /api/v1, see /docs",
         )
     return ServedFile(path, caching=IMMUTABLE if Path(file).parts[0] == HASHED else REVALIDATED)
+
+
+@router.websocket("/{path:path}")
+async def refuse_stream(socket: WebSocket, path: str) -> None:
+    """No other address has a stream."""
+    detail = f"there is no stream at /{path}; /api/v1/sessions/{{id}}/stream has one"
+    await socket.send_denial_response(ProblemError(404, "not-found", "Not Found", detail).response())

@@ -16,6 +16,7 @@ import uvicorn
 
 from reina.api.app import create_app
 from reina.api.settings import Settings, require_page, require_writable
+from reina.cli.http_protocol import ProblemProtocol
 from reina.cli.listening import listen
 from reina.errors import InputError
 from reina.sessions.production import Stage
@@ -87,6 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
     server = Server(
         uvicorn.Config(
             create_app(settings, stage=stage),
+            http=ProblemProtocol,
             # Deflate saves 3 % of the frames' bytes at ten times the cost.
             ws_per_message_deflate=False,
             ws_max_size=LARGEST_MESSAGE,
