@@ -36,14 +36,14 @@ class Traffic:
     """Bytes, headers included, of what is complete."""
 
     def __post_init__(self) -> None:
-        protocol = self.page.context.new_cdp_session(self.page)
-        protocol.on("Network.requestWillBeSent", self._asked)
-        protocol.on("Network.responseReceivedExtraInfo", self._answered)
-        protocol.on("Network.loadingFinished", self._complete)
-        protocol.send("Network.enable")
+        devtools: Any = self.page.context.new_cdp_session(self.page)
+        devtools.on("Network.requestWillBeSent", self._asked)
+        devtools.on("Network.responseReceivedExtraInfo", self._answered)
+        devtools.on("Network.loadingFinished", self._complete)
+        devtools.send("Network.enable")
 
     def _asked(self, event: dict[str, Any]) -> None:
-        self.paths[event["requestId"]] = urlsplit(event["request"]["url"]).path
+        self.paths[event["requestId"]] = urlsplit(str(event["request"]["url"])).path
 
     def _answered(self, event: dict[str, Any]) -> None:
         self.statuses[event["requestId"]] = event["statusCode"]

@@ -96,14 +96,14 @@ def check(answer: httpx.Response, asked: object) -> None:
 
 @pytest.mark.parametrize("path", PATHS)
 def test_methods(client: httpx.Client, watched: Owned, path: str) -> None:
-    operations = {method.upper() for method in PATHS[path]}
+    operations: set[str] = {method.upper() for method in PATHS[path]}
     if path.startswith(TRACK):
         # A parameter's path may have slashes: what is below a track may be a track.
         operations |= {method.upper() for method in PATHS[TRACK]}
     for method in METHODS:
         answer = client.request(method, filled(path, watched))
         check(answer, (method, path))
-        answered = operations | {"OPTIONS"} | ({"HEAD"} if "GET" in operations else set())
+        answered = operations | {"OPTIONS", *(["HEAD"] if "GET" in operations else [])}
         assert (answer.status_code == 405) == (method not in answered), (method, path)
         if answer.status_code == 405:
             assert answer.headers["allow"] == ", ".join(sorted(answered)), (method, path)
