@@ -32,7 +32,8 @@ class InstrumentNames:
 def spellings() -> Mapping[str, tuple[str, ...]]:
     """Return for each instrument its names as instrument_names.toml writes them."""
     return {
-        instrument: tuple(name.strip() for name in row["names"].split(",")) for instrument, row in _rows().items()
+        instrument: tuple(name.strip() for name in row["names"].split(","))
+        for instrument, row in _rows().items()
     }
 
 
@@ -40,7 +41,9 @@ def instruments_of_name(name: str) -> tuple[str, ...]:
     """Return which instruments a part's name speaks of, in the order of instrument_names.toml."""
     text = _spaced(name)
     return tuple(
-        instrument for instrument, row in _instruments().items() if any(sought in text for sought in row.sought)
+        instrument
+        for instrument, row in _instruments().items()
+        if any(sought in text for sought in row.sought)
     )
 
 

@@ -5,14 +5,22 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable
 from functools import cache
+from itertools import islice
 
 from reina.music.instrument_names import spellings
 from reina.music.midi.languages import DOUBLE_BYTE, languages
 from reina.music.midi.spelling import spelling_likelihood
 from reina.music.midi.unicode_text import decode_unicode, decode_whole, without_end
 
-SAMPLE_BYTES = 2048
-"""How much text is examined."""
+MOST_TEXTS, SAMPLE_BYTES = 1000, 1024
+"""How many texts beyond ASCII are looked at, and how much of them is examined."""
+
+STRANGE, TOO_SHORT = -4.3, 8
+"""Texts of a lower log-likelihood a byte than this are in no set of languages.toml; below so many bytes one
+cannot tell."""
+
+RARE = ("euc_jp", "koi8_r", "cp866", "iso8859_5", "cp1256")
+"""Character sets that charset-normalizer is asked about then."""
 
 CUT = -7.0
 """A text that ends within a character."""
@@ -38,16 +46,25 @@ def decide_encoding(texts: Iterable[bytes]) -> str:
     sample = _sample(texts)
     if not sample:
         return "utf-8"
-    return max(languages(), key=lambda encoding: _likelihood(sample, encoding))
+    likelihood, encoding = max((_likelihood(sample, encoding), encoding) for encoding in languages())
+    length = sum(map(len, sample))
+    if length >= TOO_SHORT and likelihood < STRANGE * length:
+        return _rare_encoding(sample) or encoding
+    return encoding
+
+
+def _rare_encoding(sample: list[bytes]) -> str | None:
+    from charset_normalizer import from_bytes  # It takes 25 ms to import, and few files need it.
+
+    best = from_bytes(b"\n".join(sample), cp_isolation=list(RARE), enable_fallback=False).best()
+    return best.encoding if best else None
 
 
 def _sample(texts: Iterable[bytes]) -> list[bytes]:
     """Return different texts in no Unicode form, `SAMPLE_BYTES` at most."""
     sample: dict[bytes, None] = {}
     left = SAMPLE_BYTES
-    for data in texts:
-        if data.isascii():
-            continue
+    for data in islice((data for data in texts if not data.isascii()), MOST_TEXTS):
         text = without_end(data)[:left]
         if text in sample or decode_unicode(text) is not None:
             continue
@@ -72,7 +89,7 @@ def _likelihood(sample: list[bytes], encoding: str) -> float:
 
 
 def _instruments(words: Iterable[str], *, anywhere: bool) -> int:
-    """Return how many of the words are or begin with an instrument's name; or hold one, in scripts without spaces."""
+    """Return how many of the words begin with an instrument's name, or hold one if `anywhere`."""
     names, whole, longest = _names()
     found = 0
     for word in words:
@@ -85,7 +102,7 @@ def _instruments(words: Iterable[str], *, anywhere: bool) -> int:
 
 @cache
 def _names() -> tuple[frozenset[str], frozenset[str], int]:
-    """Return instruments' names with letters beyond ASCII: beginnings of words, whole words; and the longest's length."""
+    """Return instruments' names beyond ASCII: beginnings of words, whole words, and the longest's length."""
     names = [name.casefold() for of_one in spellings().values() for name in of_one if not name.isascii()]
     beginnings = frozenset(name for name in names if not name.endswith(".") and len(name) > 1)
     whole = frozenset(name[:-1] for name in names if name.endswith(".") and len(name) > 2)

@@ -3,7 +3,7 @@
 import math
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
@@ -37,8 +37,8 @@ DOUBLE_BYTE: Mapping[str, tuple[tuple[range, int, float], ...]] = {
         (range(0xCA, 0xFE), 0xA1, -14.7),  # hanja
     ),
 }
-"""The double-byte sets: of rows by lead byte, from a trail byte on, the log-probability of each character that is
-not among the commonest of its language; the first row that fits counts."""
+"""The double-byte sets: by lead byte, from a trail byte on, the log-probability of each character that is not
+among the commonest of its language; the first row that fits counts."""
 
 NO_ROW, NOT_ENCODED = -17.0, -30.0
 COMMON_SHARE = {"cp932": 0.35, "gb18030": 0.75, "cp950": 0.75, "cp949": 0.75}
@@ -51,10 +51,10 @@ HALF_WIDTH = range(0xFF61, 0xFFA0)
 HALF_WIDTH_PRIOR = -6.0
 
 LATIN_LETTER, LATIN_FOREIGN, LATIN_SHARE = -3.2, -6.0, 0.08
-"""Log-probability of an ASCII letter, of one that the language does not use, and how many letters are beyond ASCII."""
+"""Log-probability of an ASCII letter, of one foreign to the language; the share of letters beyond ASCII."""
 
 OTHER_ALPHABET_LETTER = -6.0
-"""Log-probability of an ASCII letter in Greek, Cyrillic or Hebrew, beside those letters that are of that alphabet."""
+"""Log-probability of an ASCII letter in a Greek, Cyrillic or Hebrew text."""
 
 DOUBLE_BYTE_LETTER = -5.0
 SPACE, DIGIT, SIGN, CONTROL = -2.5, -5.0, -6.0, -4.0
@@ -80,7 +80,7 @@ class Language:
     characters: dict[str, float]
     words: frozenset[str] = frozenset()
     beginnings: tuple[str, ...] = ()
-    endings: tuple[str, ...] = field(default=())
+    endings: tuple[str, ...] = ()
 
     def likelihood(self, counts: Mapping[str, int], words: Iterable[str]) -> float:
         """Return the log-likelihood of a text.
@@ -132,7 +132,9 @@ def languages() -> Mapping[str, tuple[Language, ...]]:
 
 def _ascii(letter: float) -> dict[str, float]:
     characters = {chr(code): SIGN for code in range(0x21, 0x7F)}
-    return characters | {c: letter if c.isalpha() else DIGIT for c in characters if c.isalnum()} | {" ": SPACE}
+    return (
+        characters | {c: letter if c.isalpha() else DIGIT for c in characters if c.isalnum()} | {" ": SPACE}
+    )
 
 
 def _double_byte(encoding: str, common: str) -> Language:

@@ -13,7 +13,7 @@ from reina.music.score import Part
 
 
 def find_parts(
-    tracks: Sequence[Track], source: IntArray, tick: IntArray, programs: Messages
+    tracks: Sequence[Track], source: IntArray, tick: IntArray, programs: Messages, encoding: str
 ) -> tuple[tuple[Part, ...], IntArray]:
     """Make a part of each channel in each track that has notes.
 
@@ -22,6 +22,7 @@ def find_parts(
         source: (N,) ``track index << 4 | channel`` of each note.
         tick: (N,) onset of each note.
         programs: The program changes of all tracks, sorted by tick.
+        encoding: The character set of the names.
 
     Returns:
         The parts and (N,) the index of each note's part.
@@ -39,7 +40,7 @@ def find_parts(
         if changes is not None:
             program = _program(programs.tick[changes], programs.first[changes], ticks[index])
         is_drums = channel == DRUM_CHANNEL
-        own_name = _name(tracks[track], alone=channels_in_track[track] == 1)
+        own_name = _name(tracks[track], encoding, alone=channels_in_track[track] == 1)
         known = "Drums" if is_drums else PROGRAM_NAMES[program] if program is not None else ""
         shared = f"Channel {channel + 1}" if channels_in_track[track] > 1 else f"Track {tracks[track].number}"
         parts.append(
@@ -64,11 +65,11 @@ def _group(keys: IntArray) -> dict[int, IntArray]:
     )
 
 
-def _name(track: Track, *, alone: bool) -> str:
+def _name(track: Track, encoding: str, *, alone: bool) -> str:
     """Return the name of a track that holds one part; a track of several parts names none of them."""
     for kind in (TRACK_NAME, INSTRUMENT_NAME) if alone else ():
         for meta in track.metas:
-            text = decode_text(meta.data) if meta.kind == kind else ""
+            text = decode_text(meta.data, encoding) if meta.kind == kind else ""
             if text:
                 return text
     return ""

@@ -14,14 +14,17 @@ SMALL_FIRST = -2.5
 """A text that begins with a small Greek or Cyrillic letter."""
 SIGN_WITHIN = -3.0
 """A sign between two letters."""
-ALTERNATING, LIKE, ALL_LIKE = 0.25, -0.5, -1.2
+ALTERNATING, LIKE, ALL_LIKE = 0.25, -0.5, -1.8
 """Vowel beside consonant; vowel beside vowel; a Latin letter between two of its own kind."""
-FINAL_WITHIN, NOT_FINAL = -4.0, -3.0
-"""A Hebrew letter in its final form within a word; one at the end that is not in its final form."""
+FINAL_LAST, FINAL_WITHIN, NOT_FINAL = 1.5, -4.0, -3.0
+"""A Hebrew letter or sigma in its final form at a word's end, and within; at the end in its other form."""
+NEVER_FIRST = -4.0
+"""A Cyrillic sign or ы at a word's beginning."""
 
-VOWELS = frozenset("aeiouyæœøı" "аеёиоуыэюяіїєъ" "αεηιουω")
-FINALS, NOT_FINALS = frozenset("ךםןףץ"), frozenset("כמנפצ")
-JOINING = frozenset("’·–—\xa0")
+VOWELS = frozenset("aeiouyæœøıаеёиоуыэюяіїєъαεηιουω")
+FINALS, NOT_FINALS = frozenset("ךםןףץς"), frozenset("כמנפצσ")
+NOT_AT_FIRST = frozenset("ьъы")
+JOINING = frozenset("’·–—\xa0ºª")
 CASED = frozenset({"LATIN", "CYRILLIC", "GREEK"})
 
 
@@ -35,6 +38,7 @@ class Sort:
     is_ascii: bool = True
     is_final: bool = False
     has_final: bool = False
+    is_never_first: bool = False
     is_start: bool = False
 
 
@@ -56,7 +60,7 @@ def spelling_likelihood(texts: Iterable[str]) -> float:
 
 @lru_cache(1024)
 def _sort(character: str) -> Sort:
-    if not character.isalpha():
+    if not character.isalpha() or character in JOINING:
         return Sort(is_ascii=character < "\x80" or character in JOINING)
     script = unicodedata.name(character, "").split(" ")[0]
     return Sort(
@@ -66,6 +70,7 @@ def _sort(character: str) -> Sort:
         character < "\x80",
         character in FINALS,
         character in NOT_FINALS,
+        character in NOT_AT_FIRST,
     )
 
 
@@ -74,9 +79,12 @@ def _cost(before: Sort, this: Sort, after: Sort) -> float:
         return SIGN_WITHIN if before.script and after.script else 0.0
     beside = [sort for sort in (before, after) if sort.script]
     cost = sum(OTHER_SCRIPT for sort in beside if sort.script != this.script)
-    if this.script == "HEBREW":
-        cost += FINAL_WITHIN if this.is_final and after.script else 0.0
-        cost += NOT_FINAL if this.has_final and not after.script else 0.0
+    if this.is_final:
+        cost += FINAL_WITHIN if after.script else FINAL_LAST
+    elif this.has_final and not after.script:
+        cost += NOT_FINAL
+    elif this.is_never_first and not before.script:
+        cost += NEVER_FIRST
     if this.script not in CASED:
         return cost
     cost += _case(before, this, after)

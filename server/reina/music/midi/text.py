@@ -18,7 +18,7 @@ def decode_text(data: bytes, encoding: str) -> str:
         encoding: What `decide_encoding` found for the file.
     """
     data = without_end(data)
-    text = decode_unicode(data, longer_than_two=encoding in DOUBLE_BYTE)
+    text = decode_unicode(data, longer_than_two=encoding in DOUBLE_BYTE or encoding == "euc_jp")
     if text is None:
         text, _ = decode_whole(data, encoding)
     return _CONTROL.sub(" ", text).strip()

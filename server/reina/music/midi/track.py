@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from reina.music.errors import ScoreLimitError
+from reina.music.midi.unicode_text import LONGEST_BYTES
 from reina.music.warnings import WarningLog
 
 TICK_SHIFT = 24
@@ -19,6 +20,12 @@ TRACK_NAME, INSTRUMENT_NAME, END_OF_TRACK, SET_TEMPO, TIME_SIGNATURE = 0x03, 0x0
 """Types of the meta events that are read."""
 
 KEPT_METAS = frozenset({TRACK_NAME, INSTRUMENT_NAME, SET_TEMPO, TIME_SIGNATURE})
+
+TEXTS = frozenset({0x01, 0x02, 0x05, 0x06, 0x07})
+"""Texts, copyrights, lyrics, markers and cue points: they tell the character set of the names."""
+
+TEXT_BYTES = 4096
+"""How much of such texts is kept of a track."""
 
 TOO_MANY_EVENTS = "more events than are read"
 
@@ -48,6 +55,8 @@ class Track:
         number: Its place in the file, from 1.
         packed: Channel messages, each as ``tick << 24 | status << 16 | first data byte << 8 | second``.
         metas: Meta events of `KEPT_METAS`.
+        texts: Texts of `TEXTS` that are not ASCII, `TEXT_BYTES` at most.
+        text_bytes: How long they are together.
         end_tick: When the track ends.
         end: Position after the last byte read.
         ended: Whether an end-of-track event was found.
@@ -57,6 +66,8 @@ class Track:
     number: int
     packed: list[int] = field(default_factory=list[int])
     metas: list[Meta] = field(default_factory=list[Meta])
+    texts: list[bytes] = field(default_factory=list[bytes])
+    text_bytes: int = 0
     end_tick: int = 0
     end: int = 0
     ended: bool = False
@@ -200,6 +211,11 @@ def _read_system(
             if len(track.metas) == MOST_METAS:
                 raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
             track.metas.append(Meta(tick, kind, data[begin : begin + length], at - 1 + place.offset))
+        elif kind in TEXTS and track.text_bytes < TEXT_BYTES:
+            text = data[begin : begin + min(length, LONGEST_BYTES, TEXT_BYTES - track.text_bytes)]
+            if not text.isascii():
+                track.texts.append(text)
+                track.text_bytes += len(text)
         return begin + length
     if status in {0xF0, 0xF7}:
         length, begin = _read_length(data, at)

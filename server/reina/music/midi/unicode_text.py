@@ -16,12 +16,12 @@ def without_end(data: bytes) -> bytes:
 
 
 def decode_unicode(data: bytes, *, longer_than_two: bool = False) -> str | None:
-    """Decode a text that begins with a byte order mark, or is UTF-8 and has letters beyond ASCII; else return None.
+    """Decode a text that begins with a byte order mark, or is UTF-8 beyond ASCII; else return None.
 
     Args:
         data: The text; it may end within a character.
-        longer_than_two: Whether UTF-8 is believed of characters of three and four bytes only: two bytes are also
-            found in double-byte character sets.
+        longer_than_two: Whether UTF-8 is believed only of characters of three and four bytes: two bytes may
+            be a character of a double-byte set as well.
     """
     for mark, encoding in MARKS:
         if data.startswith(mark):
