@@ -191,7 +191,7 @@ def test_of_much_text_a_bounded_sample_is_examined(monkeypatch: pytest.MonkeyPat
     examined: list[int] = []
     whole = module.decode_whole
 
-    def counted(data: bytes, encoding: str) -> tuple[str, bool]:
+    def counted(data: bytes, encoding: str) -> tuple[str, int]:
         examined.append(len(data))
         return whole(data, encoding)
 

@@ -16,19 +16,19 @@ MOST_TEXTS, SAMPLE_BYTES = 1000, 1024
 """How many texts beyond ASCII are looked at, and how much of them is examined."""
 
 STRANGE, TOO_SHORT = -4.3, 8
-"""Texts of a lower log-likelihood a byte than this are in no set of languages.toml; below so many bytes one
-cannot tell."""
+"""Texts of a lower log-likelihood a byte than this are in no set of languages.toml; of fewer bytes
+beyond ASCII than that one cannot tell."""
 
 RARE = ("euc_jp", "koi8_r", "cp866", "iso8859_5", "cp1256")
 """Character sets that charset-normalizer is asked about then."""
 
-CUT = -7.0
-"""A text that ends within a character."""
+CUT = -8.0
+"""Each byte of a character that is cut off at a text's end."""
 
 INSTRUMENT = 5.0
 """What an instrument's name adds."""
 
-_WORD = re.compile(r"[^\W\d_]+")
+_WORD = re.compile(r"[^\W\d_]+(?:’[^\W\d_]+)*")
 
 
 def decide_encoding(texts: Iterable[bytes]) -> str:
@@ -47,8 +47,8 @@ def decide_encoding(texts: Iterable[bytes]) -> str:
     if not sample:
         return "utf-8"
     likelihood, encoding = max((_likelihood(sample, encoding), encoding) for encoding in languages())
-    length = sum(map(len, sample))
-    if length >= TOO_SHORT and likelihood < STRANGE * length:
+    beyond_ascii = sum(byte > 0x7F for data in sample for byte in data)
+    if beyond_ascii >= TOO_SHORT and likelihood < STRANGE * sum(map(len, sample)):
         return _rare_encoding(sample) or encoding
     return encoding
 
@@ -81,7 +81,7 @@ def _likelihood(sample: list[bytes], encoding: str) -> float:
     counts = Counter("".join(texts))
     plain = unicodedata.normalize("NFKC", "\n".join(texts)) if encoding in DOUBLE_BYTE else "\n".join(texts)
     words = {word.casefold() for word in _WORD.findall(plain) if not word.isascii()}
-    total = CUT * sum(is_cut for _, is_cut in decoded)
+    total = CUT * sum(cut for _, cut in decoded)
     if encoding not in DOUBLE_BYTE:
         total += spelling_likelihood(texts)
     total += INSTRUMENT * _instruments(words, anywhere=encoding in DOUBLE_BYTE)

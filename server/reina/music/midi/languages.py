@@ -58,8 +58,8 @@ OTHER_ALPHABET_LETTER = -6.0
 
 DOUBLE_BYTE_LETTER = -5.0
 SPACE, DIGIT, SIGN, CONTROL = -2.5, -5.0, -6.0, -4.0
-TYPOGRAPHY, TYPOGRAPHIC = "«»„“”‘’–—…°ºª©®", -7.5
-STRANGE_LETTER, STRANGE_SIGN = -9.5, -11.0
+TYPOGRAPHY = {"–": -4.5} | dict.fromkeys("«»„“”…©", -5.5) | dict.fromkeys("‘’—°ºª®", -7.0)
+STRANGE_LETTER, STRANGE_SIGN = -9.5, -10.0
 WORD = 3.0
 """What a word of the language adds."""
 
@@ -149,7 +149,7 @@ def _single_byte(encoding: str, row: Mapping[str, str]) -> Language:
     letters = row["letters"]
     is_latin = "words" in row
     known = _ascii(LATIN_LETTER if is_latin else OTHER_ALPHABET_LETTER)
-    known |= dict.fromkeys(TYPOGRAPHY, TYPOGRAPHIC)
+    known |= TYPOGRAPHY
     for letter in row.get("foreign", ""):
         known[letter] = known[letter.upper()] = LATIN_FOREIGN
     weights = [1 / (rank + (2 if is_latin else 8)) for rank in range(len(letters))]

@@ -35,7 +35,7 @@ def decode_unicode(data: bytes, *, longer_than_two: bool = False) -> str | None:
     return None if text.isascii() else text
 
 
-def decode_whole(data: bytes, encoding: str) -> tuple[str, bool]:
-    """Return the whole characters of a text, wrong bytes replaced, and whether it ends within a character."""
+def decode_whole(data: bytes, encoding: str) -> tuple[str, int]:
+    """Return the whole characters of a text, wrong bytes replaced, and how many bytes of one end it."""
     decoder = codecs.getincrementaldecoder(encoding)("replace")
-    return decoder.decode(data), bool(decoder.getstate()[0])
+    return decoder.decode(data), len(decoder.getstate()[0])
