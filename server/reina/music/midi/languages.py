@@ -71,13 +71,13 @@ class Language:
     Attributes:
         encoding: The character set, by Python's name.
         prior: Logarithm of how common such files are, up to a constant.
-        characters: Log-probability of characters; it is filled up as others are met.
+        characters: Log-probability of its own characters and of ASCII.
         words, beginnings, endings: Lower-case words of the language, and parts of words.
     """
 
     encoding: str
     prior: float
-    characters: dict[str, float]
+    characters: Mapping[str, float]
     words: frozenset[str] = frozenset()
     beginnings: tuple[str, ...] = ()
     endings: tuple[str, ...] = ()
@@ -89,19 +89,16 @@ class Language:
             counts: How often each character occurs.
             words: Its words with letters beyond ASCII, in lower case, each once.
         """
-        known = self.characters
-        total = self.prior
+        total = self.prior + WORD * sum(map(self._knows, words))
         for character, count in counts.items():
-            probability = known.get(character)
-            if probability is None:
-                probability = known[character] = self._of(character)
-            total += probability * count
-        return total + WORD * sum(map(self._knows, words))
+            probability = self.characters.get(character)
+            total += count * (self._of_others(character) if probability is None else probability)
+        return total
 
     def _knows(self, word: str) -> bool:
         return word in self.words or word.startswith(self.beginnings) or word.endswith(self.endings)
 
-    def _of(self, character: str) -> float:
+    def _of_others(self, character: str) -> float:
         if character == REPLACED:
             return NOT_ENCODED
         if character < " ":
