@@ -36,7 +36,7 @@ class Suitability:
 
     Attributes:
         programs: Weight of each General MIDI program; what is not listed weighs nothing.
-        names: Weight of each kind of name (part_names.toml), the weightiest that fits counts.
+        names: Weight of each kind of name (`part_names.KINDS`), the weightiest that fits counts.
         lowest: Lowest sounding pitch.
         highest: Highest sounding pitch.
     """

@@ -48,7 +48,7 @@ class _Staff:
 
 
 def find_parts(
-    tracks: Sequence[Track], notes: Messages, state: ChannelState
+    tracks: Sequence[Track], notes: Messages, state: ChannelState, encoding: str
 ) -> tuple[tuple[Part, ...], IntArray]:
     """Make a part of each track that has notes; of several if it holds several instruments.
 
@@ -61,6 +61,7 @@ def find_parts(
         tracks: The tracks.
         notes: The note-on message of each note.
         state: What is in force at each note.
+        encoding: The character set of the names.
 
     Returns:
         The parts and (N,) the index of each note's part.
@@ -87,7 +88,7 @@ def find_parts(
         part_of_source[[source.index for source in staff.sources]] = index
     in_track = Counter(staff.sources[0].track for staff in staves)
     parts = tuple(
-        _part(index, staff.sources, tracks[staff.sources[0].track], in_track)
+        _part(index, staff.sources, tracks[staff.sources[0].track], in_track, encoding)
         for index, staff in enumerate(staves)
     )
     return parts, part_of_source[source_of_note]
@@ -107,11 +108,13 @@ def _join(sources: Sequence[_Source]) -> list[_Staff]:
     return staves
 
 
-def _part(index: int, sources: Sequence[_Source], track: Track, in_track: Counter[int]) -> Part:
+def _part(
+    index: int, sources: Sequence[_Source], track: Track, in_track: Counter[int], encoding: str
+) -> Part:
     first = sources[0]
     alone = in_track[first.track] == 1
     program = None if first.program == NO_PROGRAM else first.program
-    own_name = _name(track) if alone else ""
+    own_name = _name(track, encoding) if alone else ""
     known = "Drums" if first.is_drums else PROGRAM_NAMES[program] if program is not None else ""
     port, channel = divmod(first.channel, CHANNELS_OF_PORT)
     unknown = f"Channel {channel + 1}" + (f" of port {port + 1}" if port else "")
@@ -133,11 +136,11 @@ def _most(programs: IntArray) -> tuple[int, int]:
     return int(values[np.argmax(counts)]), len(programs)
 
 
-def _name(track: Track) -> str:
+def _name(track: Track, encoding: str) -> str:
     """Return the name of a track."""
     for kind in (TRACK_NAME, INSTRUMENT_NAME):
         for meta in track.metas:
-            text = decode_text(meta.data) if meta.kind == kind else ""
+            text = decode_text(meta.data, encoding) if meta.kind == kind else ""
             if text:
                 return text
     return ""

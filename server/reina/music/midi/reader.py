@@ -1,6 +1,6 @@
 """A Standard MIDI File into a score."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,13 +12,14 @@ from reina.music.midi.channel_state import read_channel_state
 from reina.music.midi.chunks import read_header, unwrap
 from reina.music.midi.control_messages import read_controls
 from reina.music.midi.division import Division, read_division
+from reina.music.midi.encoding import decide_encoding
 from reina.music.midi.maps import read_metre_map, read_tempo_map
 from reina.music.midi.messages import Messages
 from reina.music.midi.note_ends import NoteEnds, find_note_ends
 from reina.music.midi.pairing import Pairs, pair_notes
 from reina.music.midi.parts import find_parts
 from reina.music.midi.text import decode_text
-from reina.music.midi.track import NOTE_OFF, NOTE_ON, TRACK_NAME, Track
+from reina.music.midi.track import INSTRUMENT_NAME, NOTE_OFF, NOTE_ON, TRACK_NAME, Track
 from reina.music.midi.tracks import read_tracks
 from reina.music.notes import Notes
 from reina.music.score import Score
@@ -42,6 +43,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         log.add(
             "format_0_tracks", "byte 8", f"format 0 has one track; all {len(tracks)} were read, as format 1"
         )
+    encoding = decide_encoding(_texts(tracks))
     sequences = 1
     if header.format == 2:
         tracks, sequence, sequences = _choose_sequence(tracks, sequence, log)
@@ -67,7 +69,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     notes = _time_notes(on, ends, tracks, division, tempo_map, log)
     _tell_of_pairs(note_messages, pairs, tracks, log)
     state = read_channel_state(messages, on, tracks)
-    parts, part = find_parts(tracks, on, state)
+    parts, part = find_parts(tracks, on, state, encoding)
     end_s, end_beats = float(np.max(notes.end_s)), float(np.max(notes.end_beats))
     limits.check("duration_s", end_s, what="length in seconds")
     limits.check("beats", end_beats, what="length in beats")
@@ -85,7 +87,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         program=state.program,
     )
     return Score(
-        title=_title(tracks, header.format) or title,
+        title=_title(tracks, header.format, encoding) or title,
         parts=parts,
         notes=table,
         tempo_map=tempo_map,
@@ -201,9 +203,17 @@ def _tell(
         log.add(kind, place, f"note {on.first[note]} {what}")
 
 
-def _title(tracks: Sequence[Track], file_format: int) -> str:
+def _texts(tracks: Sequence[Track]) -> Iterator[bytes]:
+    """Yield the names, which matter most, then the other texts."""
+    for track in tracks:
+        yield from (meta.data for meta in track.metas if meta.kind in {TRACK_NAME, INSTRUMENT_NAME})
+    for track in tracks:
+        yield from track.texts
+
+
+def _title(tracks: Sequence[Track], file_format: int, encoding: str) -> str:
     """Return the name of the first track if that names the sequence and not a part, else nothing."""
     first = tracks[0]
-    names = [decode_text(meta.data) for meta in first.metas if meta.kind == TRACK_NAME]
+    names = [decode_text(meta.data, encoding) for meta in first.metas if meta.kind == TRACK_NAME]
     is_sequence = file_format != 1 or not any(p >> 20 & 0xF == NOTE_ON for p in first.packed)
     return names[0] if names and is_sequence else ""

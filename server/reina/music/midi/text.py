@@ -2,28 +2,23 @@
 
 import re
 
-LONGEST_BYTES = 500
+from reina.music.midi.languages import DOUBLE_BYTE
+from reina.music.midi.unicode_text import decode_unicode, decode_whole, without_end
 
-_KANA = re.compile(r"[\u3040-\u30ff\uff66-\uff9f]{2}")
-_CONTROL = re.compile(r"[\x00-\x20\x7f-\x9f]+")
+_CONTROL = re.compile(r"[\x00-\x20\x7f-\x9f\u2028\u2029\ufeff]+")
 
 
-def decode_text(data: bytes) -> str:
-    """Decode the beginning of a name: UTF-8, else Shift JIS if that gives kana, else Windows-1252.
+def decode_text(data: bytes, encoding: str) -> str:
+    """Decode the beginning of a name: Unicode if it is, else as `encoding` says.
 
-    Control characters become spaces.
+    Control characters become spaces, wrong bytes U+FFFD; a character that is cut off at the end is left out.
+
+    Args:
+        data: The name.
+        encoding: What `decide_encoding` found for the file.
     """
-    data = data[:LONGEST_BYTES]
-    try:
-        text = data.decode("utf-8")
-    except UnicodeDecodeError:
-        text = _decode_shift_jis(data) or data.decode("cp1252", errors="replace")
+    data = without_end(data)
+    text = decode_unicode(data, longer_than_two=encoding in DOUBLE_BYTE or encoding == "euc_jp")
+    if text is None:
+        text, _ = decode_whole(data, encoding)
     return _CONTROL.sub(" ", text).strip()
-
-
-def _decode_shift_jis(data: bytes) -> str | None:
-    try:
-        text = data.decode("cp932")
-    except UnicodeDecodeError:
-        return None
-    return text if _KANA.search(text) else None

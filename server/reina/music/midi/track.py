@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 from reina.music.errors import ScoreLimitError
 from reina.music.midi.sysex import LONGEST_SYSEX, Standard, read_part_mode, read_standard
+from reina.music.midi.unicode_text import LONGEST_BYTES
 from reina.music.warnings import WarningLog
 
 TICK_SHIFT = 24
@@ -31,6 +32,12 @@ KEPT_METAS = frozenset({TRACK_NAME, INSTRUMENT_NAME, SET_TEMPO, TIME_SIGNATURE})
 PART_MODE = 0xF
 """Not a command of MIDI: what a system exclusive message says of a channel is kept as a channel message,
 whose first data byte is 1 for drums and 0 for tones."""
+
+TEXTS = frozenset({0x01, 0x02, 0x05, 0x06, 0x07})
+"""Texts, copyrights, lyrics, markers and cue points: they tell the character set of the names."""
+
+TEXT_BYTES = 4096
+"""How much of such texts is kept of a track."""
 
 TOO_MANY_EVENTS = "more events than are read"
 
@@ -62,6 +69,8 @@ class Track:
         metas: Meta events of `KEPT_METAS`.
         ports: Where the track changes its port: the number of channel messages before, and the port.
         standards: The standards that the track switches to, in order, each with its tick.
+        texts: Texts of `TEXTS` that are not ASCII, `TEXT_BYTES` at most.
+        text_bytes: How long they are together.
         end_tick: When the track ends.
         end: Position after the last byte read.
         ended: Whether an end-of-track event was found.
@@ -73,6 +82,8 @@ class Track:
     metas: list[Meta] = field(default_factory=list[Meta])
     ports: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
     standards: list[tuple[int, Standard]] = field(default_factory=list[tuple[int, Standard]])
+    texts: list[bytes] = field(default_factory=list[bytes])
+    text_bytes: int = 0
     end_tick: int = 0
     end: int = 0
     ended: bool = False
@@ -219,6 +230,11 @@ def _read_system(
             if len(track.metas) == MOST_METAS:
                 raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
             track.metas.append(Meta(tick, kind, data[begin : begin + length], at - 1 + place.offset))
+        elif kind in TEXTS and track.text_bytes < TEXT_BYTES:
+            text = data[begin : begin + min(length, LONGEST_BYTES, TEXT_BYTES - track.text_bytes)]
+            if not text.isascii():
+                track.texts.append(text)
+                track.text_bytes += len(text)
         return begin + length
     if status in {0xF0, 0xF7}:
         length, begin = _read_length(data, at)
