@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from reina.instruments.joined_parts import notes_of_parts
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Line
 from reina.music.arrays import read_only
@@ -22,8 +23,10 @@ TOLD_OVERLAP_S = 0.001
 """Overlaps of less are cut without a word: they are rounding."""
 
 
-def playable_line(score: Score, part: int, transposition: int, log: WarningLog) -> Line:
-    """Make the line of a part.
+def playable_line(
+    score: Score, part: int, transposition: int, log: WarningLog, *, joined_parts: tuple[int, ...] = ()
+) -> Line:
+    """Make the line of a part, and of those joined to it as if their notes were its own.
 
     Of a chord the top note is played. Of two notes that overlap the earlier ends where the later begins,
     unless the later is lower and ends no later: then it is an inner voice and left out.
@@ -33,9 +36,10 @@ def playable_line(score: Score, part: int, transposition: int, log: WarningLog) 
         part: Index of the part.
         transposition: Semitones added to its pitches.
         log: Is told of each note that is dropped or shortened.
+        joined_parts: Indices of the parts joined to it.
     """
     notes = score.notes
-    indices = score.note_indices(part)
+    indices = notes_of_parts(score, (part, *joined_parts))
     pitches = notes.sounding_pitch[indices].astype(np.int64) + transposition
     columns = zip(
         indices.tolist(),
@@ -50,7 +54,7 @@ def playable_line(score: Score, part: int, transposition: int, log: WarningLog) 
 
     def drop(kind: str, note: tuple[int, float, float, int], why: str) -> None:
         dropped.append(note[0])
-        log.add(kind, _place(part, note), f"{pitch_name(note[3])} is not played: {why}")
+        log.add(kind, _place(int(notes.part[note[0]]), note), f"{pitch_name(note[3])} is not played: {why}")
 
     for note in columns:
         index, onset, end, pitch = note
@@ -72,7 +76,8 @@ def playable_line(score: Score, part: int, transposition: int, log: WarningLog) 
             if overlap > TOLD_OVERLAP_S:
                 shortened.append(last[0])
                 what = f"{pitch_name(last[3])} ends {overlap * 1000:.0f} ms earlier"
-                log.add("note_shortened", _place(part, last), f"{what}, where {pitch_name(pitch)} begins")
+                place = _place(int(notes.part[last[0]]), last)
+                log.add("note_shortened", place, f"{what}, where {pitch_name(pitch)} begins")
         line.append((index, onset, end, pitch))
     table = np.array(line, dtype=np.float64).reshape(-1, 4)
     note_index = table[:, 0].astype(np.int64)

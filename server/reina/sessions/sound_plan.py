@@ -4,6 +4,7 @@ The plan is canonical: scores that sound the same give the same bytes, and so sh
 """
 
 from collections import Counter, defaultdict
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,13 @@ KEYS = 128
 """MIDI's pitches."""
 
 
-def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: int = 0) -> SoundPlan:
+def plan_sound(
+    score: Score,
+    *,
+    trumpet_part: int | None = None,
+    joined_parts: Sequence[int] = (),
+    transposition: int = 0,
+) -> SoundPlan:
     """Plan how a score sounds.
 
     Every part gets a channel of its own (drums of one kit share theirs), on as many ports of sixteen channels
@@ -51,8 +58,9 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
         score: The score.
         trumpet_part: Index of the part that the trumpeter plays; it is a trumpet unless the file says
             otherwise.
-        transposition: Semitones by which that part sounds higher than the score says, as it is played: octave
-            fit and written pitch included. What is no pitch then is not heard, as it is not played.
+        joined_parts: Indices of further parts that the trumpeter plays, of which the same is true.
+        transposition: Semitones by which those parts sound higher than the score says, as they are played:
+            octave fit and written pitch included. What is no pitch then is not heard, as it is not played.
 
     Raises:
         InputError: The score is longer than an hour, or nothing of it is a pitch.
@@ -63,13 +71,14 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
             f"the score lasts {minutes:.0f} minutes; sound is made for at most {LONGEST_S / 60:.0f}: "
             "cut it, or send a song with it"
         )
-    seats = _seats(score.parts, trumpet_part)
-    moved = np.where(score.notes.part == trumpet_part, transposition, 0)
+    trumpet_parts = [*joined_parts] if trumpet_part is None else [trumpet_part, *joined_parts]
+    seats = _seats(score.parts, trumpet_parts)
+    moved = np.where(np.isin(score.notes.part, trumpet_parts), transposition, 0)
     keys = score.notes.sounding_pitch.astype(np.int64) + moved
     if not np.any(_is_key(keys)):
         raise InputError(f"moved by {transposition} semitones, no note of the score is a pitch: move it less")
     return SoundPlan(
-        notes=_plan_notes(score, seats, keys), controls=_plan_controls(score, seats, trumpet_part)
+        notes=_plan_notes(score, seats, keys), controls=_plan_controls(score, seats, trumpet_parts)
     )
 
 
@@ -77,12 +86,12 @@ def _is_key(keys: NDArray[np.int64]) -> NDArray[np.bool_]:
     return (keys >= 0) & (keys < KEYS)
 
 
-def _seats(parts: tuple[Part, ...], trumpet_part: int | None) -> NDArray[np.uint16]:
+def _seats(parts: tuple[Part, ...], trumpet_parts: Sequence[int]) -> NDArray[np.uint16]:
     """Return (parts, 2): the port and the channel of each part."""
     melodic = sum(not part.is_drums for part in parts)
     keys: list[tuple[object, ...]] = []
     for part in parts:
-        program = default_program(part, is_trumpet=part.index == trumpet_part)
+        program = default_program(part, is_trumpet=part.index in trumpet_parts)
         if part.is_drums:
             keys.append(("drums", program))
         elif melodic <= MOST_VOICES:
@@ -137,7 +146,7 @@ def _without_overlaps(notes: NDArray[np.void]) -> NDArray[np.void]:
     return notes[np.lexsort((notes["key"], notes["channel"], notes["port"], notes["on"]))]
 
 
-def _plan_controls(score: Score, seats: NDArray[np.uint16], trumpet_part: int | None) -> NDArray[np.void]:
+def _plan_controls(score: Score, seats: NDArray[np.uint16], trumpet_parts: Sequence[int]) -> NDArray[np.void]:
     first_onset_s: dict[int, float] = {}
     for index in range(len(score.parts)):
         first_onset_s[index] = float(score.notes.onset_s[score.note_indices(index)].min(initial=np.inf))
@@ -156,7 +165,7 @@ def _plan_controls(score: Score, seats: NDArray[np.uint16], trumpet_part: int | 
         controls = by_channel[part.channel]
         programs = [control for control in controls if control.kind == "program"] if alone else []
         if not any(control.onset_s <= first_onset_s[part.index] for control in programs):
-            program = default_program(part, is_trumpet=part.index == trumpet_part)
+            program = default_program(part, is_trumpet=part.index in trumpet_parts)
             rows.append((0, port, 0xC0 | channel, program, 0))
         for control in controls:
             message = _message(control, is_drums=part.is_drums, follows_programs=alone)

@@ -17,7 +17,7 @@ from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine
+    from collections.abc import Callable, Coroutine, Sequence
 
     from reina.music import Score
     from reina.sessions.session import Session
@@ -43,10 +43,17 @@ class HandRenderer(SongRenderer):
         self.let.set()
 
     async def request(
-        self, score: Score, *, trumpet_part: int | None = None, transposition: int = 0
+        self,
+        score: Score,
+        *,
+        trumpet_part: int | None = None,
+        joined_parts: Sequence[int] = (),
+        transposition: int = 0,
     ) -> SongRequest:
         self.asked.append((trumpet_part, transposition))
-        return await super().request(score, trumpet_part=trumpet_part, transposition=transposition)
+        return await super().request(
+            score, trumpet_part=trumpet_part, joined_parts=joined_parts, transposition=transposition
+        )
 
     async def _run(self, rendering: object, plan: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
