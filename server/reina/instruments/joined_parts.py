@@ -32,9 +32,8 @@ def check_joined_parts(score: Score, part: int, joined_parts: Sequence[int]) -> 
             fault = f"part {joined} is named twice"
         if fault is not None:
             others = [other.index for other in score.parts if other.index != part and not other.is_drums]
-            there_is = f"there are {_as_runs(others)}" if others else "the score has none"
             raise NotInScoreError(
-                f"{fault}; of the parts that can be joined to part {part}, {there_is}",
+                f"{fault}; parts that can be joined to part {part}: {_as_runs(others) or 'none'}",
                 where=f"joined_parts/{place}",
             )
     return tuple(sorted(joined_parts))
@@ -46,11 +45,11 @@ def notes_of_parts(score: Score, parts: Sequence[int]) -> IntArray:
 
 
 def _as_runs(indices: Iterable[int]) -> str:
-    """Ascending indices in few words: "0, 2 to 5, 7"."""
-    runs: list[list[int]] = []
+    """Ascending indices in few words: ``"0, 2 to 5, 7"``."""
+    runs: list[tuple[int, int]] = []
     for index in indices:
-        if runs and index == runs[-1][-1] + 1:
-            runs[-1] = [runs[-1][0], index]
+        if runs and index == runs[-1][1] + 1:
+            runs[-1] = (runs[-1][0], index)
         else:
-            runs.append([index])
-    return ", ".join(" to ".join(map(str, run)) for run in runs)
+            runs.append((index, index))
+    return ", ".join(str(first) if first == last else f"{first} to {last}" for first, last in runs)

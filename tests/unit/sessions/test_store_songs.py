@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from tests.integration.scores import duet, scale, show, song
+from tests.integration.scores import duet, relay, scale, show, song
 from tests.unit.sessions.fakes import HandClock
 
 from reina.keyframes import Show
@@ -135,6 +135,24 @@ def test_the_song_is_of_the_part_and_the_transposition(tmp_path: Path, stage: St
         assert (await ready(session), session.song_state().href) == (first, href)
         await desk.store.change(session, title="Other", public=True)
         assert len(desk.renderer.asked) == 4, "a name is not heard"
+        await desk.store.aclose()
+
+    run(scenario)
+
+
+def test_the_song_is_of_the_joined_parts_too(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(relay(), transposition=-2)
+        alone, href = await ready(session), session.song_state().href
+        await desk.store.change(session, joined_parts=[1, 2])
+        assert session.song_state().href == f"{href}&joined_parts=1,2"
+        joined = await ready(session)
+        assert joined != alone
+        await desk.store.change(session, joined_parts=[2, 1])
+        assert await ready(session) == joined, "the order says nothing"
+        await desk.store.change(session, joined_parts=[])
+        assert (await ready(session), session.song_state().href) == (alone, href)
         await desk.store.aclose()
 
     run(scenario)
