@@ -38,7 +38,12 @@ def played(session: Owned) -> list[tuple[int, int, list[int]]]:
     return [(note["part"], note["sounding_pitch"], note["valves"]) for note in notes]
 
 
-WHOLE = [(TRUMPET, 65, []), (TRUMPET, 67, [1, 2]), (MUTED, 69, [2]), (MUTED, 70, [])]
+WHOLE: list[tuple[int, int, list[int]]] = [
+    (TRUMPET, 65, []),
+    (TRUMPET, 67, [1, 2]),
+    (MUTED, 69, [2]),
+    (MUTED, 70, []),
+]
 
 
 def test_parts_are_joined_with_the_upload(client: httpx.Client) -> None:
@@ -178,9 +183,9 @@ def test_the_form_names_parts_between_commas_and_the_change_as_a_list(client: ht
 
 def test_a_show_that_answers_the_player_s_part_answers_joined_parts_too(client: httpx.Client) -> None:
     events = {"on": "notes", "where": {"part": TRUMPET}, "amount": 9.0, "blend": "replace", "decay": 0.1}
-    track = {"parameter": "lights/key/intensity", "keyframes": [], "events": events}
+    track: dict[str, Any] = {"parameter": "lights/key/intensity", "keyframes": [], "events": events}
     session = upload(client, relay(), **SONG)
-    body = {"version": 1, "time": "seconds", "tracks": [track]}
+    body: dict[str, Any] = {"version": 1, "time": "seconds", "tracks": [track]}
     session.change("PUT", "/show", json=body).raise_for_status()
 
     def flashes() -> list[bool]:

@@ -165,9 +165,7 @@ async def get_session(session: Watched) -> resources.Session:
 @router.patch("/sessions/{session_id}")
 async def change_session(
     session: Controlled,
-    change: Annotated[
-        resources.SessionChange, Body(examples=[{"title": "Taps, slower", "part": 1, "joined_parts": [2]}])
-    ],
+    change: Annotated[resources.SessionChange, Body(examples=[{"title": "Taps, slower", "part": 1}])],
     store: Store,
 ) -> resources.Session:
     """Rename it, list it or not, or have the player play other parts or another sequence, or elsewhere."""
