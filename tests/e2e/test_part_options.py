@@ -1,16 +1,18 @@
-"""The page's choice of a file's sequence, and the switches for written parts and for octaves."""
+"""The page's choice of sequence and joined parts, and the switches for written parts and for octaves."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
-from tests.integration.scores import collection, song
+from tests.integration.scores import collection, relay, song
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import httpx
+    from numpy.typing import NDArray
     from tests.e2e.opened import Opened
 
     Visit = Callable[..., Opened]
@@ -78,3 +80,59 @@ def test_another_player_is_chosen_in_the_page(visit: Visit, client: httpx.Client
     opened.page.get_by_role("combobox", name="Player").select_option(label="Soloist")
     opened.until("(drawn) => reina.pictures > drawn && reina.rigs[0] === 'soloist'", drawn)
     assert client.get(path).json()["player"] == "soloist"
+
+
+def test_parts_are_joined_in_the_page(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(size=(1100, 620)).open_files(
+        ("relay.mid", "audio/midi", relay()), ("relay.wav", "audio/wav", song(0.5))
+    )
+    page, path = opened.page, f"/api/v1/sessions/{opened.session}"
+
+    def next_notes() -> list[str]:
+        return page.locator(".notes .name").all_inner_texts()
+
+    def blocks() -> float:
+        """Which share of the picture are note blocks, where joined notes sound and the others are past."""
+        pictures: list[NDArray[np.int16]] = []
+        for visible in (True, False):
+            keyframe = {"key": "k", "time": 0, "value": visible, "interpolation": "step"}
+            track = f"{path}/show/tracks/blocks/visible"
+            answer = client.put(track, json={"keyframes": [keyframe]}, headers=opened.headers)
+            answer.raise_for_status()
+            seek = {"action": "seek", "song_time_s": 1.25}
+            answer = client.post(f"{path}/transport", json=seek, headers=opened.headers)
+            opened.until_at_rest(answer.json())
+            pictures.append(opened.picture())
+        return float((np.abs(pictures[0] - pictures[1]).max(axis=2) > 40).mean())
+
+    page.keyboard.press("p")
+    assert next_notes() == ["G4", "A4"]
+    without = blocks()
+    summary = page.locator("summary", has_text="Play other parts too")
+    summary.focus()
+    page.keyboard.press("Enter")
+    offered = page.get_by_role("group", name="Trumpet also plays").get_by_role("checkbox")
+    assert offered.count() == 2, "the drums are not offered"
+    page.keyboard.press("Tab")
+    with page.expect_response(lambda answer: answer.request.method == "PATCH"):
+        page.keyboard.press("Space")
+    page.get_by_text("Trumpet + Trumpet (muted)").wait_for()
+    assert client.get(path).json()["joined_parts"] == [1]
+    assert not client.get(f"{path}/transport").json()["playing"], "the key is the box's alone"
+    assert blocks() > without + 0.002, "the blocks of the joined notes are in the picture"
+    client.post(f"{path}/transport", json={"action": "seek", "song_time_s": 0.0}, headers=opened.headers)
+    opened.until("() => document.querySelectorAll('.notes .name').length === 4")
+    assert next_notes() == ["G4", "A4", "B4", "C5"]
+
+    page.reload()
+    opened.until_drawn()
+    if not page.get_by_role("region", name="the piece").is_visible():
+        page.keyboard.press("p")
+    closed = page.locator("summary", has_text="Trumpet + Trumpet (muted)")
+    closed.click()
+    box = page.get_by_role("checkbox", name="Trumpet (muted)")
+    assert box.is_checked()
+    box.uncheck()
+    page.locator("summary", has_text="Play other parts too").wait_for()
+    assert client.get(path).json()["joined_parts"] == []
+    opened.until("() => document.querySelectorAll('.notes .name').length === 2")

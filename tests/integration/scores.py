@@ -48,6 +48,28 @@ def duet() -> bytes:
     return file.getvalue()
 
 
+def relay() -> bytes:
+    """A melody that goes from a trumpet to a muted one; a flute and drums beside it, two notes each."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    for channel, name, program, start, length, pitches in (
+        (0, "Trumpet", 56, 0, 1, (65, 67)),
+        (1, "Trumpet (muted)", 59, 2, 1, (69, 70)),
+        (2, "Flute", 73, 0, 2, (86, 88)),
+        (9, "Drums", 0, 0, 2, (36, 38)),
+    ):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        track.append(mido.MetaMessage("track_name", name=name))
+        track.append(mido.Message("program_change", program=program, channel=channel))
+        for number, pitch in enumerate(pitches):
+            rest = 0 if number else start * TICKS
+            track.append(mido.Message("note_on", note=pitch, velocity=90, channel=channel, time=rest))
+            track.append(mido.Message("note_off", note=pitch, channel=channel, time=length * TICKS))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
 def collection() -> bytes:
     """A file of format 2: three pieces, of four, eight and two trumpet notes; each track is a piece."""
     midi = mido.MidiFile(type=2, ticks_per_beat=TICKS)
@@ -59,6 +81,23 @@ def collection() -> bytes:
         for pitch in pitches:
             track.append(mido.Message("note_on", note=pitch, velocity=90))
             track.append(mido.Message("note_off", note=pitch, time=TICKS))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
+def two_duets() -> bytes:
+    """A file of format 2: two pieces, each of a trumpet and a flute that goes on where it ends."""
+    midi = mido.MidiFile(type=2, ticks_per_beat=TICKS)
+    for base in (58, 65):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        for channel, program in enumerate((56, 73)):
+            track.append(mido.Message("program_change", program=program, channel=channel))
+        for number in range(4):
+            note = {"note": base + number, "channel": number // 2}
+            track.append(mido.Message("note_on", velocity=90, **note))
+            track.append(mido.Message("note_off", time=TICKS, **note))
     file = io.BytesIO()
     midi.save(file=file)
     return file.getvalue()

@@ -65,6 +65,13 @@ _FORM: dict[str, Any] = {
                             "default": False,
                             "description": "move the part by the octaves that bring most of it into range",
                         },
+                        "joined_parts": {
+                            "type": "string",
+                            "pattern": r"^\s*(\d+\s*(,\s*\d+\s*)*)?$",
+                            "default": "",
+                            "description": "indices of further parts that the player plays together with it, "
+                            "as `1,2`",
+                        },
                         "sequence": {
                             "type": "integer",
                             "minimum": 0,
@@ -127,6 +134,7 @@ def _draft(folder: Path, upload: Upload) -> Draft:
         transposition=fields.transposition,
         written=fields.written,
         octave_fit=fields.octave_fit,
+        joined_parts=tuple(fields.joined_parts),
         sequence=fields.sequence,
         player=fields.player,
     )
@@ -160,7 +168,7 @@ async def change_session(
     change: Annotated[resources.SessionChange, Body(examples=[{"title": "Taps, slower", "part": 1}])],
     store: Store,
 ) -> resources.Session:
-    """Rename it, list it or not, or have the player play another part or sequence, or the same elsewhere."""
+    """Rename it, list it or not, or have the player play other parts or another sequence, or elsewhere."""
     await store.change(session, **change.model_dump())
     return session.resource()
 

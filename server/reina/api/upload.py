@@ -28,6 +28,7 @@ FIELD_LIMITS = {
     "transposition": 10,
     "written": 5,
     "octave_fit": 5,
+    "joined_parts": 10_000,
     "sequence": 10,
     "player": 200,
 }

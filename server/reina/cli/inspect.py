@@ -24,6 +24,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--transposition", type=int, default=0, metavar="SEMITONES", help="move the part")
     parser.add_argument("--written", action="store_true", help="its pitches are written, not sounding ones")
     parser.add_argument("--octave-fit", action="store_true", help="move it by octaves into range")
+    parser.add_argument(
+        "--joined-parts",
+        type=_indices,
+        default=(),
+        metavar="PARTS",
+        help="further parts that are played together with it, as 1,2",
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -41,6 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.transposition,
             written=arguments.written,
             octave_fit=arguments.octave_fit,
+            joined_parts=arguments.joined_parts,
         )
     except (OSError, InputError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
@@ -56,6 +64,13 @@ def run(arguments: argparse.Namespace) -> int:
         # Whoever reads has read enough, as `head` does; Python must not fail on flushing what is left.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 0
+
+
+def _indices(text: str) -> tuple[int, ...]:
+    try:
+        return tuple(int(piece) for piece in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no list of parts as 1,2") from None
 
 
 def _lines(
@@ -81,7 +96,7 @@ def _lines(
     warnings = (*score.warnings, *played.warnings)
     yield from _section(f"Warnings: {len(warnings) or 'none'}")
     yield from _table(("kind", "place", "what"), [(w.kind, w.place, w.message) for w in warnings])
-    yield from _section(f"Fingerings of part {played.part}, transposed by {played.transposition}")
+    yield from _section(f"Fingerings of {_named(played.parts)}, transposed by {played.transposition}")
     heads = ("bar", "beat", "second", "lasts", "written", "sounds", "valves", "why")
     yield from _table(heads, _fingerings(score, instrument, played))
 
@@ -89,7 +104,7 @@ def _lines(
 def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) -> list[tuple[str, ...]]:
     return [
         (
-            "▶" if ranking.part == played.part else "",
+            _mark(ranking.part, played),
             str(ranking.part),
             score.parts[ranking.part].name,
             REST if (program := score.parts[ranking.part].program) is None else str(program),
@@ -99,6 +114,16 @@ def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) ->
         )
         for ranking in rankings
     ]
+
+
+def _named(parts: Sequence[int]) -> str:
+    return f"part{'' if len(parts) == 1 else 's'} {', '.join(map(str, parts))}"
+
+
+def _mark(part: int, played: PlayedPart) -> str:
+    if part == played.part:
+        return "▶"
+    return "+" if part in played.joined_parts else ""
 
 
 def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:

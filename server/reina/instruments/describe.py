@@ -37,6 +37,7 @@ def describe_score(
         "sequences": score.sequences,
         "instrument": instrument.name,
         "part": played.part,
+        "joined_parts": list(played.joined_parts),
         "transposition": played.transposition,
         "parts": [
             {
@@ -78,8 +79,8 @@ def describe_notes(
 ) -> list[dict[str, Any]]:
     """Return the notes of a score, or of one part; those that are played with their fingering.
 
-    A note of the played part has the pitch it is played at. A note that is not played has no valves (None),
-    with the reason.
+    A note of the played part, or of one joined to it, has the pitch it is played at. A note that is not
+    played has no valves (None), with the reason.
     """
     line, fingering = played.line, played.fingering
     place_in_line = {note: place for place, note in enumerate(line.note_index.tolist())}
@@ -88,7 +89,7 @@ def describe_notes(
     for index in range(len(score.notes)) if part is None else score.note_indices(part).tolist():
         note = score.notes[index]
         place = place_in_line.get(index)
-        own = note.part == played.part
+        own = note.part in played.parts
         pitch = note.sounding_pitch + (played.transposition if own else 0)
         valves: list[int] | None = None
         reason = "another part than the player's"

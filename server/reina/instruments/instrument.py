@@ -1,5 +1,6 @@
 """What an instrument is to the rest of Reina."""
 
+from collections.abc import Sequence
 from typing import Protocol
 
 from reina.instruments.played import PlayedPart
@@ -47,6 +48,7 @@ class Instrument(Protocol):
         *,
         written: bool = False,
         octave_fit: bool = False,
+        joined_parts: Sequence[int] = (),
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -56,8 +58,9 @@ class Instrument(Protocol):
             transposition: Semitones to add to its pitches.
             written: Whether its pitches are the written ones of this instrument and not those that sound.
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
+            joined_parts: Indices of further parts that are played with it, as if their notes were its own.
 
         Raises:
-            NotInScoreError: If the score has no such part.
+            NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
         """
         ...

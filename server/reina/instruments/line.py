@@ -7,9 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from reina.instruments.joined_parts import notes_of_parts
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Line
 from reina.music.arrays import read_only
+from reina.music.notes import Notes
 from reina.music.score import Score
 from reina.music.taps import TAP_S
 from reina.music.warnings import WarningLog
@@ -57,9 +59,15 @@ class _Note(NamedTuple):
 
 
 def playable_line(
-    score: Score, part: int, transposition: int, log: WarningLog, *, playable: Container[int] = range(128)
+    score: Score,
+    part: int,
+    transposition: int,
+    log: WarningLog,
+    *,
+    joined_parts: tuple[int, ...] = (),
+    playable: Container[int] = range(128),
 ) -> Line:
-    """Make the line of a part.
+    """Make the line of a part, and of those joined to it as if their notes were its own.
 
     Of a chord the top note is played. Of two notes that overlap the earlier ends where the later begins,
     unless the later is lower and ends no later: then it is an inner voice and left out. An ornament that
@@ -71,10 +79,11 @@ def playable_line(
         part: Index of the part.
         transposition: Semitones added to its pitches.
         log: Is told of each note that is dropped or shortened.
+        joined_parts: Indices of the parts joined to it.
         playable: The sounding pitches that the instrument has.
     """
     notes = score.notes
-    indices = score.note_indices(part)
+    indices = notes_of_parts(score, (part, *joined_parts))
     pitches = notes.sounding_pitch[indices].astype(np.int64) + transposition
     columns = zip(
         indices.tolist(),
@@ -83,7 +92,7 @@ def playable_line(
         pitches.tolist(),
         strict=True,
     )
-    maker = _LineMaker(part, log)
+    maker = _LineMaker(notes, log)
     within: list[_Note] = []
     beyond: list[_Note] = []
     for note in map(_Note._make, columns):
@@ -113,8 +122,8 @@ def playable_line(
 class _LineMaker:
     """Makes lines of notes, and keeps what became of those that are not in them as they were."""
 
-    def __init__(self, part: int, log: WarningLog) -> None:
-        self._part = part
+    def __init__(self, notes: Notes, log: WarningLog) -> None:
+        self._notes = notes
         self._log = log
         self.dropped: set[int] = set()
         self.shortened: set[int] = set()
@@ -206,4 +215,4 @@ class _LineMaker:
         return note._replace(end_s=following.onset_s)
 
     def _place(self, note: _Note) -> str:
-        return f"part {self._part}, note {note.note} at {note.onset_s:.3f} s"
+        return f"part {self._notes.part[note.note]}, note {note.note} at {note.onset_s:.3f} s"

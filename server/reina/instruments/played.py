@@ -73,6 +73,8 @@ class PlayedPart:
         line: The playable line.
         fingering: Of each note of the line.
         warnings: What was dropped, shortened, moved or cannot be played.
+        joined_parts: Indices of the parts that are played together with it, ascending; their notes are in the
+            line too.
     """
 
     part: int
@@ -80,3 +82,9 @@ class PlayedPart:
     line: Line
     fingering: Fingering
     warnings: tuple[ScoreWarning, ...]
+    joined_parts: tuple[int, ...] = ()
+
+    @property
+    def parts(self) -> tuple[int, ...]:
+        """Indices of all parts that are played, `part` first."""
+        return (self.part, *self.joined_parts)

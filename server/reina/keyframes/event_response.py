@@ -18,7 +18,7 @@ class NoteFilter:
     """Which notes count; what is None lets all of them through.
 
     Attributes:
-        part: Index of the part.
+        part: Index of the part; notes of a part that is joined to it count too.
         pitch: Lowest and highest MIDI number, both counted in.
         velocity: Least and greatest velocity, 0..1.
         valves: Numbers of valves, from 1; those notes count that press exactly these, none for open notes.
@@ -33,7 +33,7 @@ class NoteFilter:
         """Which of the notes count, ``(N,)``."""
         passed = np.ones(triggers.onset_s.size, dtype=np.bool_)
         if self.part is not None:
-            passed &= triggers.part == self.part
+            passed &= (triggers.part == self.part) | (triggers.joined_to == self.part)
         if self.pitch is not None:
             passed &= (triggers.pitch >= self.pitch[0]) & (triggers.pitch <= self.pitch[1])
         if self.velocity is not None:

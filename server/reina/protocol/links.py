@@ -8,7 +8,7 @@ from reina.protocol.messages import StreamLinks
 from reina.protocol.resources import SessionLinks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 API = "/api/v1"
 
@@ -39,7 +39,9 @@ def session_links(session_id: str) -> SessionLinks:
     )
 
 
-def rendering_href(session_id: str, sequence: int, part: int, transposition: int) -> str:
+def rendering_href(
+    session_id: str, sequence: int, part: int, transposition: int, joined_parts: Sequence[int] = ()
+) -> str:
     """A song that the server makes from the score: another address for each of a session's renderings.
 
     The query only tells them apart; what is sent is always the song of the part that is played now.
@@ -49,8 +51,10 @@ def rendering_href(session_id: str, sequence: int, part: int, transposition: int
         sequence: Which of the file's sequences.
         part: The part that the player plays.
         transposition: Semitones by which it sounds moved, whatever moved it.
+        joined_parts: Further parts that the player plays.
     """
-    return f"{session_href(session_id)}/song?sequence={sequence}&part={part}&transposition={transposition}"
+    href = f"{session_href(session_id)}/song?sequence={sequence}&part={part}&transposition={transposition}"
+    return f"{href}&joined_parts={','.join(map(str, joined_parts))}" if joined_parts else href
 
 
 def stream_links(session_id: str, rigs: Iterable[str]) -> StreamLinks:

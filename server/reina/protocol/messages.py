@@ -88,6 +88,8 @@ class ScoreChanged(WireModel):
     """Whether the part is taken as notated for the instrument."""
     octave_fit: bool
     """Whether the part is moved into range by octaves."""
+    joined_parts: list[int]
+    """Further parts that the player plays together with it, ascending."""
     duration_s: float
     """How long the music now lasts."""
     song: SongState

@@ -32,3 +32,5 @@ class WireNote(WireModel):
     """The valves that are down, ascending; [] is open, null is not playable (or not played by the player)."""
     reason: str
     """Why these valves, or why none can be said."""
+    in_played_part: bool
+    """Whether its part is the player's or joined to it; `reason` says why a note of it is left out."""

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from reina.keyframes.value_types import TypeName
 from reina.protocol.messages import ShowState, SongState
@@ -11,6 +11,12 @@ from reina.protocol.notes import WireNote
 
 Title = Annotated[str, Field(min_length=1, max_length=200)]
 PlayerName = Annotated[str, Field(min_length=1, max_length=200)]
+PartIndex = Annotated[int, Field(ge=0)]
+
+
+def _split_at_commas(text: str) -> list[str]:
+    """``"1, 2"`` -> ``["1", "2"]``; nothing is no part."""
+    return [piece.strip() for piece in text.split(",")] if text.strip() else []
 
 
 class Fault(WireModel):
@@ -93,6 +99,8 @@ class Session(WireModel):
     """Whether the part is taken as notated for the instrument: a B♭ trumpet then sounds a tone lower."""
     octave_fit: bool
     """Whether the part is moved by the octaves that bring most of its notes into range."""
+    joined_parts: list[int]
+    """Further parts that the player plays together with it, as if their notes were its own; ascending."""
     player: str
     """Who plays: a rig with a hold on the instrument."""
     players: list[str]
@@ -137,15 +145,17 @@ class SessionList(WireModel):
 class SessionChange(WireModel):
     """What PATCH may change of a session; a field left out stays.
 
-    Of another sequence the best part is played, unless one is named with it.
+    Of another sequence the best part is played, unless one is named with it. Another part is played alone,
+    unless others are named with it.
     """
 
     title: Title | None = None
     public: bool | None = None
-    part: Annotated[int, Field(ge=0)] | None = None
+    part: PartIndex | None = None
     transposition: Annotated[int, Field(ge=-48, le=48)] | None = None
     written: bool | None = None
     octave_fit: bool | None = None
+    joined_parts: list[PartIndex] | None = None
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName | None = None
 
@@ -155,10 +165,14 @@ class SessionFields(WireModel):
 
     title: Title | None = None
     public: bool = False
-    part: Annotated[int, Field(ge=0)] | None = None
+    part: PartIndex | None = None
     transposition: Annotated[int, Field(ge=-48, le=48)] = 0
     written: bool = False
     octave_fit: bool = False
+    joined_parts: Annotated[list[PartIndex], BeforeValidator(_split_at_commas)] = Field(
+        default_factory=list[int]
+    )
+    """As `1,2`."""
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName = "trumpeter"
 
@@ -191,6 +205,8 @@ class Score(WireModel):
     transposition: int
     written: bool
     octave_fit: bool
+    joined_parts: list[int]
+    """Further parts that the player plays together with it, ascending."""
     parts: list[PartSummary]
     tempi: list[Tempo]
     metres: list[Metre]

@@ -75,12 +75,13 @@ class NoteTable:
         production = self._production
         note = production.score.notes[index]
         pitch, valves, reason = note.sounding_pitch, None, NOT_PLAYED
+        in_played_part = note.part in production.played.parts
         number = self._line_of_note.get(index)
         if number is not None:
             fingering = production.played.fingering
             pitch = int(production.played.line.sounding_pitch[number])
             valves, reason = fingering.pressed(number), fingering.reasons[number]
-        elif note.part == production.part:
+        elif in_played_part:
             # What the player leaves out stands, and is heard, where the rest of the part does.
             moved = pitch + production.played.transposition
             pitch, reason = (moved, NOT_IN_LINE) if 0 <= moved <= 127 else (pitch, NO_PITCH)
@@ -96,6 +97,7 @@ class NoteTable:
             velocity=note.velocity,
             valves=valves,
             reason=reason,
+            in_played_part=in_played_part,
         )
 
     def of_line(self, number: int) -> WireNote:
@@ -118,6 +120,7 @@ def score_resource(production: Production, title: str, part: int | None = None) 
         transposition=production.transposition,
         written=production.written,
         octave_fit=production.octave_fit,
+        joined_parts=list(production.played.joined_parts),
         parts=part_summaries(score),
         tempi=[
             resources.Tempo(onset_beats=tempo.onset_beats, onset_s=tempo.onset_s, bpm=tempo.beats_per_minute)

@@ -35,6 +35,7 @@ def triggers(score: Score, played: PlayedPart) -> Triggers:
     that they are not taken for open ones.
     """
     notes, line, fingering = score.notes, played.line, played.fingering
+    part = notes.part.astype(np.int64)
     pitch = notes.sounding_pitch.astype(np.int64)
     pitch[line.note_index] = line.sounding_pitch
     valves = np.zeros((len(notes), fingering.valves.shape[1] + 1), dtype=np.bool_)
@@ -44,11 +45,12 @@ def triggers(score: Score, played: PlayedPart) -> Triggers:
     valves[fingered, -1] = False
     return Triggers(
         onset_s=notes.onset_s,
-        part=notes.part.astype(np.int64),
+        part=part,
         pitch=pitch,
         velocity=notes.velocity,
         valves=valves,
         end_s=score.duration_s,
+        joined_to=np.where(np.isin(part, played.joined_parts), played.part, part),
     )
 
 

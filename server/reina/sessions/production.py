@@ -15,7 +15,7 @@ from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.skeleton import Hold, Rig, load_hold, load_rig
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from reina.instruments import Instrument, PartRanking, PlayedPart
@@ -150,6 +150,7 @@ class Production:
         transposition: int = 0,
         written: bool = False,
         octave_fit: bool = False,
+        joined_parts: Sequence[int] = (),
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -162,9 +163,10 @@ class Production:
             transposition: Semitones by which it is moved.
             written: Whether it is notated for the instrument and sounds as the instrument transposes.
             octave_fit: Whether to move it by the octaves that bring most of it into range.
+            joined_parts: Further parts that the player plays together with it.
 
         Raises:
-            NotInScoreError: The score has no such part.
+            NotInScoreError: The score has no such part, or one cannot be joined.
             UnknownPlayerError: There is no such player.
         """
         who = stage.player(player)
@@ -175,6 +177,7 @@ class Production:
             transposition,
             written=written,
             octave_fit=octave_fit,
+            joined_parts=joined_parts,
         )
         if show is None:
             show = _show_for(score, played)

@@ -46,6 +46,8 @@ class SessionRecord(BaseModel):
     """Who plays."""
     octave_fit: bool = False
     """Whether the part is moved into range by octaves."""
+    joined_parts: tuple[int, ...] = ()
+    """Further parts that the player plays together with it."""
     sequence: int | None = None
     """Which of the score's sequences; None: nobody chose, and the first is played."""
     score_filename: str | None

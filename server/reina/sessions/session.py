@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from reina.sessions.viewer import Viewer
 
 
-DECIDES_THE_SOUND = ("sequence", "part", "transposition", "written", "octave_fit")
+DECIDES_THE_SOUND = ("sequence", "part", "transposition", "written", "octave_fit", "joined_parts")
 """Fields of a record; who plays is not heard."""
 
 
@@ -96,7 +96,9 @@ class Session:
             href = session_links(self.id).song
         else:
             played = production.played
-            href = rendering_href(self.id, production.score.sequence, played.part, played.transposition)
+            href = rendering_href(
+                self.id, production.score.sequence, played.part, played.transposition, played.joined_parts
+            )
         return song_state(self.song, href)
 
     def hello(self, state: ClockState | None = None) -> Hello:
@@ -130,6 +132,7 @@ class Session:
             transposition=self.record.transposition,
             written=self.record.written,
             octave_fit=self.record.octave_fit,
+            joined_parts=list(self.record.joined_parts),
             player=self.record.player,
             players=list(self.production.stage.players),
             sounding_transposition=played.transposition,
@@ -230,6 +233,7 @@ class Session:
                 transposition=record.transposition,
                 written=record.written,
                 octave_fit=record.octave_fit,
+                joined_parts=list(record.joined_parts),
                 duration_s=self.clock.duration_s,
                 song=self.song_state(),
             )

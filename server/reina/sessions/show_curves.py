@@ -100,7 +100,7 @@ def music_time(production: Production, duration_s: float) -> MusicTime:
 def curves_identity(production: Production, text: ShowText, parameters: Sequence[str]) -> tuple[str, ...]:
     """What the curves of a show follow from, beside the span: as long as this is the same, so are they."""
     played = production.played
-    piece = (production.score.sequence, played.part, played.transposition)
+    piece = (production.score.sequence, played.parts, played.transposition)
     etags = (f"{path} {text.track_etag(path)}" for path in parameters)
     return (str(piece), text.show.time, *etags)
 

@@ -73,7 +73,10 @@ class RenderedSong:
     ) -> None:
         try:
             self._request = await renderer.request(
-                score, trumpet_part=played.part, transposition=played.transposition
+                score,
+                trumpet_part=played.part,
+                joined_parts=played.joined_parts,
+                transposition=played.transposition,
             )
             self.path = await self._request.wait()
         except (SoundError, InputError) as error:

@@ -12,7 +12,7 @@ import logging
 import os
 import sys
 from asyncio.subprocess import PIPE, Process
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from reina.music.score import Score
@@ -138,21 +138,31 @@ class SongRenderer:
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def request(
-        self, score: Score, *, trumpet_part: int | None = None, transposition: int = 0
+        self,
+        score: Score,
+        *,
+        trumpet_part: int | None = None,
+        joined_parts: Sequence[int] = (),
+        transposition: int = 0,
     ) -> SongRequest:
         """Ask for a score's song, which is then made in the background unless it is there already.
 
         Args:
             score: The score; time 0 of the song is its time 0.
             trumpet_part: Index of the part that the trumpeter plays.
-            transposition: Semitones by which that part sounds moved, octave fit and written pitch included.
+            joined_parts: Indices of further parts that the trumpeter plays.
+            transposition: Semitones by which those parts sound moved, octave fit and written pitch included.
 
         Raises:
             InputError: The score is longer than an hour.
             MissingSoundfontError: There is nothing to render with.
         """
         plan = await asyncio.to_thread(
-            plan_sound, score, trumpet_part=trumpet_part, transposition=transposition
+            plan_sound,
+            score,
+            trumpet_part=trumpet_part,
+            joined_parts=joined_parts,
+            transposition=transposition,
         )
         soundfont = self._soundfont or find_soundfont(self._data_dir)
         identity = await asyncio.to_thread(soundfont_id, soundfont)

@@ -4,6 +4,7 @@ The plan is canonical: scores that sound the same give the same bytes, and so sh
 """
 
 from collections import Counter, defaultdict
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -65,7 +66,13 @@ class _Voice:
     seat: int = 0
 
 
-def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: int = 0) -> SoundPlan:
+def plan_sound(
+    score: Score,
+    *,
+    trumpet_part: int | None = None,
+    joined_parts: Sequence[int] = (),
+    transposition: int = 0,
+) -> SoundPlan:
     """Plan how a score sounds.
 
     Every part gets a channel of its own for each channel that the file has it on (drums of one kit share
@@ -76,8 +83,9 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
         score: The score.
         trumpet_part: Index of the part that the trumpeter plays; it is a trumpet unless the file says
             otherwise.
-        transposition: Semitones by which that part sounds higher than the score says, as it is played: octave
-            fit and written pitch included. What is no pitch then is not heard, as it is not played.
+        joined_parts: Indices of further parts that the trumpeter plays, of which the same is true.
+        transposition: Semitones by which those parts sound higher than the score says, as they are played:
+            octave fit and written pitch included. What is no pitch then is not heard, as it is not played.
 
     Raises:
         InputError: The score is longer than an hour, or nothing of it is a pitch.
@@ -88,8 +96,9 @@ def plan_sound(score: Score, *, trumpet_part: int | None = None, transposition: 
             f"the score lasts {minutes:.0f} minutes; sound is made for at most {LONGEST_S / 60:.0f}: "
             "cut it, or send a song with it"
         )
-    voices, voice_of_note = _voices(score, trumpet_part)
-    moved = np.where(score.notes.part == trumpet_part, transposition, 0)
+    trumpet_parts = [*joined_parts] if trumpet_part is None else [trumpet_part, *joined_parts]
+    voices, voice_of_note = _voices(score, trumpet_parts)
+    moved = np.where(np.isin(score.notes.part, trumpet_parts), transposition, 0)
     keys = score.notes.sounding_pitch.astype(np.int64) + moved
     if not np.any(_is_key(keys)):
         raise InputError(f"moved by {transposition} semitones, no note of the score is a pitch: move it less")
@@ -103,7 +112,7 @@ def _is_key(keys: NDArray[np.int64]) -> NDArray[np.bool_]:
     return (keys >= 0) & (keys < KEYS)
 
 
-def _voices(score: Score, trumpet_part: int | None) -> tuple[list[_Voice], NDArray[np.int64]]:
+def _voices(score: Score, trumpet_parts: Collection[int]) -> tuple[list[_Voice], NDArray[np.int64]]:
     """Return the voices of a score, seated, and (N,) which one each note belongs to."""
     notes = score.notes
     keys = notes.part.astype(np.int64) << 16 | notes.channel
@@ -126,7 +135,7 @@ def _voices(score: Score, trumpet_part: int | None) -> tuple[list[_Voice], NDArr
         program = (
             programs.pop(0)[1]
             if begins_with_it
-            else default_program(part, is_trumpet=part.index == trumpet_part)
+            else default_program(part, is_trumpet=part.index in trumpet_parts)
         )
         voices.append(_Voice(part, value & 0xFFFF, program, tuple(programs)))
     return _seat(voices), voice_of_note

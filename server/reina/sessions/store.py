@@ -16,12 +16,12 @@ from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
 from reina.sessions.kept_show import KeptShow
 from reina.sessions.production import PLAYER, Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
-from reina.sessions.session import Session
+from reina.sessions.session import DECIDES_THE_SOUND, Session
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.sound import SongRenderer, probe_audio
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable
+    from collections.abc import AsyncGenerator, Callable, Sequence
     from contextlib import AbstractContextManager
     from pathlib import Path
 
@@ -37,7 +37,7 @@ LOADED = 32
 away."""
 
 
-DECIDES_WHAT_IS_PLAYED = ("sequence", "part", "transposition", "written", "octave_fit", "player")
+DECIDES_WHAT_IS_PLAYED = (*DECIDES_THE_SOUND, "player")
 """Fields of a record."""
 
 _log = logging.getLogger(__name__)
@@ -63,6 +63,7 @@ class Draft:
         transposition: Semitones by which it is moved.
         written: Whether it is notated for the instrument.
         octave_fit: Whether it is moved into range by octaves.
+        joined_parts: Further parts that the player plays together with it.
         sequence: Which of the score's sequences; the first when None.
         player: Name of who plays.
     """
@@ -78,6 +79,7 @@ class Draft:
     transposition: int = 0
     written: bool = False
     octave_fit: bool = False
+    joined_parts: tuple[int, ...] = ()
     sequence: int | None = None
     player: str = PLAYER
 
@@ -171,16 +173,19 @@ class SessionStore:
         transposition: int | None = None,
         written: bool | None = None,
         octave_fit: bool | None = None,
+        joined_parts: Sequence[int] | None = None,
         sequence: int | None = None,
         player: str | None = None,
     ) -> None:
         """Rename a session, list it or not, or let the player play something else; None leaves as it is.
 
-        Of another sequence the part that suits best is played, unless one is named with it. A title and a
-        show that are still those of the sequence before give way to its own.
+        Of another sequence the part that suits best is played, unless one is named with it. Another part is
+        played alone, unless `joined_parts` says otherwise. A title and a show that are still those of the
+        sequence before give way to its own.
 
         Raises:
-            InputError: There is no such part, sequence or player; nothing is changed then.
+            InputError: There is no such part, sequence or player, or a part cannot be joined; nothing is
+                changed then.
         """
         asked = {
             "title": title,
@@ -189,11 +194,14 @@ class SessionStore:
             "transposition": transposition,
             "written": written,
             "octave_fit": octave_fit,
+            "joined_parts": None if joined_parts is None else tuple(joined_parts),
             "sequence": sequence,
             "player": player,
         }
         changes = {field: value for field, value in asked.items() if value is not None}
         async with self._edit(session):
+            if joined_parts is None and _names_another_part(session, part, sequence):
+                changes["joined_parts"] = ()
             record, kept = session.record.model_copy(update=changes), session.kept_show
             if any(
                 getattr(record, field) != getattr(session.record, field) for field in DECIDES_WHAT_IS_PLAYED
@@ -203,7 +211,8 @@ class SessionStore:
                 )
                 before, after = session.production.score.title, production.score.title
                 titled = {"title": after} if title is None and record.title == before else {}
-                record = record.model_copy(update={"part": production.part, **titled})
+                joined = production.played.joined_parts
+                record = record.model_copy(update={"part": production.part, "joined_parts": joined, **titled})
                 session.change_part(record, production)
                 if kept is not session.kept_show:
                     session.change_show(production, kept)
@@ -287,6 +296,7 @@ class SessionStore:
             transposition=production.transposition,
             written=production.written,
             octave_fit=production.octave_fit,
+            joined_parts=production.played.joined_parts,
             sequence=draft.sequence,
             player=production.player,
             score_filename=draft.score_filename,
@@ -338,6 +348,7 @@ class SessionStore:
             transposition=wanted.transposition,
             written=wanted.written,
             octave_fit=wanted.octave_fit,
+            joined_parts=wanted.joined_parts,
             player=wanted.player,
         )
 
@@ -390,6 +401,12 @@ class SessionStore:
         if record != session.record:
             self._folders.write_record(record)
         session.close()
+
+
+def _names_another_part(session: Session, part: int | None, sequence: int | None) -> bool:
+    """Whether another part than is played is asked for, or another sequence, whose parts are others."""
+    another_sequence = sequence not in (None, session.production.score.sequence)
+    return another_sequence or part not in (None, session.record.part)
 
 
 def _write_show(folder: Path, kept: KeptShow) -> None:

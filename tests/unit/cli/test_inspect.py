@@ -78,6 +78,25 @@ def test_another_part_and_transposition(capsys: pytest.CaptureFixture[str]):
     assert written["transposition"] == -2
 
 
+def test_joined_parts(capsys: pytest.CaptureFixture[str]):
+    described = json.loads(output(capsys, str(MARCH), "--json", "--part", "1", "--joined-parts", "2,0"))
+    assert (described["part"], described["joined_parts"]) == (1, [0, 2])
+    others = [note for note in described["notes"] if note["reason"].startswith("another part")]
+    assert {note["part"] for note in others} == {3}
+    lines = output(capsys, str(MARCH), "--joined-parts", "1").splitlines()
+    assert "Fingerings of parts 0, 1, transposed by 0" in lines
+    assert [line[2] for line in lines if line[2:3] in ("▶", "+")] == ["▶", "+"]
+
+
+def test_joined_parts_that_cannot_be_are_refused(capsys: pytest.CaptureFixture[str]):
+    assert main(["inspect", str(MARCH), "--joined-parts", "1,9"]) == 1
+    told = "joined_parts/1: there is no part 9; parts that can be joined to part 0: 1 to 3"
+    assert capsys.readouterr().err.endswith(f"{told}\n")
+    with pytest.raises(SystemExit):
+        main(["inspect", str(MARCH), "--joined-parts", "1;2"])
+    assert "'1;2' is no list of parts as 1,2" in capsys.readouterr().err
+
+
 def test_another_instrument(capsys: pytest.CaptureFixture[str]):
     described = json.loads(output(capsys, str(MARCH), "--json", "--instrument", "tuba"))
     assert described["instrument"] == "tuba"

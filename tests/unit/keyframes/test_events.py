@@ -236,6 +236,8 @@ def test_triggers_are_columns_in_order() -> None:
     integers = np.array([1, 2])
     with pytest.raises(ValueError, match="one length"):
         Triggers(np.zeros(3), integers, integers, np.zeros(2))
+    with pytest.raises(ValueError, match="one length"):
+        Triggers(np.zeros(2), integers, integers, np.zeros(2), joined_to=np.zeros(3, np.int64))
     with pytest.raises(ValueError, match="order"):
         Triggers(np.array([1.0, 0.0]), integers, integers, np.zeros(2))
 

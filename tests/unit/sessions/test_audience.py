@@ -37,6 +37,7 @@ def note(index: int) -> WireNote:
         velocity=0.8,
         valves=[1],
         reason="the usual fingering",
+        in_played_part=True,
     )
 
 

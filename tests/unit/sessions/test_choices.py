@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from tests.integration.scores import chords, collection, duet, scale, show, song
+from tests.integration.scores import chords, collection, duet, relay, scale, show, song, two_duets
 from tests.unit.sessions.fakes import HandClock
 from tests.unit.sessions.sound_material import Row, a_part, a_score
 
@@ -64,12 +64,13 @@ def test_a_record_of_before_the_choices_still_loads(tmp_path: Path, stage: Stage
         made = await create(a_store(tmp_path, stage), scale(4))
         path = tmp_path / "sessions" / made.id / "session.json"
         stored = json.loads(path.read_text())
-        for field in ("written", "octave_fit", "sequence"):
+        for field in ("written", "octave_fit", "joined_parts", "sequence"):
             del stored[field]
         path.write_text(json.dumps(stored))
         found = await a_store(tmp_path, stage).get(made.id)
         assert found is not None
         assert (found.record.written, found.record.octave_fit, found.record.sequence) == (False, False, None)
+        assert found.record.joined_parts == found.production.played.joined_parts == ()
         assert pitches(found) == pitches(made)
 
     run(scenario)
@@ -86,6 +87,59 @@ def test_choices_are_kept(tmp_path: Path, stage: Stage) -> None:
         assert found.record == made.record
         assert pitches(found) == pitches(made) == [pitch - 2 for pitch in range(60, 68)]
         assert found.resource().warnings == made.resource().warnings
+
+    run(scenario)
+
+
+def test_joined_parts_are_kept_until_another_part_is_chosen(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        store = a_store(tmp_path, stage)
+        made = await create(store, relay(), joined_parts=(2, 1))
+        assert made.record.joined_parts == made.production.played.joined_parts == (1, 2)
+        found = await a_store(tmp_path, stage).get(made.id)
+        assert found is not None
+        assert found.record == made.record
+        assert pitches(found) == pitches(made)
+        await store.change(made, part=0, transposition=1)
+        assert made.record.joined_parts == (1, 2), "the part is the same"
+        await store.change(made, sequence=0)
+        assert made.record.joined_parts == (1, 2), "the sequence is the same"
+        await store.change(made, part=1)
+        assert made.record.joined_parts == ()
+        assert pitches(made) == [70, 71]
+        await store.change(made, part=0, joined_parts=[1])
+        assert pitches(made) == [66, 68, 70, 71]
+        await store.change(made, joined_parts=[])
+        assert pitches(made) == [66, 68]
+        found = await a_store(tmp_path, stage).get(made.id)
+        assert found is not None
+        assert found.record.joined_parts == ()
+
+    run(scenario)
+
+
+def test_of_another_sequence_no_parts_are_joined(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        store = a_store(tmp_path, stage)
+        session = await create(store, two_duets(), joined_parts=(1,))
+        assert len(pitches(session)) == 4
+        await store.change(session, sequence=1)
+        assert session.record.joined_parts == ()
+        assert len(pitches(session)) == 2
+        await store.change(session, sequence=0, joined_parts=[1])
+        assert (session.record.part, session.record.joined_parts) == (0, (1,))
+
+    run(scenario)
+
+
+def test_parts_that_cannot_be_joined_change_nothing(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        store = a_store(tmp_path, stage)
+        session = await create(store, relay(), joined_parts=(1,))
+        record, production = session.record, session.production
+        with pytest.raises(NotInScoreError, match=r"joined_parts/1: part 3 \(“Drums”\) is drums"):
+            await store.change(session, joined_parts=[2, 3], title="Never")
+        assert (session.record, session.production) == (record, production)
 
     run(scenario)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.integration.scores import duet, scale
+from tests.integration.scores import duet, relay, scale
 
 from reina.instruments import INSTRUMENTS, PlayedPart
 from reina.keyframes import EventResponse, MusicForm, NoteFilter
@@ -11,9 +11,11 @@ from reina.music import Score, read_score
 from reina.sessions.music_arrays import music_form, time_map, triggers
 
 
-def played(data: bytes, part: int = 0, transposition: int = 0) -> tuple[Score, PlayedPart]:
+def played(
+    data: bytes, part: int = 0, transposition: int = 0, joined_parts: tuple[int, ...] = ()
+) -> tuple[Score, PlayedPart]:
     score = read_score(data)
-    return score, INSTRUMENTS["trumpet"].play(score, part, transposition)
+    return score, INSTRUMENTS["trumpet"].play(score, part, transposition, joined_parts=joined_parts)
 
 
 def onsets(score: Score, line: PlayedPart, where: NoteFilter) -> list[float]:
@@ -47,6 +49,17 @@ def test_open_notes_are_those_that_are_fingered_open() -> None:
     for valves in ((1,), (1, 2), (1, 3)):
         expected = [line.line.onset_s[n] for n, pressed in enumerate(fingered) if pressed == list(valves)]
         assert onsets(score, line, NoteFilter(valves=valves)) == expected
+
+
+def test_notes_of_joined_parts_are_the_players_and_stay_their_own_parts() -> None:
+    alone, joined = played(relay(), part=0), played(relay(), part=0, joined_parts=(1,))
+    assert onsets(*alone, NoteFilter(part=0)) == [0.0, 0.5]
+    assert onsets(*joined, NoteFilter(part=0)) == [0.0, 0.5, 1.0, 1.5]
+    for line in (alone, joined):
+        assert onsets(*line, NoteFilter(part=1)) == [1.0, 1.5]
+        assert onsets(*line, NoteFilter(part=2)) == [0.0, 1.0]
+    assert onsets(*joined, NoteFilter(part=0, valves=(2,))) == [1.0], "A4, B4 on paper, is a joined note"
+    assert music_form(*joined).onset_s.tolist() == [0.0, 0.5, 1.0, 1.5]
 
 
 def test_the_form_is_the_line_in_phrases() -> None:

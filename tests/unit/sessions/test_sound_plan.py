@@ -140,6 +140,14 @@ def test_the_trumpet_part_alone_is_transposed() -> None:
     }
 
 
+def test_parts_joined_to_the_trumpet_part_are_transposed_with_it_and_are_trumpets_too() -> None:
+    rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (1, 0.0, 1.0, 62, 0.8), (2, 0.0, 1.0, 64, 0.8)]
+    score = a_score(rows, [a_part(number, f"Track {number}") for number in range(3)])
+    plan = plan_sound(score, trumpet_part=0, joined_parts=(2,), transposition=-2)
+    assert plan.notes["key"].tolist() == [58, 62, 62]
+    assert sorted(programs(plan).values()) == [0, 56, 56]
+
+
 def test_more_than_an_hour_is_refused() -> None:
     with pytest.raises(InputError, match="at most 60"):
         plan_sound(a_score([(0, LONGEST_S, 1.0, 60, 0.8)]))

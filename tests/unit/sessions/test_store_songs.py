@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from tests.integration.scores import duet, scale, show, song
+from tests.integration.scores import duet, relay, scale, show, song
 from tests.unit.sessions.fakes import HandClock
 
 from reina.keyframes import Show
@@ -17,7 +17,7 @@ from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine
+    from collections.abc import Callable, Coroutine, Sequence
 
     from reina.music import Score
     from reina.sessions.session import Session
@@ -43,10 +43,17 @@ class HandRenderer(SongRenderer):
         self.let.set()
 
     async def request(
-        self, score: Score, *, trumpet_part: int | None = None, transposition: int = 0
+        self,
+        score: Score,
+        *,
+        trumpet_part: int | None = None,
+        joined_parts: Sequence[int] = (),
+        transposition: int = 0,
     ) -> SongRequest:
         self.asked.append((trumpet_part, transposition))
-        return await super().request(score, trumpet_part=trumpet_part, transposition=transposition)
+        return await super().request(
+            score, trumpet_part=trumpet_part, joined_parts=joined_parts, transposition=transposition
+        )
 
     async def _run(self, rendering: object, plan: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
@@ -128,6 +135,24 @@ def test_the_song_is_of_the_part_and_the_transposition(tmp_path: Path, stage: St
         assert (await ready(session), session.song_state().href) == (first, href)
         await desk.store.change(session, title="Other", public=True)
         assert len(desk.renderer.asked) == 4, "a name is not heard"
+        await desk.store.aclose()
+
+    run(scenario)
+
+
+def test_the_song_is_of_the_joined_parts_too(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(relay(), transposition=-2)
+        alone, href = await ready(session), session.song_state().href
+        await desk.store.change(session, joined_parts=[1, 2])
+        assert session.song_state().href == f"{href}&joined_parts=1,2"
+        joined = await ready(session)
+        assert joined != alone
+        await desk.store.change(session, joined_parts=[2, 1])
+        assert await ready(session) == joined, "the order says nothing"
+        await desk.store.change(session, joined_parts=[])
+        assert (await ready(session), session.song_state().href) == (alone, href)
         await desk.store.aclose()
 
     run(scenario)

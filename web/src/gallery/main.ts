@@ -71,7 +71,7 @@ async function open(): Promise<Gallery> {
   const frames = await SessionFrames.open(asked.get("session"));
   const { manifest, score } = frames;
   await stage.load(manifest, (rig) => manifest.links.rigs[rig] ?? `/api/v1/rigs/${rig}`);
-  stage.setScore({ notes: score.notes.filter(({ part }) => part === score.part), bar_lines_s: score.bar_lines_s });
+  stage.setScore({ notes: score.notes.filter((note) => note.in_played_part), bar_lines_s: score.bar_lines_s });
   new ResizeObserver(() => stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio)).observe(canvas);
   stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio);
 

@@ -190,6 +190,8 @@ export interface WireNote {
   valves: number[] | null
   /** Why these valves, or why none can be said. */
   reason: string
+  /** Whether its part is the player's or joined to it; reason says why a note of it is left out. */
+  in_played_part: boolean
 }
 
 /** One session: a score, its player, its show and its clock. */
@@ -210,6 +212,8 @@ export interface Session {
   written: boolean
   /** Whether the part is moved by the octaves that bring most of its notes into range. */
   octave_fit: boolean
+  /** Further parts that the player plays together with it, as if their notes were its own; ascending. */
+  joined_parts: number[]
   /** Who plays: a rig with a hold on the instrument. */
   player: string
   /** Who could. */
@@ -266,6 +270,8 @@ export interface ScoreChanged {
   written: boolean
   /** Whether the part is moved into range by octaves. */
   octave_fit: boolean
+  /** Further parts that the player plays together with it, ascending. */
+  joined_parts: number[]
   /** How long the music now lasts. */
   duration_s: number
   song: SongState
@@ -325,6 +331,8 @@ export interface Score {
   transposition: number
   written: boolean
   octave_fit: boolean
+  /** Further parts that the player plays together with it, ascending. */
+  joined_parts: number[]
   parts: PartSummary[]
   tempi: Tempo[]
   metres: Metre[]
@@ -459,7 +467,8 @@ export interface SetLoop {
 /**
  * What PATCH may change of a session; a field left out stays.
  *
- * Of another sequence the best part is played, unless one is named with it.
+ * Of another sequence the best part is played, unless one is named with it. Another part is played alone,
+ * unless others are named with it.
  */
 export interface SessionChange {
   title?: string | null
@@ -468,6 +477,7 @@ export interface SessionChange {
   transposition?: number | null
   written?: boolean | null
   octave_fit?: boolean | null
+  joined_parts?: number[] | null
   sequence?: number | null
   player?: string | null
 }

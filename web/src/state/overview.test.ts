@@ -15,6 +15,7 @@ function note(onset: number, duration: number, pitch = 70): WireNote {
     velocity: 0.8,
     valves: [],
     reason: "",
+    in_played_part: true,
   };
 }
 

@@ -55,10 +55,8 @@ export class SessionView {
   readonly playing = $derived.by(
     () => this.transport.playing && (this.transport.loop !== null || this.songTime < this.duration - END_TOLERANCE_S),
   );
-  /** The notes of the part that the player plays, by onset. */
-  readonly playedNotes: readonly WireNote[] = $derived.by(() =>
-    this.score.notes.filter((note) => note.part === this.score.part),
-  );
+  /** The notes of the parts that the player plays, by onset. */
+  readonly playedNotes: readonly WireNote[] = $derived.by(() => this.score.notes.filter((note) => note.in_played_part));
 
   readonly #surroundings: Surroundings;
   readonly #stream: Stream;

@@ -1,5 +1,6 @@
 """A valved brass instrument: whatever its table says, it chooses a part, makes it playable and fingers it."""
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -8,6 +9,7 @@ from reina.instruments.brass.chart import ChartEntry
 from reina.instruments.brass.model import BrassModel
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
+from reina.instruments.joined_parts import check_joined_parts, notes_of_parts
 from reina.instruments.line import playable_line
 from reina.instruments.octaves import fitting_octaves
 from reina.instruments.pitch_names import pitch_name
@@ -81,6 +83,7 @@ class ValvedBrass:
         *,
         written: bool = False,
         octave_fit: bool = False,
+        joined_parts: Sequence[int] = (),
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -90,14 +93,16 @@ class ValvedBrass:
             transposition: Semitones to add to its pitches.
             written: Whether its pitches are the written ones of this instrument and not those that sound.
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
+            joined_parts: Indices of further parts that are played with it, as if their notes were its own.
 
         Raises:
-            NotInScoreError: If the score has no such part.
+            NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
         """
         if not 0 <= part < len(score.parts):
             raise NotInScoreError(
                 f"there is no part {part}; there are 0 to {len(score.parts) - 1}", where="part"
             )
+        joined = check_joined_parts(score, part, joined_parts)
         log = WarningLog(MOST_TOLD)
         place = f"part {part}"
         if written:
@@ -107,8 +112,8 @@ class ValvedBrass:
                 place,
                 f"read as written for {self.title}: it sounds {_semitones(transposition)}",
             )
-        pitches = score.notes.sounding_pitch[score.note_indices(part)].astype(np.int64) + transposition
-        octaves = fitting_octaves(pitches, self.model.lowest, self.model.highest)
+        pitches = score.notes.sounding_pitch[notes_of_parts(score, (part, *joined))].astype(np.int64)
+        octaves = fitting_octaves(pitches + transposition, self.model.lowest, self.model.highest)
         if octaves and octave_fit:
             transposition += 12 * octaves
             log.add("octave_fit", place, f"moved by {_octaves(octaves)} to come into range")
@@ -118,12 +123,13 @@ class ValvedBrass:
                 place,
                 f"moved by {_octaves(octaves)}, more of its notes would be in range",
             )
-        line = playable_line(score, part, transposition, log, playable=self.model.chart)
+        line = playable_line(score, part, transposition, log, joined_parts=joined, playable=self.model.chart)
         fingering = self.finger(line)
         for note in np.flatnonzero(~fingering.playable).tolist():
-            where = f"{place}, note {line.note_index[note]} at {line.onset_s[note]:.3f} s"
+            index = line.note_index[note]
+            where = f"part {score.notes.part[index]}, note {index} at {line.onset_s[note]:.3f} s"
             log.add("not_playable", where, fingering.reasons[note])
-        return PlayedPart(part, transposition, line, fingering, log.warnings())
+        return PlayedPart(part, transposition, line, fingering, log.warnings(), joined_parts=joined)
 
     def finger(self, line: Line) -> Fingering:
         """Finger a line, phrase by phrase; what is out of range ends a phrase."""
