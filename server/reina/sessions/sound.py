@@ -183,7 +183,9 @@ class SongRenderer:
     async def aclose(self) -> None:
         """Stop every rendering and wait until its process is gone."""
         for task in self._tasks:
-            task.cancel()
+            # One that is being cancelled is waiting for its process's end, which a second time would cut short.
+            if not task.cancelling():
+                task.cancel()
         if self._tasks:
             await asyncio.wait(self._tasks)
 
@@ -254,7 +256,8 @@ class SongRenderer:
         finally:
             if process.returncode is None:
                 process.kill()
-                await process.wait()
+            # Until its pipes are read to their ends the loop keeps them open.
+            await process.communicate()
             # What a process that was killed leaves behind; its own clean-up does not run.
             for partial in self._songs.glob(f"{path.name}.{process.pid}.*partial"):
                 partial.unlink(missing_ok=True)
