@@ -114,8 +114,7 @@ def test_any_bytes_as_motion_give_a_clip_or_the_readers_own_error(data: bytes) -
 
 
 WORDS = (
-    *("ROOT", "JOINT", "End", "Site", "OFFSET", "CHANNELS", "Xposition", "Zrotation", "{", "}", "
-"),
+    *("ROOT", "JOINT", "End", "Site", "OFFSET", "CHANNELS", "Xposition", "Zrotation", "{", "}", "\n"),
     *("MOTION", "Frames", ":", "Frame", "Time", "0", "1", "2.5", "a"),
 )
 
