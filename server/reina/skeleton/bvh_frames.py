@@ -11,6 +11,8 @@ from reina.skeleton.bvh_tokens import LARGEST, MOST_DIGITS, Tokens, shown
 from reina.skeleton.clip_warning import ClipWarning
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from reina.rotations.arrays import FloatArray
 
 MOST_VALUES = 50_000_000
@@ -64,23 +66,20 @@ def read_frames(
 
 def _numbers(tokens: Tokens, wanted: int) -> tuple[FloatArray, int]:
     """Numbers up to the end, or, once as many as are wanted are there, to what is none; and where that is."""
-    text, at, count = tokens.text, tokens.at, 0
+    count = 0
     pieces: list[FloatArray] = [np.zeros(0)]
-    while at < len(text):
-        found = _SPACE.search(text, at + _PIECE)
-        end = found.start() if found else len(text)
-        piece = _plain_numbers(text[at:end])
-        stopped = piece is None
+    for begin, end in _pieces(tokens.text, tokens.at, len(tokens.text)):
+        piece = _plain_numbers(tokens.text[begin:end])
+        stopped = end
         if piece is None:
-            piece, end = _numbers_before(tokens, at, end, wanted - count)
+            piece, stopped = _numbers_before(tokens, begin, end, wanted - count)
         pieces.append(piece)
         count += piece.size
-        at = end
         if count > MOST_VALUES:
-            tokens.fail(f"the file has more than {MOST_VALUES} values, which is more than Reina reads", at)
-        if stopped:
-            break
-    return np.concatenate(pieces), at
+            tokens.fail(f"the file has more than {MOST_VALUES} values, which is more than Reina reads", begin)
+        if stopped < end:
+            return np.concatenate(pieces), stopped
+    return np.concatenate(pieces), len(tokens.text)
 
 
 def _plain_numbers(text: str) -> FloatArray | None:
@@ -109,18 +108,27 @@ def _numbers_before(tokens: Tokens, begin: int, end: int, wanted: int) -> tuple[
 
 def _check_lines(tokens: Tokens, begin: int, end: int, channels: int) -> None:
     """Refuse a file in which a frame ends in the middle of a line: one has too few values or too many."""
-    letters = np.frombuffer(tokens.text[begin:end].encode(), dtype=np.uint8)
-    spaces = letters <= ord(" ")
-    begins = ~spaces
-    begins[1:] &= spaces[:-1]
-    line_ends = np.flatnonzero(np.append(letters, ord("\n")) == ord("\n"))
-    after = np.append(0, np.cumsum(begins, dtype=np.int32))[line_ends]
-    before = np.append(0, after[:-1])
-    filled = before % channels
-    cut = np.flatnonzero((filled > 0) & (after > before - filled + channels))
-    if cut.size:
-        first = int(np.flatnonzero((filled[: cut[0]] == 0) & (after[: cut[0]] > before[: cut[0]]))[-1])
-        found = int(before[cut[0]] - before[first])
-        place = begin + int(line_ends[first - 1]) + 1 if first else begin
-        here = "this line" if cut[0] == first + 1 else "the lines from here"
-        tokens.fail(f"a frame has {channels} values, {here} {found}", place)
+    text, began, lines, held, filled = tokens.text, begin, 0, 0, 0
+    word = _WORD.search(text, begin, end)
+    while word:
+        at = word.start()
+        line_end = text.find("\n", at, end)
+        line_end = end if line_end < 0 else line_end
+        found = sum(len(text[first:last].split()) for first, last in _pieces(text, at, line_end))
+        if filled and filled + found > channels:
+            here = "this line" if lines == 1 else "the lines from here"
+            tokens.fail(f"a frame has {channels} values, {here} {held}", began)
+        if not filled:
+            began, lines, held = at, 0, 0
+        lines, held = lines + 1, held + found
+        filled = (filled + found) % channels
+        word = _WORD.search(text, line_end, end)
+
+
+def _pieces(text: str, at: int, end: int) -> Iterator[tuple[int, int]]:
+    """Where pieces of a text begin and end, cut between words."""
+    while at < end:
+        found = _SPACE.search(text, at + _PIECE, end) if end - at > _PIECE else None
+        piece_end = found.start() if found else end
+        yield at, piece_end
+        at = piece_end

@@ -125,6 +125,18 @@ def test_an_incomplete_last_frame_is_left_out() -> None:
     assert clip.warnings[1].message == "the last frame has 7 of 9 values and is left out"
 
 
+def test_frames_over_several_lines_or_several_on_one_need_no_announced_number() -> None:
+    for rows in (ROWS.replace(" 20", "\n20"), ROWS.replace("7\n2", "7 2"), " ".join(ROWS.split())):
+        clip = read_bvh(HEAD + MOTION.replace(": 3", ": 8") + rows)
+        np.testing.assert_array_equal(clip.values, VALUES)
+        assert kinds(clip) == ["frame_count"]
+    # A line that is short within the file shifts all that follows, and is told.
+    short = ROWS.replace("30 5 6 7", "30\n\n5 6")
+    assert refused(HEAD + MOTION + short) == "line 19: a frame has 9 values, the lines from here 8"
+    long = HEAD + MOTION.replace(": 3", ": 20000") + "1 2 3 4 5 6 7 8 9 " * 19_999 + "\n1 2 3\n4 5 6 7 8 9 10"
+    assert refused(long) == "line 20: a frame has 9 values, this line 3"
+
+
 def test_text_after_the_last_frame_is_left_out() -> None:
     clip = read_bvh(PLAIN + "\nEND of the file 1 2 3\nmore\n")
     np.testing.assert_array_equal(clip.values, VALUES)
