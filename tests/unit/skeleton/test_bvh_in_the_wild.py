@@ -53,7 +53,8 @@ def refused(data: str | bytes) -> str:
 
 
 def test_positions_replace_the_offset_and_are_added_by_choice() -> None:
-    for meaning, distance in (("replace", 10.0), ("add", 20.0)):
+    distances: dict[PositionMeaning, float] = {"replace": 10.0, "add": 20.0}
+    for meaning, distance in distances.items():
         points = clip_points(case("bvh-positions.bvh", positions=meaning)).positions
         assert np.linalg.norm(points[:, 1] - points[:, 0], axis=-1) == pytest.approx([distance] * 3)
         np.testing.assert_allclose(points[:, 0], [[1, 90, 2], [2, 91, 3], [3, 92, 4]])
@@ -268,7 +269,9 @@ def test_what_is_no_number_of_a_motion(number: str, told: str) -> None:
 
 def test_numbers_as_programs_write_them() -> None:
     clip = read_bvh(
-        HEAD + MOTION.replace("0.0333333", ".0333333") + ROWS.replace("1 90 2", "+1. 9.0e+01 200E-2")
+        HEAD
+        + MOTION.replace("0.0333333", ".0333333").replace(": 3", ": 3.0")
+        + ROWS.replace("1 90 2", "+1. 9.0e+01 200E-2")
     )
     np.testing.assert_array_equal(clip.values, VALUES)
     assert clip.frame_time_s == 0.0333333
