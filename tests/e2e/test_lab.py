@@ -144,6 +144,50 @@ def test_clips_play_and_a_broken_file_is_told_with_its_line(visit: Visit) -> Non
     assert page.get_by_role("heading", name="breathing.bvh").is_visible(), "what was open stays"
 
 
+ODD = """HIERARCHY
+ROOT Hips {
+  OFFSET 0 9 0 CHANNELS 3 Xposition Yposition Zposition
+  JOINT Nub { OFFSET 0 10 0 }
+  JOINT Nub { OFFSET 5 10 0 }
+}
+"""
+
+
+def size_of(opened: Opened) -> str:
+    return opened.page.locator("tr", has_text="Size, in the file's unit").locator("td").inner_text()
+
+
+def test_a_clips_warnings_are_told_and_positions_taken_as_chosen(visit: Visit) -> None:
+    opened = open_lab(visit, "Motion clips")
+    page = opened.page
+    page.get_by_role("heading", name="breathing.bvh").wait_for()
+
+    def put(name: str, text: str) -> None:
+        page.set_input_files(
+            "#clip-file", [{"name": name, "mimeType": "text/plain", "buffer": text.encode()}]
+        )
+        page.get_by_role("heading", name=name).wait_for()
+
+    put("odd.bvh", ODD + "MOTION\nFrames: 5\nFrame Time: 0.5\n0 1 0\n0 4 0\n")
+    told = page.locator("details", has_text="2 things to know").inner_text()
+    assert "line 5\n2 joints are called 'Nub'; the later ones are now 'Nub.001'" in told
+    assert "line 8\n5 frames are announced, 2 are there, which are read" in told
+    assert page.get_by_role("button", name="Nub.001").is_visible()
+    assert size_of(opened) == "5.0 × 13.0 × 0.0"
+    page.get_by_role("slider", name="Frame").press("End")
+    page.get_by_role("button", name="Hips").click()
+    place = page.locator(".place td").nth(1)
+    assert place.inner_text() == "4.000"
+    page.get_by_label("Position channels").select_option("add")
+    opened.until("document.querySelectorAll('.place td')[1]?.innerText === '13.000'")
+    put("still.bvh", ODD)
+    assert page.get_by_label("Position channels").input_value() == "add", "it stays while the page is open"
+    assert "the file has no motion" in page.locator("details").inner_text()
+    assert page.get_by_text("none: a skeleton at rest").is_visible()
+    assert size_of(opened) == "5.0 × 10.0 × 0.0"
+    assert page.get_by_role("button", name="Play", exact=True).is_disabled()
+
+
 @pytest.mark.parametrize("size", [(390, 844), (1440, 900)], ids=["phone", "wide"])
 def test_nothing_overflows_the_window(visit: Visit, size: tuple[int, int]) -> None:
     opened = open_lab(visit, "Rotations", size=size)

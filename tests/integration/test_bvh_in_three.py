@@ -12,13 +12,15 @@ import pytest
 from tests.integration.stranger import take
 
 from reina import rotations as r
-from reina.skeleton import read_bvh
+from reina.lab import clip_points
+from reina.skeleton import PositionMeaning, read_bvh, write_bvh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from tests.integration.server import Owned
 
 SCRIPT = Path(__file__).with_name("bvh_in_three.mjs")
+CASES = Path(__file__).parents[1] / "cases"
 CLIPS = sorted((Path(__file__).parents[2] / "rigs").glob("*/clips/*.bvh"))
 THREE_M = 1e-5
 """What three.js's 32-bit keyframes leave of a position."""
@@ -48,6 +50,21 @@ def test_shipped_clips_stand_there_as_here(path: Path) -> None:
         places[:, joint] = begin + r.rotate(above, links[:, joint])
     for joint, name in enumerate(clip.names):
         np.testing.assert_allclose(bones[name], places[:, joint], atol=THREE_M, err_msg=name)
+
+
+@pytest.mark.parametrize("meaning", ["replace", "add"])
+def test_positions_of_any_joint_stand_there_as_here(meaning: PositionMeaning) -> None:
+    text = (CASES / "bvh-positions.bvh").read_text().replace("OFFSET 0.0 0.0 0.0", "OFFSET 3 4 5")
+    clip = read_bvh(text, positions=meaning)
+    places = clip_points(clip).positions
+    for written in (write_bvh(clip), write_bvh(clip.without_still_positions())):
+        _, bones = in_three(written)
+        for joint, name in enumerate(clip.names):
+            np.testing.assert_allclose(bones[name], places[:, joint], atol=1e-4, err_msg=name)
+    # As it is, three.js adds the two.
+    _, bones = in_three(text)
+    added = clip_points(read_bvh(text, positions="add")).positions
+    np.testing.assert_allclose(bones["Spine"], added[:, 1], atol=1e-4)
 
 
 def test_an_exported_performance_stands_there_as_its_frames_do(owned: Owned) -> None:

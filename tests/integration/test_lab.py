@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 LAB = "/api/v1/lab"
 CLIPS = Path(__file__).parents[2] / "rigs" / "trumpeter" / "clips"
+CASES = Path(__file__).parents[1] / "cases"
 BVH = """HIERARCHY
 ROOT hips
 {
@@ -35,8 +37,8 @@ ROOT hips
 MOTION
 Frames: 2
 Frame Time: 0.04
-0 0 0 0 0 0 0 0 0
-5 0 0 90 0 0 0 0 0
+0 90 0 0 0 0 0 0 0
+5 90 0 90 0 0 0 0 0
 """
 
 
@@ -281,6 +283,22 @@ def test_wrong_questions_are_refused(
     assert told in refusal(client.post(f"{LAB}/{path}", json=body), status, kind)["detail"]
 
 
+@pytest.mark.parametrize(
+    "rig", ["a" * 300, "a/" * 3000, "\0", "\ud800", "..", "", ".", "trumpeter/../trumpeter"]
+)
+@pytest.mark.parametrize("path", ["forward", "inverse", "reach"])
+def test_names_that_no_rig_has(client: httpx.Client, path: str, rig: str) -> None:
+    asked: dict[str, dict[str, Any]] = {
+        "forward": {"angles_rad": [0.0]},
+        "inverse": {"target": [0, 0, 0], "choice": {"solver": "ccd"}},
+        "reach": {"through": [0, 0, 0], "choice": {"solver": "ccd"}},
+    }
+    body = {"chain": "rightArm", "rig": rig} | asked[path]
+    headers = {"Content-Type": "application/json"}
+    response = client.post(f"{LAB}/{path}", content=json.dumps(body), headers=headers)
+    assert "no rig has the name" in refusal(response, 404, "unknown-rig")["detail"]
+
+
 def test_a_clip_is_read_into_places(client: httpx.Client) -> None:
     response = client.post(f"{LAB}/bvh", content=BVH.encode())
     assert response.status_code == 200, response.text
@@ -312,7 +330,14 @@ def test_a_rewritten_clip_is_the_same_motion(client: httpx.Client) -> None:
     [
         (BVH.replace("OFFSET 0 20 0", "OFFSET 0 20 zero"), 8, "'zero' is no number"),
         (BVH.replace("Zrotation", "Wrotation", 1), 5, "channel 'Wrotation' is none of"),
-        (BVH.replace("5 0 0 90 0 0 0 0 0", "5 0 0 90 0 0 0 0"), 20, "a frame has 9 values, this line 8"),
+        (BVH.replace("0 90 0 0 0 0 0 0 0", "0 90 0 0 0 0 0 0"), 19, "a frame has 9 values, this line 8"),
+        (BVH.replace("5 90 0 90", "5 ² 0 90"), 20, "'²' is no number"),
+        (BVH.replace("5 90 0 90", f"5 {'9' * 5000} 0 90"), 20, "has 5000 characters"),
+        (BVH.replace("5 90 0 90", "5 nan 0 90"), 20, "'nan' is no number"),
+        (BVH.replace("CHANNELS 3", "CHANNELS ²"), 9, "'²' is no number"),
+        (BVH.replace("Frames: 2", f"Frames: {'9' * 5000}"), 17, "has 5000 characters"),
+        (BVH.replace("Time: 0.04", "Time: 1e308"), 18, "1e308 is too large"),
+        (BVH.replace("OFFSET 0 20 0", "OFFSET 0 1e300 0"), 8, "1e300 is too large"),
         (BVH.replace("MOTION", "MOTIONS"), 16, "after the hierarchy comes MOTION"),
         ("", 1, "the file ends here"),
         ("not a clip", 1, "begins with HIERARCHY"),
@@ -325,13 +350,71 @@ def test_a_broken_clip_is_told_with_its_line(client: httpx.Client, text: str, li
     assert told in fault["detail"]
 
 
-def test_clips_without_frames_or_too_large_are_refused(client: httpx.Client) -> None:
-    still = BVH.split("Frames")[0] + "Frames: 0\nFrame Time: 0.04\n"
-    assert "no frame" in refusal(client.post(f"{LAB}/bvh", content=still), 422, "clip-unreadable")["detail"]
-    endless = BVH.replace("OFFSET 0 20 0", "OFFSET 0 1e300 0")
-    assert (
-        "too large" in refusal(client.post(f"{LAB}/bvh", content=endless), 422, "clip-unreadable")["detail"]
-    )
+def read_case(client: httpx.Client, name: str, **asked: str) -> dict[str, Any]:
+    response = client.post(f"{LAB}/bvh", content=(CASES / name).read_bytes(), params=asked)
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def test_what_is_odd_is_read_and_told(client: httpx.Client) -> None:
+    named = read_case(client, "bvh-dupname.bvh")
+    assert (len(named["joints"]), named["frames"]) == (4, 3)
+    assert named["warnings"] == [
+        {
+            "kind": "repeated_name",
+            "place": "line 19",
+            "message": "2 joints are called 'Nub'; the later ones are now 'Nub.001'",
+        }
+    ]
+    more = read_case(client, "bvh-frames.bvh")
+    assert (more["frames"], [warning["kind"] for warning in more["warnings"]]) == (3, ["frame_count"])
+    braced = read_case(client, "bvh-endbrace.bvh")
+    assert (len(braced["joints"]), braced["frames"], braced["warnings"]) == (2, 3, [])
+
+
+def test_positions_replace_the_offset_or_are_added(client: httpx.Client) -> None:
+    for asked, distance in (({}, 10), ({"positions": "replace"}, 10), ({"positions": "add"}, 20)):
+        clip = read_case(client, "bvh-positions.bvh", **asked)
+        positions = np.frombuffer(base64.b64decode(clip["positions"]), "<f4").reshape(3, 3, 3)
+        assert np.linalg.norm(positions[:, 1] - positions[:, 0], axis=1) == pytest.approx([distance] * 3)
+        content = (CASES / "bvh-positions.bvh").read_bytes()
+        written = client.post(f"{LAB}/bvh/rewritten", content=content, params=asked).text
+        for meaning in ("replace", "add"):
+            again = client.post(f"{LAB}/bvh", content=written, params={"positions": meaning}).json()
+            found = np.frombuffer(base64.b64decode(again["positions"]), "<f4").reshape(3, 3, 3)
+            np.testing.assert_allclose(found, positions, atol=1e-4)
+    for path in ("bvh", "bvh/rewritten"):
+        wrong = client.post(f"{LAB}/{path}", content=BVH, params={"positions": "both"})
+        assert "positions" in refusal(wrong, 422, "request-invalid")["detail"]
+
+
+def test_a_deep_file_is_read_and_rewritten(client: httpx.Client) -> None:
+    joints = len(read_case(client, "bvh-deep.bvh")["joints"])
+    written = client.post(f"{LAB}/bvh/rewritten", content=(CASES / "bvh-deep.bvh").read_bytes())
+    assert written.status_code == 200, written.text
+    assert len(client.post(f"{LAB}/bvh", content=written.content).json()["joints"]) == joints > 900
+
+
+def test_clips_without_frames_are_skeletons(client: httpx.Client) -> None:
+    head = BVH.split("Frames")[0]
+    bomb = "HIERARCHY ROOT a {OFFSET 0 0 0} MOTION Frames: {} Frame Time: 1"
+    for still, kinds in (
+        (head + "Frames: 0\nFrame Time: 0.04\n", []),
+        (head.replace("MOTION\n", ""), ["no_motion"]),
+        (bomb.replace("{}", "20000000"), ["frame_count"]),
+        (bomb.replace("{}", "1000000000"), ["frame_count"]),
+    ):
+        clip = client.post(f"{LAB}/bvh", content=still).json()
+        assert (clip["frames"], clip["sampled_frames"], clip["duration_s"]) == (0, 1, 0)
+        assert [warning["kind"] for warning in clip["warnings"]] == kinds
+        positions = np.frombuffer(base64.b64decode(clip["positions"]), "<f4").reshape(-1, 3)
+        if "spine" in still:
+            np.testing.assert_array_equal(positions, [[0, 90, 0], [0, 110, 0], [0, 140, 0]])
+        written = client.post(f"{LAB}/bvh/rewritten", content=still)
+        assert "Frames: 0\n" in written.text
+
+
+def test_clips_that_are_too_large_are_refused(client: httpx.Client) -> None:
     refusal(client.post(f"{LAB}/bvh", content=b" " * 21_000_000), 413, "clip-too-large")
     assert client.post(f"{LAB}/bvh", content=BVH).status_code == 200, "the server goes on"
 

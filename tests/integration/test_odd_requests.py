@@ -31,6 +31,10 @@ def refused(answer: httpx.Response) -> None:
         "/api/v1/rigs/%00",
         "/api/v1/rigs/%2e%2e",
         f"/api/v1/rigs/{LONG}",
+        f"/api/v1/rigs/{LONG}/rig.json",
+        f"/api/v1/sessions/{LONG}",
+        f"/api/v1/sessions/{LONG}/song",
+        f"/api/v1/examples/{LONG}/taps.mid",
         "/api/v1/rigs/trumpet/%00",
         "/api/v1/rigs/trumpet/%2e%2e/trumpeter/rig.json",
         f"/api/v1/rigs/trumpet/{LONG}",
@@ -101,6 +105,12 @@ def test_shows_that_could_not_be_read_again(client: httpx.Client, owned: Owned, 
     assert client.get(f"{owned.path}/show").json() == before
     files = {"score": ("a.mid", scale(4)), "song": ("a.wav", song(0.1)), "show": ("a.json", body)}
     refused(client.post("/api/v1/sessions", files=files))
+
+
+@pytest.mark.parametrize("name", [LONG, "a" * 200, "../trumpeter", "\0", "trumpeter/."])
+def test_players_that_no_rig_is(client: httpx.Client, owned: Owned, name: str) -> None:
+    refused(client.post("/api/v1/sessions", files={"score": ("a.mid", scale(2))}, data={"player": name}))
+    refused(owned.change("PATCH", "", json={"player": name}))
 
 
 @pytest.mark.parametrize(

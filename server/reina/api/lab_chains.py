@@ -9,6 +9,7 @@ from fastapi import APIRouter, Request
 from reina.api.access import ServerSettings
 from reina.api.lab_work import compute
 from reina.api.problems import ProblemError
+from reina.api.rigs import DESCRIPTION, rig_description
 from reina.api.settings import Settings
 from reina.lab import (
     ChainPose,
@@ -35,8 +36,6 @@ from reina.sessions.production import PLAYER
 from reina.skeleton import load_rig
 
 router = APIRouter()
-
-DESCRIPTION = "rig.json"
 
 
 @router.get("/chains")
@@ -114,9 +113,7 @@ async def reach(request: Request, asked: ReachRequest, settings: ServerSettings)
 
 
 def _find(settings: Settings, rig: str, name: str) -> PosableChain:
-    path = settings.rigs_dir / rig / DESCRIPTION
-    if Path(rig).name != rig or not path.is_file():
-        raise ProblemError(404, "unknown-rig", "There is no such rig", f"no rig has the name {rig!r}")
+    path = rig_description(settings.rigs_dir, rig)
     chains = {chain.name: chain for chain in _chains_of(path.parent, path.stat().st_mtime_ns)}
     if name not in chains:
         known = ", ".join(chains) or "none"

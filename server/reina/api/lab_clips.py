@@ -1,12 +1,15 @@
 """The laboratory's third table: motion clips, shipped or uploaded."""
 
+import asyncio
 import base64
+from collections.abc import AsyncIterator
+from dataclasses import asdict, replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Annotated
 
-import numpy as np
-from fastapi import APIRouter, Request
-from fastapi.responses import PlainTextResponse, Response
+from fastapi import APIRouter, Query, Request
+from fastapi.responses import PlainTextResponse, Response, StreamingResponse
 
 from reina.api.access import ServerSettings
 from reina.api.lab_work import compute
@@ -15,7 +18,7 @@ from reina.lab import clip_points
 from reina.protocol.lab import LabClip, LabClipList, ParsedClip
 from reina.protocol.links import rig_href
 from reina.protocol.resources import Fault
-from reina.skeleton import BvhError, MotionClip, read_bvh, write_bvh
+from reina.skeleton import BvhError, MotionClip, PositionMeaning, bvh_head, bvh_rows, read_bvh
 
 router = APIRouter()
 
@@ -24,6 +27,15 @@ MOST_BYTES = 20 * MEGABYTE
 READ_ON = 32 * MEGABYTE
 """How much of a file that is too large is still read, so that its sender comes to hear why."""
 CLIPS = "*/clips/*.bvh"
+VALUES_A_PIECE = 50_000
+"""Numbers of a rewritten file that are written at a time."""
+Positions = Annotated[
+    PositionMeaning,
+    Query(
+        description="What a joint's position channels mean: its place in its parent's frame, in place of its "
+        "OFFSET, as most programs write them (`replace`); or how far it is from its OFFSET (`add`)."
+    ),
+]
 BODY = {
     "requestBody": {
         "required": True,
@@ -45,20 +57,39 @@ async def list_clips(request: Request, settings: ServerSettings) -> LabClipList:
 
 
 @router.post("/bvh", response_model=ParsedClip, openapi_extra=BODY)
-async def read_clip(request: Request) -> Response:
+async def read_clip(request: Request, positions: Positions = "replace") -> Response:
     """Read a BVH file: its joints, and where everything is in the world; long clips are thinned."""
     data = await _body(request)
     # Megabytes: written as JSON in the thread too, where no viewer waits for it.
-    text = await compute(request, lambda: _parsed(_read(data)).model_dump_json())
+    text = await compute(request, lambda: _parsed(_read(data, positions)).model_dump_json())
     return Response(text, media_type="application/json")
 
 
 @router.post("/bvh/rewritten", response_class=PlainTextResponse, openapi_extra=BODY)
-async def rewrite_clip(request: Request) -> PlainTextResponse:
-    """The same motion as a plain BVH file, without what other programs may stumble over."""
+async def rewrite_clip(request: Request, positions: Positions = "replace") -> StreamingResponse:
+    """The same motion as a plain BVH file, without what other programs may stumble over.
+
+    Joints with position channels have the OFFSET 0 in it, so that it is the same motion for programs that
+    add the two as for those that do not.
+    """
     data = await _body(request)
-    text = await compute(request, lambda: write_bvh(_read(data)))
-    return PlainTextResponse(text, headers={"Cache-Control": "no-store"})
+    clip = await compute(request, lambda: _read(data, positions).without_still_positions())
+    return StreamingResponse(
+        _written(clip, request.app.state.computing),
+        media_type="text/plain; charset=utf-8",
+        headers={"Cache-Control": "no-store"},
+    )
+
+
+async def _written(clip: MotionClip, computing: asyncio.Semaphore) -> AsyncIterator[str]:
+    """A file's text in pieces, which is several times what was sent where its numbers are short."""
+    yield bvh_head(clip, len(clip))
+    rows = max(1, VALUES_A_PIECE // max(1, clip.values.shape[1]))
+    for begin in range(0, len(clip), rows):
+        piece = replace(clip, values=clip.values[begin : begin + rows])
+        async with computing:
+            text = await asyncio.to_thread(bvh_rows, piece)
+        yield text
 
 
 async def _body(request: Request) -> bytes:
@@ -81,9 +112,9 @@ async def _body(request: Request) -> bytes:
     return bytes(data)
 
 
-def _read(data: bytes) -> MotionClip:
+def _read(data: bytes, positions: PositionMeaning) -> MotionClip:
     try:
-        return read_bvh(data)
+        return read_bvh(data, positions=positions)
     except BvhError as error:
         fault = Fault(detail=error.detail, location=error.where)
         raise ProblemError(
@@ -92,18 +123,8 @@ def _read(data: bytes) -> MotionClip:
 
 
 def _parsed(clip: MotionClip) -> ParsedClip:
-    if len(clip) == 0:
-        fault = Fault(detail="the file has no frame to show", location="Frames")
-        raise ProblemError(
-            422, "clip-unreadable", "The BVH file cannot be read", fault.detail, errors=[fault]
-        )
     points = clip_points(clip)
     positions = points.positions.astype("<f4")
-    if not np.all(np.isfinite(positions)):
-        fault = Fault(detail="its numbers are too large to be drawn", location=None)
-        raise ProblemError(
-            422, "clip-unreadable", "The BVH file cannot be read", fault.detail, errors=[fault]
-        )
     return ParsedClip.model_validate(
         {
             "joints": [
@@ -124,6 +145,7 @@ def _parsed(clip: MotionClip) -> ParsedClip:
             "frames": len(clip),
             "frame_time_s": clip.frame_time_s,
             "duration_s": len(clip) * clip.frame_time_s,
+            "warnings": [asdict(warning) for warning in clip.warnings],
             "points": list(points.names),
             "point_parents": points.parents.tolist(),
             "frame_step": points.frame_step,

@@ -34,7 +34,7 @@ def list_rigs(settings: ServerSettings) -> RigList:
 @router.get("/rigs/{name}")
 def get_rig(name: str, settings: ServerSettings) -> dict[str, Any]:
     """A rig: joints at rest, effectors, contacts, what moves, and links to its models."""
-    rig: dict[str, Any] = json.loads(_file(settings.rigs_dir, name, DESCRIPTION).read_bytes())
+    rig: dict[str, Any] = json.loads(rig_description(settings.rigs_dir, name).read_bytes())
     rig["models"] = {tier: f"{rig_href(name)}/{file}" for tier, file in rig.get("models", {}).items()}
     return rig
 
@@ -47,11 +47,20 @@ def get_rig_file(name: str, file: str, settings: ServerSettings) -> ServedFile:
     return ServedFile(path, media_type=MEDIA_TYPES.get(path.suffix))
 
 
-def _file(rigs_dir: Path, name: str, file: str) -> Path:
+def rig_description(rigs_dir: Path, name: str) -> Path:
+    """A rig's `rig.json`.
+
+    Raises:
+        ProblemError: 404, no rig has that name, which may be anything that came in a request.
+    """
     description = file_below(rigs_dir, f"{name}/{DESCRIPTION}")
-    if description is None or description.parent.parent != rigs_dir.resolve():
+    if description is None or description.parent != rigs_dir.resolve() / name:
         raise ProblemError(404, "unknown-rig", "There is no such rig", f"no rig has the name {name!r}")
-    path = file_below(description.parent, file)
+    return description
+
+
+def _file(rigs_dir: Path, name: str, file: str) -> Path:
+    path = file_below(rig_description(rigs_dir, name).parent, file)
     if path is None:
         raise ProblemError(404, "unknown-file", "The rig has no such file", f"{name} has no file {file!r}")
     return path

@@ -12,6 +12,8 @@ from reina.keyframes.time_map import TimeMap, TimeUnit
 from reina.keyframes.triggers import Triggers
 
 _INSTANT = 1e-9
+_MOST_AT_ONCE = 100_000
+"""Events times times that are worked out in one go."""
 
 
 class EventPlan:
@@ -54,16 +56,20 @@ class EventPlan:
         begun = self.times.searchsorted(times, "right")
         gone = self.times.searchsorted(times - length, "right")
         most = int(np.max(begun - gone, initial=0))
-        if most == 0:
-            return np.zeros(times.shape)
-        event = begun[None, :] - 1 - np.arange(most)[:, None]
-        sounds = event >= gone[None, :]
-        event = np.maximum(event, 0)
-        age = times[None, :] - self.times[event]
-        rising = age / response.attack if response.attack > _INSTANT else np.ones(age.shape)
-        left = (length - age) / response.decay if response.decay > _INSTANT else np.ones(age.shape)
-        level = np.clip(rising, 0.0, 1.0) * np.clip(left, 0.0, 1.0) ** 2
-        return np.max(np.where(sounds, level * self._strengths[event], 0.0), axis=0)
+        greatest = np.zeros(times.shape)
+        # A long swell may hang over as many events as there are: not all of them at all times at once.
+        at_once = max(1, _MOST_AT_ONCE // max(1, times.size))
+        for first in range(0, most, at_once):
+            event = begun[None, :] - 1 - np.arange(first, min(first + at_once, most))[:, None]
+            sounds = event >= gone[None, :]
+            event = np.maximum(event, 0)
+            age = times[None, :] - self.times[event]
+            rising = age / response.attack if response.attack > _INSTANT else np.ones(age.shape)
+            left = (length - age) / response.decay if response.decay > _INSTANT else np.ones(age.shape)
+            level = np.clip(rising, 0.0, 1.0) * np.clip(left, 0.0, 1.0) ** 2
+            swell = np.max(np.where(sounds, level * self._strengths[event], 0.0), axis=0)
+            greatest = np.maximum(greatest, swell)
+        return greatest
 
     def apply(self, values: FloatArray, times: FloatArray) -> FloatArray:
         """The parameter's values ``(F, L)`` with the answer to events put on them, at ``(F,)`` times."""

@@ -25,7 +25,7 @@ class ClipPoints:
         names: P names; an end site is called by its joint's name with `` end`` behind it.
         parents: The point that each hangs from, ``(P,)``; -1 for the root.
         joints: The joint that each is or belongs to, ``(P,)``; joints come first, in their order.
-        positions: In the file's unit, ``(F, P, 3)``.
+        positions: In the file's unit, ``(F, P, 3)``; one frame at rest of a clip that has none.
         frame_step: Every frame_step-th frame of the clip is there.
     """
 
@@ -43,6 +43,7 @@ def clip_points(clip: MotionClip, most_points: int = MOST_POINTS) -> ClipPoints:
         clip: The clip.
         most_points: Frames are left out evenly until there are no more points than this; one frame stays.
     """
+    clip = clip if len(clip) else clip.at_rest()
     sites = [(joint, site) for joint, ends in enumerate(clip.end_sites) for site in ends]
     count = len(clip.names) + len(sites)
     step = max(1, -(-len(clip) * count // most_points))

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, Field
 
 from reina.protocol.model import WireModel
+from reina.protocol.resources import Warned
 
 EulerOrder = Literal["xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"]
 SolverName = Literal[
@@ -307,9 +308,11 @@ class ParsedClip(WireModel):
 
     joints: list[ClipJoint]
     frames: int
-    """In the file."""
+    """In the file; 0 for a skeleton without motion."""
     frame_time_s: float
     duration_s: float
+    warnings: list[Warned]
+    """What is not as the file says, and what was made of it."""
     points: list[str]
     """Names: joints in their order, then end sites."""
     point_parents: list[int]
@@ -317,7 +320,7 @@ class ParsedClip(WireModel):
     frame_step: int
     """Every frame_step-th frame has positions; 1 means all."""
     sampled_frames: int
-    """How many have."""
+    """How many have; of a file without frames one, at rest."""
     minimum: Vector
     """Corner of the box around all positions, in the file's unit."""
     maximum: Vector

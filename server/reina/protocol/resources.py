@@ -39,7 +39,7 @@ class Problem(WireModel):
 
 
 class Warned(WireModel):
-    """Something in the score that could not be taken as it stands, and what was done instead."""
+    """Something in a file that could not be taken as it stands, and what was done instead."""
 
     kind: str
     place: str

@@ -9,7 +9,7 @@ import numpy as np
 
 from reina.errors import InputError
 from reina.sessions.frames import FRAMES_PER_BLOCK
-from reina.skeleton import clip_of_motion, write_bvh
+from reina.skeleton import bvh_head, bvh_rows, clip_of_motion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,12 +57,8 @@ class BvhExport:
     def text(self, block: int) -> str:
         """The lines of a block's frames, behind the head of the file for the first; to be called in order."""
         clip = self._clip(block)
-        head, _, motion = write_bvh(clip).partition("MOTION\n")
-        rows = motion.split("\n", 2)[2]
-        if block != self.blocks.start:
-            return rows
-        seconds = f"Frame Time: {clip.frame_time_s:.8f}"
-        return f"{head}MOTION\nFrames: {self._end - self._first}\n{seconds}\n{rows}"
+        head = bvh_head(clip, self._end - self._first) if block == self.blocks.start else ""
+        return head + bvh_rows(clip)
 
     def _clip(self, block: int) -> MotionClip:
         frames = self._performance.evaluate(block)

@@ -1,15 +1,16 @@
 """Joints and their rest pose, forward kinematics, rigs and holds, motion clips."""
 
+from reina.skeleton.clip_warning import ClipWarning
 from reina.skeleton.errors import BvhError, RigError
 from reina.skeleton.forward_kinematics import forward_kinematics
 from reina.skeleton.hold import Hold, load_hold, read_hold
 from reina.skeleton.load_rig import load_rig, read_rig
 from reina.skeleton.motion_clip import MotionClip
-from reina.skeleton.read_bvh import read_bvh
+from reina.skeleton.read_bvh import PositionMeaning, read_bvh
 from reina.skeleton.retarget import blended, clip_of_motion, humanoid_name, looped, retarget
 from reina.skeleton.rig import SOLVERS, Button, Capsule, Chain, Limits, Morph, MovingPart, Point, Rig, Twist
 from reina.skeleton.skeleton import Skeleton
-from reina.skeleton.write_bvh import write_bvh
+from reina.skeleton.write_bvh import bvh_head, bvh_rows, write_bvh
 
 __all__ = [
     "SOLVERS",
@@ -17,17 +18,21 @@ __all__ = [
     "BvhError",
     "Capsule",
     "Chain",
+    "ClipWarning",
     "Hold",
     "Limits",
     "Morph",
     "MotionClip",
     "MovingPart",
     "Point",
+    "PositionMeaning",
     "Rig",
     "RigError",
     "Skeleton",
     "Twist",
     "blended",
+    "bvh_head",
+    "bvh_rows",
     "clip_of_motion",
     "forward_kinematics",
     "humanoid_name",

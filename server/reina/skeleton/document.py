@@ -65,9 +65,13 @@ class Node:
         """A finite number."""
         if isinstance(self.value, bool) or not isinstance(self.value, (int, float)):
             raise self.fail(f"here belongs a number, not {_kind(self.value)}")
-        if not math.isfinite(self.value):
+        try:
+            value = float(self.value)
+        except OverflowError:
+            value = math.inf
+        if not math.isfinite(value):
             raise self.fail("here belongs a finite number")
-        return float(self.value)
+        return value
 
     def numbers(self, count: int) -> FloatArray:
         """Exactly ``count`` finite numbers, ``(count,)``."""
@@ -108,7 +112,7 @@ def read_document(path: Path) -> Node:
         value: Any = json.loads(path.read_bytes())
     except FileNotFoundError:
         raise RigError(f"there is no file {path.name} in the folder {path.parent.name!r}") from None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise RigError(f"this is not JSON: {error}", where=path.name) from None
     if not isinstance(value, dict):
         raise RigError(f"here belongs an object, not {_kind(value)}", where=path.name)

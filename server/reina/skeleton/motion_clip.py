@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,9 +11,12 @@ from reina.rotations import from_euler, to_euler
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray, IntArray
+    from reina.skeleton.clip_warning import ClipWarning
 
 POSITIONS: tuple[str, ...] = ("Xposition", "Yposition", "Zposition")
 ROTATIONS: tuple[str, ...] = ("Xrotation", "Yrotation", "Zrotation")
+STILL = 1e-6
+"""How far a place may move that is said to keep still, in the file's unit: the last digit written."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,12 +26,14 @@ class MotionClip:
     Attributes:
         names: Joints' names, parents first.
         parents: ``(J,)``; the root's is -1.
-        offsets: Each joint in its parent's frame, in the file's unit, ``(J, 3)``.
+        offsets: Each joint in its parent's frame at rest, in the file's unit, ``(J, 3)``.
         end_sites: For each joint, where its end sites are in its frame; most joints have none.
         channels: For each joint the names of its channels in the file's order, of `POSITIONS` and
             `ROTATIONS`.
-        values: The channels of all joints, degrees and the file's unit, ``(F, C)``.
+        values: The channels of all joints, degrees and the file's unit, ``(F, C)``. A position is the
+            joint's place in its parent's frame, in place of that axis of its offset.
         frame_time_s: Seconds from frame to frame.
+        warnings: What is not as the clip's file says.
     """
 
     names: tuple[str, ...]
@@ -38,6 +43,7 @@ class MotionClip:
     channels: tuple[tuple[str, ...], ...]
     values: FloatArray
     frame_time_s: float
+    warnings: tuple[ClipWarning, ...] = ()
 
     def __len__(self) -> int:
         return len(self.values)
@@ -45,8 +51,8 @@ class MotionClip:
     def motion(self) -> tuple[FloatArray, FloatArray]:
         """Local rotations ``(F, J, 4)`` and local translations ``(F, J, 3)``.
 
-        Rotations apply in the channels' order about local axes; translations are the offset plus the
-        channels.
+        Rotations apply in the channels' order about local axes; translations are the position channels,
+        the offset on axes that have none.
         """
         frames, joints = len(self.values), len(self.names)
         rotations = np.tile([0.0, 0.0, 0.0, 1.0], (frames, joints, 1))
@@ -59,13 +65,37 @@ class MotionClip:
                 values = self.values[:, column]
                 column += 1
                 if channel in POSITIONS:
-                    translations[:, joint, POSITIONS.index(channel)] += values
+                    translations[:, joint, POSITIONS.index(channel)] = values
                 else:
                     order += channel[0].lower()
                     angles.append(np.radians(values))
             if order:
                 rotations[:, joint] = from_euler(np.stack(angles, axis=-1), order)
         return rotations, translations
+
+    def at_rest(self) -> MotionClip:
+        """One frame in which nothing is turned and every joint is at its offset."""
+        return replace(self, channels=((),) * len(self.names), values=np.zeros((1, 0)))
+
+    def without_still_positions(self) -> MotionClip:
+        """The same motion without position channels that keep one value, which becomes the offset.
+
+        The root keeps its own. Many programs write a position for every joint that only repeats the offset;
+        without them bones have their lengths at rest too, however a reader takes position channels.
+        """
+        offsets, channels = self.offsets.copy(), list(self.channels)
+        kept = np.ones(self.values.shape[1], dtype=np.bool_)
+        begin = 0
+        for joint, own in enumerate(self.channels):
+            columns = [begin + i for i, channel in enumerate(own) if channel in POSITIONS]
+            begin += len(own)
+            places = self.values[:, columns]
+            if joint == 0 or not places.size or np.ptp(places, axis=0).max() > STILL:
+                continue
+            offsets[joint, [POSITIONS.index(one) for one in own if one in POSITIONS]] = places[0]
+            channels[joint] = tuple(one for one in own if one not in POSITIONS)
+            kept[columns] = False
+        return replace(self, offsets=offsets, channels=tuple(channels), values=self.values[:, kept])
 
     @classmethod
     def from_motion(
@@ -87,9 +117,7 @@ class MotionClip:
         joints = len(names)
         turning = tuple(f"{letter.upper()}rotation" for letter in order)
         angles = np.degrees(np.unwrap(to_euler(rotations, order), axis=0))
-        values = np.concatenate(
-            [root_positions - offsets[0], angles.reshape(len(rotations), 3 * joints)], axis=1
-        )
+        values = np.concatenate([root_positions, angles.reshape(len(rotations), 3 * joints)], axis=1)
         return cls(
             names=names,
             parents=parents,

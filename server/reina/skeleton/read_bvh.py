@@ -1,207 +1,158 @@
 """BVH files read: any channels in any order, and the oddities of files in the wild.
 
-Keywords in any case, tabs, CRLF, blank lines, scientific notation, names with spaces, position channels on
-any joint, frames broken over lines; a fault is named with its line.
+Keywords in any case, words and braces on any lines, names with spaces, position channels on any joint,
+frames broken over lines. A fault is named with its line; what is odd but clear is read, with a warning.
+Nothing is allocated by what a file announces: only what is there counts.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import NoReturn
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from reina.skeleton.errors import BvhError
-from reina.skeleton.motion_clip import POSITIONS, ROTATIONS, MotionClip
+from reina.skeleton.bvh_frames import read_frames
+from reina.skeleton.bvh_hierarchy import HierarchyJoint, read_hierarchy
+from reina.skeleton.bvh_tokens import LARGEST, Tokens, decoded, shown
+from reina.skeleton.clip_warning import ClipWarning
+from reina.skeleton.joint_names import told_apart
+from reina.skeleton.motion_clip import POSITIONS, MotionClip
 
-MOST_JOINTS = 2000
-MOST_VALUES = 50_000_000
+if TYPE_CHECKING:
+    from reina.rotations.arrays import FloatArray
 
-_CHANNELS = {name.lower(): name for name in (*POSITIONS, *ROTATIONS)}
+MOST_POSES = 10_000_000
+"""Joints times frames."""
+USUAL_FRAME_TIME_S = 1.0 / 30.0
+SHORTEST_FRAME_TIME_S = 1e-5
+LONGEST_FRAME_TIME_S = 3600.0
+MOST_WARNINGS = 20
+"""Of one kind."""
+_MOST_LISTED = 5
+
+PositionMeaning = Literal["replace", "add"]
 
 
-def read_bvh(data: bytes | str) -> MotionClip:
+def read_bvh(data: bytes | str, *, positions: PositionMeaning = "replace") -> MotionClip:
     """The clip in a BVH file.
+
+    Args:
+        data: The file, as it is or decoded.
+        positions: What a joint's position channels mean: ``replace``, its place in its parent's frame, as
+            Blender and Assimp read them and most programs write them; ``add``, how far it is from its
+            OFFSET, as the format's first description and three.js have it.
+
+    Returns:
+        The clip, in which positions always replace the OFFSET; without frames where the file has none.
 
     Raises:
         BvhError: The file is none or is broken; ``where`` names the line.
     """
-    if isinstance(data, bytes):
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("latin-1")
-    else:
-        text = data
-    return _Reader(text).read()
-
-
-@dataclass
-class _Hierarchy:
-    names: list[str] = field(default_factory=list[str])
-    parents: list[int] = field(default_factory=list[int])
-    offsets: list[tuple[float, float, float]] = field(default_factory=list[tuple[float, float, float]])
-    channels: list[tuple[str, ...]] = field(default_factory=list[tuple[str, ...]])
-    end_sites: list[list[tuple[float, float, float]]] = field(
-        default_factory=list[list[tuple[float, float, float]]]
-    )
+    return _Reader(decoded(data) if isinstance(data, bytes) else data, positions).read()
 
 
 class _Reader:
-    def __init__(self, text: str) -> None:
-        self._lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-        self._next = 0
+    def __init__(self, text: str, positions: PositionMeaning) -> None:
+        self._tokens = Tokens(text)
+        self._positions = positions
+        self._joints: list[HierarchyJoint] = []
+        self._warnings: list[ClipWarning] = []
 
     def read(self) -> MotionClip:
-        if self._words() != ["hierarchy"]:
-            self._fail("a BVH file begins with HIERARCHY")
-        tree = _Hierarchy()
-        self._joint(tree, -1, self._line())
-        words = self._words()
-        if words[:1] == ["root"]:
-            self._fail("there is a second ROOT; Reina reads files with one skeleton")
-        if words != ["motion"]:
-            self._fail("after the hierarchy comes MOTION")
-        count = self._labelled("frames")
-        if count != int(count) or count < 0:
-            self._fail(f"the number of frames is a whole number, not {count:g}")
-        frame_time_s = self._labelled("frame", "time")
-        if not frame_time_s > 0.0:
-            self._fail(f"the frame time is positive, not {frame_time_s:g}")
-        values = self._values(int(count), sum(len(channels) for channels in tree.channels))
+        self._joints = read_hierarchy(self._tokens)
+        names = self._names()
+        channels = tuple(joint.channels or () for joint in self._joints)
+        offsets = np.array([joint.offset or (0.0, 0.0, 0.0) for joint in self._joints])
+        values, frame_time_s = self._motion(sum(map(len, channels)))
+        if self._positions == "add":
+            self._add_offsets(values, offsets, channels)
         return MotionClip(
-            names=tuple(tree.names),
-            parents=np.array(tree.parents, dtype=np.intp),
-            offsets=np.array(tree.offsets),
-            end_sites=tuple(tuple(sites) for sites in tree.end_sites),
-            channels=tuple(tree.channels),
+            names=names,
+            parents=np.array([joint.parent for joint in self._joints], dtype=np.intp),
+            offsets=offsets,
+            end_sites=tuple(tuple(joint.end_sites) for joint in self._joints),
+            channels=channels,
             values=values,
             frame_time_s=frame_time_s,
+            warnings=tuple(self._warnings),
         )
 
-    def _joint(self, tree: _Hierarchy, parent: int, heading: str) -> None:
-        """The root or a joint with everything under it; a stack in place of recursion, for deep files."""
-        stack = [self._begin(tree, parent, heading, "root")]
-        while stack:
-            line = self._line()
-            words = line.lower().split()
-            joint = stack[-1]
-            if words[0] == "joint":
-                stack.append(self._begin(tree, joint, line, "joint"))
-            elif words[0] == "end":
-                self._brace("{")
-                tree.end_sites[joint].append(self._offset(self._line()))
-                self._brace("}")
-            elif words[0] == "offset":
-                tree.offsets[joint] = self._offset(line)
-            elif words[0] == "channels":
-                tree.channels[joint] = self._channels(line)
-            elif words == ["}"]:
-                stack.pop()
-            else:
-                self._fail(f"{line.strip()!r} is not OFFSET, CHANNELS, JOINT, End Site or a closing brace")
+    def _add_offsets(
+        self, values: FloatArray, offsets: FloatArray, channels: tuple[tuple[str, ...], ...]
+    ) -> None:
+        column = 0
+        for joint, offset, own in zip(self._joints, offsets.tolist(), channels, strict=True):
+            for channel in own:
+                if channel in POSITIONS:
+                    values[:, column] += offset[POSITIONS.index(channel)]
+                    if np.abs(values[:, column]).max(initial=0.0) > LARGEST:
+                        self._tokens.fail(f"OFFSET and {channel} add up to more than {LARGEST:g}", joint.at)
+                column += 1
 
-    def _begin(self, tree: _Hierarchy, parent: int, heading: str, keyword: str) -> int:
-        words = heading.split(maxsplit=1)
-        if words[0].lower() != keyword:
-            self._fail(f"here belongs {keyword.upper()} with a name, not {heading.strip()!r}")
-        name = words[1].strip() if len(words) > 1 else ""
-        brace = name.endswith("{")
-        name = name.rstrip("{").strip()
-        if not name:
-            self._fail("a joint needs a name")
-        if name in tree.names:
-            self._fail(f"a second joint is called {name!r}")
-        if len(tree.names) >= MOST_JOINTS:
-            self._fail(f"the file has more than {MOST_JOINTS} joints")
-        tree.names.append(name)
-        tree.parents.append(parent)
-        tree.offsets.append((0.0, 0.0, 0.0))
-        tree.channels.append(())
-        tree.end_sites.append([])
-        if not brace:
-            self._brace("{")
-        return len(tree.names) - 1
+    def _names(self) -> tuple[str, ...]:
+        names, numbered = told_apart([joint.name for joint in self._joints])
+        for name, places in list(numbered.items())[:MOST_WARNINGS]:
+            later = ", ".join(shown(names[place]) for place in places[:_MOST_LISTED])
+            more = f" and {len(places) - _MOST_LISTED} more" if len(places) > _MOST_LISTED else ""
+            message = (
+                f"{len(places) + 1} joints are called {shown(name)}; the later ones are now {later}{more}"
+            )
+            self._warn("repeated_name", message, self._joints[places[0]].at)
+        if len(numbered) > MOST_WARNINGS:
+            more = (
+                f"{len(numbered) - MOST_WARNINGS} more names are those of several joints, which are numbered"
+            )
+            self._warn("repeated_name", more, self._joints[list(numbered.values())[MOST_WARNINGS][0]].at)
+        return names
 
-    def _offset(self, line: str) -> tuple[float, float, float]:
-        words = line.split()
-        if words[0].lower() != "offset" or len(words) != 4:
-            self._fail(f"here belongs OFFSET with three numbers, not {line.strip()!r}")
-        x, y, z = (self._number(word) for word in words[1:])
-        return x, y, z
+    def _motion(self, channels: int) -> tuple[FloatArray, float]:
+        """Values ``(F, channels)`` and seconds a frame."""
+        tokens = self._tokens
+        word = "" if tokens.peek() is None else tokens.next()
+        if word.lower() == "root":
+            tokens.fail("there is a second ROOT; Reina reads files with one skeleton")
+        if word and word.lower() != "motion":
+            tokens.fail(f"after the hierarchy comes MOTION, not {shown(word)}")
+        if tokens.peek() is None:
+            self._warn("no_motion", "the file has no motion; it is read as a skeleton at rest", tokens.at)
+            return np.zeros((0, channels)), USUAL_FRAME_TIME_S
+        announced = self._labelled("frames")
+        announced_at = tokens.begin
+        if announced != int(announced) or announced < 0:
+            tokens.fail(f"the number of frames is a whole number, not {announced:g}")
+        frame_time_s, time_at = USUAL_FRAME_TIME_S, tokens.at
+        if tokens.peek() is not None:
+            frame_time_s, time_at = self._labelled("frame", "time"), tokens.begin
+        values, warnings = read_frames(tokens, channels, int(announced), announced_at)
+        self._warnings += warnings
+        if len(values) * len(self._joints) > MOST_POSES:
+            tokens.fail(
+                f"{len(values)} frames of {len(self._joints)} joints are more than Reina reads", announced_at
+            )
+        return values, self._frame_time(frame_time_s, time_at, len(values))
 
-    def _channels(self, line: str) -> tuple[str, ...]:
-        words = line.split()
-        if len(words) < 2 or not words[1].isdigit() or int(words[1]) != len(words) - 2:
-            self._fail(f"CHANNELS gives their number and then their names, not {line.strip()!r}")
-        unknown = [word for word in words[2:] if word.lower() not in _CHANNELS]
-        if unknown:
-            self._fail(f"channel {unknown[0]!r} is none of {', '.join(_CHANNELS.values())}")
-        channels = tuple(_CHANNELS[word.lower()] for word in words[2:])
-        if len(set(channels)) != len(channels):
-            self._fail("a joint has the same channel twice")
-        return channels
+    def _frame_time(self, told: float, at: int, frames: int) -> float:
+        """Seconds a frame; what a file says that has no second frame to wait for need not be right."""
+        if SHORTEST_FRAME_TIME_S <= told <= LONGEST_FRAME_TIME_S:
+            return told
+        if frames > 1 and told <= 0.0:
+            self._tokens.fail(f"the frame time is positive, not {told:g}", at)
+        span = f"lies between {SHORTEST_FRAME_TIME_S:g} and {LONGEST_FRAME_TIME_S:g} seconds"
+        if frames > 1:
+            self._tokens.fail(f"the frame time {span}, not at {told:g}", at)
+        if frames == 1:
+            self._warn("frame_time", f"the frame time {span}, not at {told:g}; a thirtieth is taken", at)
+        return USUAL_FRAME_TIME_S
 
     def _labelled(self, *label: str) -> float:
-        line = self._line()
-        words = line.replace(":", " ").split()
-        if [word.lower() for word in words[:-1]] != list(label):
-            self._fail(f"here belongs '{' '.join(label).title()}: ' with a number, not {line.strip()!r}")
-        return self._number(words[-1])
+        tokens = self._tokens
+        for wanted in label:
+            word = tokens.next()
+            if word.lower() != wanted:
+                tokens.fail(f"here belongs '{' '.join(label).title()}: ' with a number, not {shown(word)}")
+        if tokens.peek() == ":":
+            tokens.next()
+        return tokens.number()
 
-    def _values(self, frames: int, channels: int) -> np.ndarray:
-        if frames * channels > MOST_VALUES:
-            self._fail(f"{frames} frames of {channels} channels are more than Reina reads")
-        begin = self._next
-        try:
-            values = np.array(" ".join(self._lines[begin:]).split(), dtype=np.float64)
-        except ValueError:
-            self._blame(begin)
-        if values.size != frames * channels:
-            for index in range(begin, len(self._lines)):
-                found = len(self._lines[index].split())
-                if found not in (0, channels):
-                    self._next = index + 1
-                    self._fail(f"a frame has {channels} values, this line {found}")
-            found = values.size // max(channels, 1)
-            raise BvhError(f"{frames} frames are announced, {found} are there", where=f"line {begin}")
-        if not np.all(np.isfinite(values)):
-            self._blame(begin)
-        return values.reshape(frames, channels)
-
-    def _blame(self, begin: int) -> NoReturn:
-        """Find the line with what is no number."""
-        for index in range(begin, len(self._lines)):
-            self._next = index + 1
-            for word in self._lines[index].split():
-                self._number(word)
-        raise AssertionError("every value is a number after all")
-
-    def _number(self, word: str) -> float:
-        try:
-            value = float(word)
-        except ValueError:
-            self._fail(f"{word!r} is no number")
-        if not np.isfinite(value):
-            self._fail(f"{word} is no finite number")
-        return value
-
-    def _brace(self, brace: str) -> None:
-        line = self._line().strip()
-        if line != brace:
-            self._fail(f"here belongs {brace!r}, not {line!r}")
-
-    def _words(self) -> list[str]:
-        return self._line().lower().split()
-
-    def _line(self) -> str:
-        """The next line that is not blank."""
-        while self._next < len(self._lines):
-            line = self._lines[self._next]
-            self._next += 1
-            if line.strip():
-                return line
-        raise BvhError("the file ends here, in the middle", where=f"line {len(self._lines)}")
-
-    def _fail(self, detail: str) -> NoReturn:
-        raise BvhError(detail, where=f"line {self._next}")
+    def _warn(self, kind: str, message: str, at: int) -> None:
+        self._warnings.append(ClipWarning(kind, self._tokens.line(at), message))

@@ -135,7 +135,11 @@ def retarget(
     way = translations[:, 0]
     for joint in _path(clip, root)[1:]:
         way = way + rotate(turned[:, clip.parents[joint]], translations[:, joint])
-    return local, (way - [0.0, _floor(clip, root, way), 0.0]) * _scale(clip, skeleton, partner, root)
+    # Position channels may give bones the lengths that their offsets leave out.
+    links = np.median(translations, axis=0) if len(clip) else clip.offsets
+    height = _hip_height(clip, links, root)
+    floor = _floor(clip, root, way, height)
+    return local, (way - [0.0, floor, 0.0]) * _scale(links, skeleton, partner, height)
 
 
 def _path(clip: MotionClip, joint: int) -> list[int]:
@@ -145,36 +149,35 @@ def _path(clip: MotionClip, joint: int) -> list[int]:
     return path[::-1]
 
 
-def _floor(clip: MotionClip, root: int, way: FloatArray) -> float:
+def _floor(clip: MotionClip, root: int, way: FloatArray, height: float) -> float:
     """The height of the floor in a clip: some files move the hips from the floor, some from their rest."""
-    height = _hip_height(clip, root)
     if len(way) == 0 or float(np.median(way[:, 1])) > 0.5 * height:
         return 0.0
-    return float(sum(clip.offsets[joint, 1] for joint in _path(clip, root))) - height
+    held = [joint for joint in _path(clip, root) if "Yposition" not in clip.channels[joint]]
+    return float(sum(clip.offsets[joint, 1] for joint in held)) - height
 
 
-def _scale(clip: MotionClip, skeleton: Skeleton, partner: Mapping[str, int], root: int) -> float:
-    """How much longer the skeleton's legs are than the clip's."""
+def _scale(links: FloatArray, skeleton: Skeleton, partner: Mapping[str, int], height: float) -> float:
+    """How much longer the skeleton's legs are than the clip's, whose hips are at a height."""
     legs = [f"{side}{bone}" for side in ("left", "right") for bone in ("LowerLeg", "Foot")]
     if all(name in partner and name in skeleton for name in legs):
         own = [skeleton.rest_translations[skeleton.index(name)] for name in legs]
-        theirs = [clip.offsets[partner[name]] for name in legs]
+        theirs = [links[partner[name]] for name in legs]
         length = float(np.linalg.norm(theirs, axis=1).sum())
         if length > 0.0:
             return float(np.linalg.norm(own, axis=1).sum()) / length
-    height = _hip_height(clip, root)
     return float(skeleton.rest_translations[0, 1]) / height if height > 0.0 else 1.0
 
 
-def _hip_height(clip: MotionClip, root: int) -> float:
+def _hip_height(clip: MotionClip, links: FloatArray, root: int) -> float:
     """How far the lowest point of the clip's rest pose is below its hips."""
     heights = np.zeros(len(clip.names))
     lowest = 0.0
     for joint, parent in enumerate(clip.parents.tolist()):
-        heights[joint] = (heights[parent] if joint else 0.0) + clip.offsets[joint, 1]
-        for site in clip.end_sites[joint]:
-            lowest = min(lowest, heights[joint] + site[1] - heights[root])
-        lowest = min(lowest, heights[joint] - heights[root])
+        heights[joint] = (heights[parent] if joint else 0.0) + links[joint, 1]
+    for joint, sites in enumerate(clip.end_sites):
+        below = min([0.0, *(site[1] for site in sites)])
+        lowest = min(lowest, heights[joint] + below - heights[root])
     return -lowest
 
 

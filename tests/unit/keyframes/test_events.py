@@ -1,3 +1,4 @@
+import tracemalloc
 from typing import Any
 
 import numpy as np
@@ -175,6 +176,29 @@ def test_the_swell_is_the_greatest_of_each_by_itself(
 
     expected = [max((swell(float(t - onset)) for onset in onset_s), default=0.0) for t in times]
     np.testing.assert_allclose(found, expected, atol=1e-7)
+
+
+def test_swells_that_hang_over_every_note_take_little_memory() -> None:
+    notes, points = 20_000, 1_000
+    zeros = np.zeros(notes)
+    triggers = Triggers(
+        onset_s=np.linspace(0.0, 1.0, notes),
+        part=zeros.astype(int),
+        pitch=zeros.astype(int),
+        velocity=np.linspace(0.0, 1.0, notes),
+        valves=np.zeros((notes, 3), dtype=np.bool_),
+        end_s=2.0,
+    )
+    events = {"on": "notes", "amount": 4.0, "blend": "add", "hold": 1e6, "by_velocity": True}
+    show = Show.from_document(_document("lights/key/intensity", events, DARK), REGISTRY)
+    plan = show.plan(REGISTRY, TIME_MAP, triggers=triggers)
+    times = np.linspace(0.0, 1.0, points)
+    tracemalloc.start()
+    found = _values(plan, "lights/key/intensity", *times)[:, 0]
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    np.testing.assert_allclose(found, 4.0 * times, atol=4.0 / notes)
+    assert peak < 20_000_000
 
 
 def test_what_a_track_does_at_events_comes_back_from_json() -> None:

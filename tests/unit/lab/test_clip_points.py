@@ -27,9 +27,9 @@ ROOT shoulder
 MOTION
 Frames: 3
 Frame Time: 0.5
-0 0 0 0 0 0 0 0 0 0
-1 0 0 90 0 0 0 0 0 0
-0 0 0 0 0 0 2 90 0 0
+1 2 3 0 0 0 10 0 0 0
+2 2 3 90 0 0 10 0 0 0
+1 2 3 0 0 0 12 90 0 0
 """
 
 
@@ -54,6 +54,13 @@ def test_long_clips_are_thinned_evenly_down_to_one_frame() -> None:
     assert half.frame_step == 2
     np.testing.assert_array_equal(half.positions, whole.positions[::2])
     assert len(clip_points(clip, most_points=1).positions) == 1
+
+
+def test_a_clip_without_frames_is_one_at_rest() -> None:
+    clip = read_bvh(ARM.partition("Frames")[0] + "Frames: 0\nFrame Time: 0.5\n")
+    assert len(clip) == 0
+    points = clip_points(clip)
+    np.testing.assert_array_equal(points.positions, [[[1, 2, 3], [11, 2, 3], [16, 2, 3]]])
 
 
 @pytest.mark.parametrize("path", sorted(CLIPS.glob("*.bvh")), ids=lambda path: path.stem)

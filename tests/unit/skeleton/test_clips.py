@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reina import rotations as r
-from reina.skeleton import MotionClip, RigError, load_rig, read_bvh, retarget
+from reina.skeleton import MotionClip, RigError, load_rig, read_bvh, retarget, write_bvh
 
 ROOT = Path(__file__).parents[3]
 CLIPS = sorted((ROOT / "rigs" / "trumpeter" / "clips").glob("*.bvh"))
@@ -73,6 +73,15 @@ def test_it_is_a_motion_of_the_rig_within_its_limits(clip: MotionClip) -> None:
             axis = "xyz".index(letter)
             assert angle.min() > limits.minimum[axis] - 1e-4, (rig.skeleton.names[joint], letter)
             assert angle.max() < limits.maximum[axis] + 1e-4, (rig.skeleton.names[joint], letter)
+
+
+def test_written_again_it_is_the_same_file() -> None:
+    for path in sorted((ROOT / "rigs").glob("*/clips/*.bvh")):
+        text = path.read_text(encoding="utf-8")
+        clip = read_bvh(text)
+        assert clip.warnings == ()
+        assert write_bvh(clip.without_still_positions(), decimals=5) == text
+        np.testing.assert_array_equal(read_bvh(text, positions="add").values, clip.values)
 
 
 def test_the_script_makes_them_anew(tmp_path: Path) -> None:

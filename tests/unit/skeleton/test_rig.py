@@ -142,6 +142,14 @@ def test_rigs_and_holds_load_from_a_folder(tmp_path: Path) -> None:
     (tmp_path / "rig.json").write_text("{")
     with pytest.raises(RigError, match=r"rig\.json: this is not JSON"):
         load_rig(tmp_path)
+    (tmp_path / "rig.json").write_text("[" * 100_000)
+    with pytest.raises(RigError, match=r"rig\.json: this is not JSON"):
+        load_rig(tmp_path)
+    document = copy.deepcopy(DOCUMENT)
+    document["joints"][0]["translation"] = [0, 10**400, 0]
+    (tmp_path / "rig.json").write_text(json.dumps(document))
+    with pytest.raises(RigError, match="joints/0/translation/1: here belongs a finite number"):
+        load_rig(tmp_path)
     (tmp_path / "rig.json").write_text("[]")
     with pytest.raises(RigError, match="here belongs an object, not a list"):
         load_rig(tmp_path)

@@ -61,17 +61,19 @@ export interface LabClipList {
 /** A BVH file, read, with everything's place in the world frame by frame. */
 export interface ParsedClip {
   joints: ClipJoint[]
-  /** In the file. */
+  /** In the file; 0 for a skeleton without motion. */
   frames: number
   frame_time_s: number
   duration_s: number
+  /** What is not as the file says, and what was made of it. */
+  warnings: Warned[]
   /** Names: joints in their order, then end sites. */
   points: string[]
   /** The point that each hangs from; -1 for the root. */
   point_parents: number[]
   /** Every frame_step-th frame has positions; 1 means all. */
   frame_step: number
-  /** How many have. */
+  /** How many have; of a file without frames one, at rest. */
   sampled_frames: number
   /** Corner of the box around all positions, in the file's unit. */
   minimum: [number, number, number]
@@ -271,4 +273,11 @@ export interface SolverChoice {
 export interface SolverRound {
   error_m: number
   positions: ([number, number, number])[]
+}
+
+/** Something in a file that could not be taken as it stands, and what was done instead. */
+export interface Warned {
+  kind: string
+  place: string
+  message: string
 }

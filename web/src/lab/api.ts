@@ -17,6 +17,9 @@ import type {
 
 const LAB = "/api/v1/lab";
 
+/** What a joint's position channels mean: its place, or how far it is from its OFFSET. */
+export type PositionMeaning = "replace" | "add";
+
 /** The laboratory's calls, typed. Each throws ProblemError when the server refuses or does not answer. */
 export class LabApi {
   readonly #api: ReinaApi;
@@ -49,13 +52,13 @@ export class LabApi {
     return (await this.#json<LabClipList>("clips")).clips;
   }
 
-  readClip(file: Blob): Promise<ParsedClip> {
-    return this.#json("bvh", { body: file });
+  readClip(file: Blob, positions: PositionMeaning): Promise<ParsedClip> {
+    return this.#json(`bvh?positions=${positions}`, { body: file });
   }
 
   /** The same motion as Reina writes it. */
-  async rewrittenClip(file: Blob): Promise<Blob> {
-    return (await this.#api.request("POST", `${LAB}/bvh/rewritten`, { body: file })).blob();
+  async rewrittenClip(file: Blob, positions: PositionMeaning): Promise<Blob> {
+    return (await this.#api.request("POST", `${LAB}/bvh/rewritten?positions=${positions}`, { body: file })).blob();
   }
 
   async file(href: string): Promise<Blob> {

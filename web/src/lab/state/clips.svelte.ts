@@ -1,6 +1,6 @@
 import { ProblemError } from "../../connection";
 import type { LabClip, ParsedClip } from "../../generated/lab";
-import type { LabApi } from "../api";
+import type { LabApi, PositionMeaning } from "../api";
 import { floats } from "../figures";
 import { trouble } from "./trouble";
 
@@ -11,6 +11,8 @@ export interface OpenClip {
   readonly file: Blob;
   readonly parsed: ParsedClip;
   readonly positions: Float32Array;
+  /** How its position channels were taken. */
+  readonly meaning: PositionMeaning;
 }
 
 /** What was wrong with a file, with the line that it was wrong in. */
@@ -33,6 +35,8 @@ export class Clips {
   frame = $state(0);
   playing = $state(false);
   rate = $state(1);
+  /** How position channels of this file and of those to come are taken. */
+  meaning = $state<PositionMeaning>("replace");
   /** Index of the point that is followed. */
   chosen = $state<number | null>(null);
   readonly #api: LabApi;
@@ -70,18 +74,38 @@ export class Clips {
 
   /** Have the server read a file; what was open stays until it has. */
   async openFile(file: Blob, name: string, href: string | null = null): Promise<void> {
+    if (!(await this.#read(file, name, href))) return;
+    this.chosen = null;
+    this.frame = 0;
+    this.playing = false;
+  }
+
+  /** Take position channels otherwise, in the file that is open too. */
+  async mean(meaning: PositionMeaning): Promise<void> {
+    this.meaning = meaning;
+    if (this.open === null) return;
+    const { file, name, href } = this.open;
+    await this.#read(file, name, href);
+  }
+
+  /** Whether the file is open now. */
+  async #read(file: Blob, name: string, href: string | null): Promise<boolean> {
     const asked = ++this.#asked;
+    const { meaning } = this;
     this.busy = true;
     try {
-      const parsed = await this.#api.readClip(file);
-      if (asked !== this.#asked) return;
-      this.open = { name, href, file, parsed, positions: floats(parsed.positions) };
+      const parsed = await this.#api.readClip(file, meaning);
+      if (asked !== this.#asked) return false;
+      this.open = { name, href, file, parsed, positions: floats(parsed.positions), meaning };
       this.problem = null;
-      this.chosen = null;
-      this.frame = 0;
-      this.playing = false;
+      return true;
     } catch (error) {
-      if (asked === this.#asked) await this.#refuseFile(file, name, error);
+      if (asked === this.#asked) {
+        // What stays open was read as it is shown.
+        if (this.open?.file === file) this.meaning = this.open.meaning;
+        await this.#refuseFile(file, name, error);
+      }
+      return false;
     } finally {
       if (asked === this.#asked) this.busy = false;
     }
@@ -90,7 +114,7 @@ export class Clips {
   async rewritten(): Promise<Blob | null> {
     if (this.open === null) return null;
     try {
-      return await this.#api.rewrittenClip(this.open.file);
+      return await this.#api.rewrittenClip(this.open.file, this.open.meaning);
     } catch (error) {
       this.#refuse(this.open.name, error);
       return null;
