@@ -1,24 +1,17 @@
-"""The shape of a song's sound, to be drawn: its lowest and highest samples, stretch by stretch.
-
-WAV is read, which is what the server renders. The other formats would need a decoder for each; the page has
-one for all of them, since it plays them.
-"""
+"""The shape of a song's sound, to be drawn: its lowest and highest samples, stretch by stretch."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reina.sessions.folders import write_atomically
-from reina.sessions.sound_facts import BrokenAudioError
-from reina.sessions.sound_wav import find_samples, is_wav
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
-    from typing import BinaryIO
 
     import numpy.typing as npt
 
@@ -26,9 +19,6 @@ if TYPE_CHECKING:
 
 PAIRS_A_SECOND = 200
 """As fine as peaks are kept; at most 3 MB an hour."""
-FRAMES_AT_ONCE = 1 << 18
-INTEGERS, FLOATS = 1, 3
-"""Encodings of samples in WAV."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,20 +50,65 @@ def peaks_path(song: Path) -> Path:
     return song.with_suffix(".peaks")
 
 
-def song_peaks(song: Path) -> Peaks | None:
-    """A song's peaks, from its file, and from then on from the one beside it; None where it is not read here.
+def read_peaks(song: Path) -> Peaks | None:
+    """A song's peaks, as they are kept beside it; None where they are not."""
+    try:
+        return _unpack(peaks_path(song).read_bytes())
+    except FileNotFoundError:
+        return None
 
-    Raises:
-        FileNotFoundError: There is no song.
-    """
-    kept = peaks_path(song)
-    if kept.is_file():
-        return _unpack(kept.read_bytes())
-    with song.open("rb") as file:
-        peaks = _peaks_of_wav(file, song.stat().st_size)
-    if peaks is not None:
-        write_atomically(kept, _pack(peaks))
-    return peaks
+
+def write_peaks(path: Path, peaks: Peaks) -> None:
+    """Keep peaks."""
+    write_atomically(path, _pack(peaks))
+
+
+class PeakMeter:
+    """Finds the peaks of sound that comes in blocks."""
+
+    def __init__(self) -> None:
+        self._lowest: list[npt.NDArray[np.float32]] = []
+        self._highest: list[npt.NDArray[np.float32]] = []
+        self._form = (0, 0)
+        self._stretch = 1
+        self._several = False
+        self._pending: npt.NDArray[np.float32] = np.empty(0, dtype=np.float32)
+
+    def begin(self, sample_rate: int, channels: int) -> None:
+        """Be told of what form the blocks are from here on; a stretch goes on over blocks of one form."""
+        if (sample_rate, channels) != self._form:
+            self._several = bool(self._lowest)
+            self._end_stretch()
+            self._form = (sample_rate, channels)
+            self._stretch = max(1, sample_rate // PAIRS_A_SECOND)
+
+    def take(self, samples: npt.NDArray[np.float32]) -> None:
+        """Take in a block: ``(F, C)``, of which what is no number counts as silence."""
+        flat = np.concatenate([self._pending, np.nan_to_num(samples).ravel()])
+        width = self._stretch * self._form[1]
+        whole = flat.size // width * width
+        if whole:
+            rows = flat[:whole].reshape(-1, width)
+            self._lowest.append(rows.min(axis=1))
+            self._highest.append(rows.max(axis=1))
+        self._pending = flat[whole:]
+
+    def peaks(self, duration_s: float) -> Peaks:
+        """The peaks of all; what was taken in beyond the end, as encoders add it, is left out."""
+        self._end_stretch()
+        most = None if self._several else math.ceil(duration_s * self._form[0] / self._stretch)
+        lowest, highest = np.concatenate(self._lowest)[:most], np.concatenate(self._highest)[:most]
+        return Peaks(
+            duration_s,
+            np.clip(lowest, -1.0, 1.0).astype(np.float64),
+            np.clip(highest, -1.0, 1.0).astype(np.float64),
+        )
+
+    def _end_stretch(self) -> None:
+        if self._pending.size:
+            self._lowest.append(self._pending.min(keepdims=True))
+            self._highest.append(self._pending.max(keepdims=True))
+            self._pending = self._pending[:0]
 
 
 def _pack(peaks: Peaks) -> bytes:
@@ -84,58 +119,3 @@ def _pack(peaks: Peaks) -> bytes:
 def _unpack(data: bytes) -> Peaks:
     pairs = np.frombuffer(data, "<i2", offset=8).reshape(2, -1) / 32767.0
     return Peaks(float(np.frombuffer(data, "<f8", 1)[0]), pairs[0], pairs[1])
-
-
-def _peaks_of_wav(file: BinaryIO, size: int) -> Peaks | None:
-    if not is_wav(file.read(12)):
-        return None
-    try:
-        found = find_samples(file, size)
-    except BrokenAudioError:
-        return None
-    width = found.bits // 8
-    frame_bytes = width * found.channels
-    read_samples = _READERS.get((found.encoding, found.bits))
-    if read_samples is None or found.byte_rate != frame_bytes * found.sample_rate:
-        return None
-    stretch = max(1, found.sample_rate // PAIRS_A_SECOND)
-    at_once = max(1, FRAMES_AT_ONCE // stretch) * stretch
-    lows: list[FloatArray] = []
-    highs: list[FloatArray] = []
-    frames = left = found.bytes // frame_bytes
-    file.seek(found.start)
-    while left > 0:
-        data = file.read(min(at_once, left) * frame_bytes)
-        read = len(data) // frame_bytes
-        if read == 0:
-            break
-        left -= read
-        samples = read_samples(data[: read * frame_bytes]).reshape(read, found.channels)
-        first = np.arange(0, read, stretch)
-        lows.append(np.minimum.reduceat(samples.min(axis=1), first))
-        highs.append(np.maximum.reduceat(samples.max(axis=1), first))
-    if not lows:
-        return None
-    return Peaks(
-        frames / found.sample_rate,
-        np.clip(np.concatenate(lows), -1.0, 1.0),
-        np.clip(np.concatenate(highs), -1.0, 1.0),
-    )
-
-
-def _of_24_bits(data: bytes) -> FloatArray:
-    """Little-endian integers of three bytes: each under a zero byte is one of four."""
-    wide: npt.NDArray[np.uint8] = np.zeros((len(data) // 3, 4), dtype=np.uint8)
-    wide[:, 1:] = np.frombuffer(data, np.uint8).reshape(-1, 3)
-    return wide.view("<i4")[:, 0] / 2.0**31
-
-
-_READERS: dict[tuple[int, int], Callable[[bytes], FloatArray]] = {
-    (INTEGERS, 8): lambda data: np.frombuffer(data, np.uint8) / 128.0 - 1.0,
-    (INTEGERS, 16): lambda data: np.frombuffer(data, "<i2") / 2.0**15,
-    (INTEGERS, 24): _of_24_bits,
-    (INTEGERS, 32): lambda data: np.frombuffer(data, "<i4") / 2.0**31,
-    (FLOATS, 32): lambda data: np.nan_to_num(np.frombuffer(data, "<f4").astype(np.float64)),
-    (FLOATS, 64): lambda data: np.nan_to_num(np.frombuffer(data, "<f8")),
-}
-"""Encoding and bits of a sample -> how bytes become samples, -1..1."""
