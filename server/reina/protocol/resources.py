@@ -33,7 +33,7 @@ class Problem(WireModel):
 
 
 class Warned(WireModel):
-    """Something in the score that could not be taken as it stands, and what was done instead."""
+    """Something in score, song or show that could not be taken as it stands, and what was done instead."""
 
     kind: str
     place: str

@@ -1,4 +1,4 @@
-"""Decodes sound block by block: how long it is, and its peaks. libsndfile does the work, through `soundfile`."""
+"""Decodes sound block by block: its length and its peaks. libsndfile does the work, through `soundfile`."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 LONGEST_S = 4 * 3600.0
 """A song may last as long as a score: a small file can hold days of silence."""
-BLOCK_SAMPLES = 1 << 16
-"""Samples of all channels together that are decoded at once."""
+BLOCK_FRAMES = 4096
+"""Samples of each channel that are decoded at once: a frame of most FLAC files, so that a broken one takes no
+other with it."""
 PIPE_BYTES = 1 << 16
 MOST_ERRORS = 1000
 """How often in a row decoding may fail without a sample. It goes on behind what could not be read, for MP3 a
@@ -47,6 +48,8 @@ class Decoded:
         claimed_s: Length as the container says, or None where it does not.
         damaged_s: Where something could not be decoded though sound follows: seconds from the beginning.
         peaks: The sound's shape.
+        other_form: What the sound would go on with, such as ``"48000 samples a second, 1 channel"``, where
+            decoding stopped for it; None where it did not.
     """
 
     coding: str = ""
@@ -56,6 +59,7 @@ class Decoded:
     claimed_s: float | None = 0.0
     damaged_s: list[float] = field(default_factory=list[float])
     peaks: Peaks | None = None
+    other_form: str | None = None
 
 
 class _Reading(soundfile.SoundFile):
@@ -68,43 +72,51 @@ class _Reading(soundfile.SoundFile):
 def decode(streams: Iterable[SoundStream]) -> Decoded:
     """Decode streams that follow one another, in the memory that a block takes, whatever they claim.
 
+    It ends before a stream of another sample rate or number of channels, as Chromium does.
+
     Raises:
         BrokenAudioError: There is no sound in them.
         InputError: They last longer than `LONGEST_S`.
     """
     decoded = Decoded()
-    meter = PeakMeter()
+    meter: PeakMeter | None = None
     complaint = "it holds no sound"
     for stream in streams:
         try:
             with _opened(stream) as file:
-                _check(file)
-                if not decoded.sample_rate:
+                if meter is None:
+                    _check(file)
                     decoded.coding = file.subtype
                     decoded.sample_rate, decoded.channels = file.samplerate, file.channels
+                    meter = PeakMeter(file.samplerate, file.channels)
+                elif (file.samplerate, file.channels) != (decoded.sample_rate, decoded.channels):
+                    decoded.other_form = f"{file.samplerate} samples a second, {file.channels} channels"
+                    break
                 _decode_stream(stream, file, meter, decoded)
         except soundfile.LibsndfileError as error:
             complaint = f"it cannot be decoded ({error.error_string.strip().rstrip('.')})"
             if decoded.duration_s:
                 decoded.damaged_s.append(decoded.duration_s)
-    if decoded.duration_s <= 0:
+    if meter is None or decoded.duration_s <= 0:
         raise BrokenAudioError(complaint)
     decoded.peaks = meter.peaks(decoded.duration_s)
     return decoded
 
 
 def _check(file: soundfile.SoundFile) -> None:
-    if file.samplerate > HIGHEST_RATE or file.channels > MOST_CHANNELS:
-        has = f"{file.channels} channels at {file.samplerate:,} samples a second"
-        raise BrokenAudioError(f"it has {has}; at most {MOST_CHANNELS} at {HIGHEST_RATE:,} are played")
+    for what, found, most in (
+        ("samples a second", file.samplerate, HIGHEST_RATE),
+        ("channels", file.channels, MOST_CHANNELS),
+    ):
+        if found > most:
+            raise BrokenAudioError(f"it has {found:,} {what}, of which {most:,} at most are played")
 
 
 def _decode_stream(
     stream: SoundStream, file: soundfile.SoundFile, meter: PeakMeter, decoded: Decoded
 ) -> None:
     rate, begin_s = file.samplerate, decoded.duration_s
-    meter.begin(rate, file.channels)
-    buffer = np.empty((BLOCK_SAMPLES // file.channels, file.channels), dtype=np.float32)
+    buffer = np.empty((BLOCK_FRAMES, file.channels), dtype=np.float32)
     frames, skip, errors, failed_at = 0, stream.leading, 0, -1
     while errors < MOST_ERRORS:
         # What is still no number after a failure was not decoded.
@@ -127,9 +139,7 @@ def _decode_stream(
         meter.take(buffer[skipped:count])
         decoded.duration_s = begin_s + frames / rate
         if decoded.duration_s > LONGEST_S:
-            raise InputError(
-                f"the song lasts over {LONGEST_S / 3600:.0f} hours; at most so much is played"
-            )
+            raise InputError(f"the song lasts over {LONGEST_S / 3600:.0f} hours; at most so much is played")
         errors = errors + 1 if failed and count == 0 else 0
         if failed and failed_at < 0:
             failed_at = frames
@@ -143,7 +153,7 @@ def _decode_stream(
 
 
 def _ogg_claim(stream: SoundStream) -> int | None:
-    """How many frames an Ogg link has by the positions on its first and last pages; None where they do not tell."""
+    """How many frames an Ogg link has by the positions on its pages; None where they do not tell."""
     try:
         with soundfile.SoundFile(stream.splice) as file:
             return file.frames if 0 < file.frames < UNKNOWN_FRAMES else None
@@ -170,5 +180,5 @@ def _opened(stream: SoundStream) -> Generator[soundfile.SoundFile]:
 
 
 def _feed(splice: Splice, writing_end: int) -> None:
-    with suppress(BrokenPipeError), open(writing_end, "wb") as pipe:  # noqa: PTH123 - it is no path
+    with suppress(BrokenPipeError), open(writing_end, "wb") as pipe:
         shutil.copyfileobj(splice, pipe, PIPE_BYTES)

@@ -89,7 +89,7 @@ def mp3_streams(data: Data, start: int) -> list[SoundStream]:
 
 
 def _encoder_says(tag: bytes, samples_per_frame: int) -> tuple[int | None, int, int]:
-    """Samples that a Xing or Info tag claims, and how many LAME's extension says were put before and behind."""
+    """Samples that a Xing or Info tag claims, and how many LAME says were put before and behind."""
     if len(tag) < 12 or not tag[7] & 1:
         return None, 0, 0
     claimed = int.from_bytes(tag[8:12], "big") * samples_per_frame

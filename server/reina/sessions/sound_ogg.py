@@ -1,4 +1,4 @@
-"""Where the links of an Ogg file stand (RFC 3533): streams that follow one another, as radio and joined files do."""
+"""Where the links of an Ogg file stand (RFC 3533): one after another, as radio and joined files have."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -61,7 +61,7 @@ def _stream(data: Data, link: _Link) -> SoundStream:
 
 
 def _pages(data: Data, start: int) -> Iterator[tuple[int, int, int, bytes, range]]:
-    """Yield each whole page: where it begins and ends, its flags, its stream, and where its content stands."""
+    """Yield each whole page: its beginning, its end, its flags, its stream, and where its content stands."""
     at = data.find(MARK, start)
     while at >= 0:
         header = data[at : at + HEADER_BYTES]

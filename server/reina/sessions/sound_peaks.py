@@ -64,51 +64,45 @@ def write_peaks(path: Path, peaks: Peaks) -> None:
 
 
 class PeakMeter:
-    """Finds the peaks of sound that comes in blocks."""
+    """Finds the peaks of sound that comes in blocks.
 
-    def __init__(self) -> None:
+    Args:
+        sample_rate: Samples a second.
+        channels: How many there are; each stretch is that of all together.
+    """
+
+    def __init__(self, sample_rate: int, channels: int) -> None:
+        self._stretch = max(1, sample_rate // PAIRS_A_SECOND)
+        self._width = self._stretch * channels
+        self._sample_rate = sample_rate
         self._lowest: list[npt.NDArray[np.float32]] = []
         self._highest: list[npt.NDArray[np.float32]] = []
-        self._form = (0, 0)
-        self._stretch = 1
-        self._several = False
         self._pending: npt.NDArray[np.float32] = np.empty(0, dtype=np.float32)
-
-    def begin(self, sample_rate: int, channels: int) -> None:
-        """Be told of what form the blocks are from here on; a stretch goes on over blocks of one form."""
-        if (sample_rate, channels) != self._form:
-            self._several = bool(self._lowest)
-            self._end_stretch()
-            self._form = (sample_rate, channels)
-            self._stretch = max(1, sample_rate // PAIRS_A_SECOND)
 
     def take(self, samples: npt.NDArray[np.float32]) -> None:
         """Take in a block: ``(F, C)``, of which what is no number counts as silence."""
         flat = np.concatenate([self._pending, np.nan_to_num(samples).ravel()])
-        width = self._stretch * self._form[1]
-        whole = flat.size // width * width
+        whole = flat.size // self._width * self._width
         if whole:
-            rows = flat[:whole].reshape(-1, width)
-            self._lowest.append(rows.min(axis=1))
-            self._highest.append(rows.max(axis=1))
+            self._add(flat[:whole].reshape(-1, self._width))
         self._pending = flat[whole:]
 
     def peaks(self, duration_s: float) -> Peaks:
         """The peaks of all; what was taken in beyond the end, as encoders add it, is left out."""
-        self._end_stretch()
-        most = None if self._several else math.ceil(duration_s * self._form[0] / self._stretch)
-        lowest, highest = np.concatenate(self._lowest)[:most], np.concatenate(self._highest)[:most]
+        if self._pending.size:
+            self._add(self._pending.reshape(1, -1))
+            self._pending = self._pending[:0]
+        count = math.ceil(round(duration_s * self._sample_rate) / self._stretch)
+        lowest, highest = np.concatenate(self._lowest)[:count], np.concatenate(self._highest)[:count]
         return Peaks(
             duration_s,
             np.clip(lowest, -1.0, 1.0).astype(np.float64),
             np.clip(highest, -1.0, 1.0).astype(np.float64),
         )
 
-    def _end_stretch(self) -> None:
-        if self._pending.size:
-            self._lowest.append(self._pending.min(keepdims=True))
-            self._highest.append(self._pending.max(keepdims=True))
-            self._pending = self._pending[:0]
+    def _add(self, stretches: npt.NDArray[np.float32]) -> None:
+        self._lowest.append(stretches.min(axis=1))
+        self._highest.append(stretches.max(axis=1))
 
 
 def _pack(peaks: Peaks) -> bytes:

@@ -1,4 +1,4 @@
-"""What a recording is: its format told by its content and never by its name, its length and peaks by decoding."""
+"""What a recording is: its format by its content and never its name, its length and peaks by decoding."""
 
 import io
 from collections.abc import Callable, Iterator
@@ -54,27 +54,32 @@ class AudioFormat:
     """One row of the table of formats: how it is called and recognized, and how it is read.
 
     Attributes:
-        streams: Finds the sound in it, from an offset, to be decoded.
-        facts: Reads its headers instead, for what is not decoded here.
+        read: Finds the sound in it, from an offset, to be decoded; or what its headers say, where it is not
+            decoded here.
     """
 
     name: str
     media_type: str
     suffix: str
     recognizes: Callable[[bytes], bool]
-    streams: Callable[[Data, int], list[SoundStream]] | None = None
-    facts: Callable[[BinaryIO, int], AudioFacts] | None = None
+    read: Callable[[Data, int], list[SoundStream] | AudioFacts]
 
 
-MP3 = AudioFormat(
-    "MP3", "audio/mpeg", ".mp3", lambda head: head.startswith(b"ID3"), streams=sound_mp3.mp3_streams
-)
+def _headers(read: Callable[[BinaryIO, int], AudioFacts]) -> Callable[[Data, int], AudioFacts]:
+    def read_from(data: Data, start: int) -> AudioFacts:
+        file = io.BufferedReader(Splice(data, range(start, len(data))))
+        return read(file, len(data) - start)
+
+    return read_from
+
+
+MP3 = AudioFormat("MP3", "audio/mpeg", ".mp3", lambda head: head.startswith(b"ID3"), sound_mp3.mp3_streams)
 FORMATS = (
-    AudioFormat("WAV", "audio/wav", ".wav", sound_wav.is_wav, streams=sound_wav.wav_streams),
-    AudioFormat("FLAC", "audio/flac", ".flac", sound_flac.is_flac, streams=sound_flac.flac_streams),
-    AudioFormat("Ogg", "audio/ogg", ".ogg", sound_ogg.is_ogg, streams=sound_ogg.ogg_streams),
-    AudioFormat("MP4", "audio/mp4", ".m4a", sound_mp4.is_mp4, facts=sound_mp4.read_mp4),
-    AudioFormat("WebM", "audio/webm", ".webm", sound_webm.is_webm, facts=sound_webm.read_webm),
+    AudioFormat("WAV", "audio/wav", ".wav", sound_wav.is_wav, sound_wav.wav_streams),
+    AudioFormat("FLAC", "audio/flac", ".flac", sound_flac.is_flac, sound_flac.flac_streams),
+    AudioFormat("Ogg", "audio/ogg", ".ogg", sound_ogg.is_ogg, sound_ogg.ogg_streams),
+    AudioFormat("MP4", "audio/mp4", ".m4a", sound_mp4.is_mp4, _headers(sound_mp4.read_mp4)),
+    AudioFormat("WebM", "audio/webm", ".webm", sound_webm.is_webm, _headers(sound_webm.read_webm)),
 )
 
 SUPPORTED = "WAV, MP3, Ogg, FLAC, M4A or WebM"
@@ -130,13 +135,11 @@ def _recognize(data: Data, start: int) -> AudioFormat:
 def _read(
     audio_format: AudioFormat, data: Data, start: int
 ) -> tuple[AudioFacts, Peaks | None, tuple[ScoreWarning, ...]]:
-    if audio_format.streams is not None:
-        decoded = decode(audio_format.streams(data, start))
+    facts = audio_format.read(data, start)
+    if not isinstance(facts, AudioFacts):
+        decoded = decode(facts)
         facts = AudioFacts(decoded.duration_s, decoded.sample_rate, decoded.channels)
         return facts, decoded.peaks, tuple(_warnings(decoded, audio_format))
-    assert audio_format.facts is not None
-    file = io.BufferedReader(Splice(data, range(start, len(data))))
-    facts = audio_format.facts(file, len(data) - start)
     if facts.duration_s is not None and not 0 <= facts.duration_s <= LONGEST_S:
         claimed = f"{facts.duration_s / 3600:,.0f} hours"
         raise InputError(
@@ -151,8 +154,8 @@ def _warnings(decoded: Decoded, audio_format: AudioFormat) -> Iterator[ScoreWarn
         yield ScoreWarning(
             "song_length",
             "song",
-            f"the file says that it lasts {claimed_s:.1f} s, and {decoded.duration_s:.1f} s of sound are in it; "
-            "these count",
+            f"the file says that it lasts {claimed_s:.2f} s, and what is in it lasts "
+            f"{decoded.duration_s:.2f} s, which counts",
         )
     if decoded.damaged_s:
         first_s, others = decoded.damaged_s[0], len(decoded.damaged_s) - 1
@@ -162,17 +165,24 @@ def _warnings(decoded: Decoded, audio_format: AudioFormat) -> Iterator[ScoreWarn
             f"song, {first_s:.1f} s",
             f"the file is damaged here{more}: what cannot be decoded is left out",
         )
+    if decoded.other_form is not None:
+        yield ScoreWarning(
+            "song_form",
+            f"song, {decoded.duration_s:.1f} s",
+            f"the file goes on here with {decoded.other_form}, which browsers do not play after what came "
+            "before; the song ends here",
+        )
     if audio_format.name != "FLAC" and decoded.coding not in PLAYED_CODINGS:
         yield ScoreWarning(
             "song_not_played",
             "song",
-            f"most browsers do not play this {audio_format.name} ({decoded.coding}); 16-bit WAV, MP3, FLAC, Ogg "
-            "Vorbis or Opus would be played",
+            f"most browsers do not play this kind of {audio_format.name} ({decoded.coding}); 16-bit WAV, "
+            "MP3, FLAC, Ogg Vorbis or Opus would be played",
         )
     if decoded.sample_rate < LOWEST_RATE:
         yield ScoreWarning(
             "song_not_played",
             "song",
-            f"{decoded.sample_rate} samples a second are fewer than browsers play; {LOWEST_RATE} or more would be "
-            "played",
+            f"most browsers do not play {decoded.sample_rate} samples a second; {LOWEST_RATE} or more would "
+            "be played",
         )

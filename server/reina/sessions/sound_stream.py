@@ -1,4 +1,4 @@
-"""Sound within a file, as a decoder is given it: pieces of the file, joined into one that begins with the sound."""
+"""Sound within a file, as a decoder is given it: pieces of the file, joined into one."""
 
 import io
 import mmap
@@ -91,4 +91,3 @@ class SoundStream:
     piped: bool = False
     leading: int = 0
     trailing: int = 0
-

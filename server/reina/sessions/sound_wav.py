@@ -32,7 +32,7 @@ def wav_streams(data: Data, start: int) -> list[SoundStream]:
         elif name == b"fmt ":
             form = data[content : min(content + length, content + 64)]
         elif name == b"data":
-            if form is None or len(form) < 16:
+            if form is None or len(form) < 16 or 0 in struct.unpack_from("<2xHI", form):
                 raise BrokenAudioError("its data comes before a usable format chunk")
             size = length if 0 < length < STREAMED else long_size
             held = min(size or len(data), len(data) - content)

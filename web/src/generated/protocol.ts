@@ -680,7 +680,7 @@ export interface TimeKnots {
   bars: number[]
 }
 
-/** Something in the score that could not be taken as it stands, and what was done instead. */
+/** Something in score, song or show that could not be taken as it stands, and what was done instead. */
 export interface Warned {
   kind: string
   place: string
