@@ -154,6 +154,7 @@ def _decode_stream(
 
 def _ogg_claim(stream: SoundStream) -> int | None:
     """How many frames an Ogg link has by the positions on its pages; None where they do not tell."""
+    stream.splice.seek(0)
     try:
         with soundfile.SoundFile(stream.splice) as file:
             return file.frames if 0 < file.frames < UNKNOWN_FRAMES else None

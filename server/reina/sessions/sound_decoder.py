@@ -15,8 +15,8 @@ from reina.sessions.sound_peaks import Peaks, peaks_path, read_peaks
 from reina.sessions.sound_probe import AudioInfo
 
 PROGRAM = (sys.executable, "-m", "reina.sessions.sound_worker")
-TIMEOUT_S = 180.0
-"""Some ten times what the longest song takes on two cores that nobody else uses."""
+TIMEOUT_S = 300.0
+"""Twice what four hours of Opus, the slowest to decode, take on a core that nobody else uses."""
 MOST_AT_ONCE = 2
 STDERR_TOLD = 400
 """How many characters of a crashed worker's complaint are logged, from its end."""

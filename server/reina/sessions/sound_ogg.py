@@ -9,6 +9,7 @@ from reina.sessions.sound_stream import Data, SoundStream, Splice
 
 MARK = b"OggS"
 HEADER_BYTES = 27
+VERSION = 0
 BEGINS_A_STREAM = 2
 """Flag of a page."""
 FLAC_PACKET = b"\x7fFLAC"
@@ -66,7 +67,7 @@ def _pages(data: Data, start: int) -> Iterator[tuple[int, int, int, bytes, range
     while at >= 0:
         header = data[at : at + HEADER_BYTES]
         following = at + len(MARK)
-        if len(header) == HEADER_BYTES:
+        if len(header) == HEADER_BYTES and header[4] == VERSION:
             content = at + HEADER_BYTES + header[26]
             end = content + sum(data[at + HEADER_BYTES : content])
             if end <= len(data):
