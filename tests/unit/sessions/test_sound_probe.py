@@ -142,15 +142,11 @@ def test_tells_where_the_file_says_another_length(name: str) -> None:
 
 
 def test_goes_on_behind_damage_and_tells_it() -> None:
-    middle = len(FLAC) // 2
-    info, _ = probe_recording(FLAC[:middle] + bytes([FLAC[middle] ^ 1]) + FLAC[middle + 1 :])
-    assert info.duration_s == pytest.approx(1.0, abs=0.1)
     middle = len(BARE_MP3) // 2
-    hole, _ = probe_recording(BARE_MP3[:middle] + bytes(20_000) + BARE_MP3[middle:])
-    assert hole.duration_s == pytest.approx(1.0, abs=0.1)
-    for found in (info, hole):
-        assert [warning.kind for warning in found.warnings] == ["song_damaged"]
-        assert found.warnings[0].place.startswith("song, 0.")
+    info, _ = probe_recording(BARE_MP3[:middle] + bytes(20_000) + BARE_MP3[middle:])
+    assert info.duration_s == pytest.approx(1.0, abs=0.1)
+    assert [warning.kind for warning in info.warnings] == ["song_damaged"]
+    assert info.warnings[0].place.startswith("song, 0.")
 
 
 @pytest.mark.parametrize(
