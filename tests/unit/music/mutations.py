@@ -2,26 +2,28 @@
 
 import io
 import json
-import random
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import mido
+from tests import mutations
 from tests.unit.music.midi_bytes import END, chunk, events, header, metre, midi, name, off, on, program, tempo
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "scores"
 
-INTERESTING = (0x00, 0x01, 0x7F, 0x80, 0xFF, 0x2F, 0x51, 0x58, 0x90, 0xF0, 0xF7, 0xC0, 0xE0)
-"""Bytes that mean something to a MIDI reader."""
-
-TOKENS = (
-    b"MTrk",
-    b"MThd",
-    b"\xff\x2f\x00",
-    b"\xff\xff\xff\xff",
-    b"\x00\x00\x00\x00",
-    b"\xff\x51\x03\x00\x00\x00",
+SCORES = mutations.Format(
+    interesting=(0x00, 0x01, 0x7F, 0x80, 0xFF, 0x2F, 0x51, 0x58, 0x90, 0xF0, 0xF7, 0xC0, 0xE0),
+    tokens=(
+        b"MTrk",
+        b"MThd",
+        b"\xff\x2f\x00",
+        b"\xff\xff\xff\xff",
+        b"\x00\x00\x00\x00",
+        b"\xff\x51\x03\x00\x00\x00",
+    ),
+    numbers=(b"-1", b"1e308", b"0", b"1e-320", b"null", b"9999999999", b'"C9"', b"[]", b"{}"),
 )
+"""What means something to readers of MIDI and JSON."""
 
 
 def seeds() -> list[bytes]:
@@ -71,56 +73,6 @@ def seeds() -> list[bytes]:
     ]
 
 
-def _flip(data: bytearray, rng: random.Random) -> None:
-    data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
-
-
-def _set(data: bytearray, rng: random.Random) -> None:
-    data[rng.randrange(len(data))] = rng.choice(INTERESTING)
-
-
-def _insert(data: bytearray, rng: random.Random) -> None:
-    at = rng.randrange(len(data) + 1)
-    data[at:at] = rng.choice(TOKENS) if rng.random() < 0.3 else rng.randbytes(rng.randint(1, 6))
-
-
-def _remove(data: bytearray, rng: random.Random) -> None:
-    at = rng.randrange(len(data))
-    del data[at : at + rng.randint(1, 12)]
-
-
-def _repeat(data: bytearray, rng: random.Random) -> None:
-    at = rng.randrange(len(data))
-    piece = data[at : at + rng.randint(1, 40)]
-    data[at:at] = piece * rng.randint(1, 4)
-
-
-def _truncate(data: bytearray, rng: random.Random) -> None:
-    del data[rng.randrange(len(data)) :]
-
-
-def _digit(data: bytearray, rng: random.Random) -> None:
-    """Make a number of a JSON text another one."""
-    digits = [index for index, byte in enumerate(data) if 0x30 <= byte <= 0x39]
-    if digits:
-        at = rng.choice(digits)
-        data[at : at + 1] = rng.choice(
-            [b"-1", b"1e308", b"0", b"1e-320", b"null", b"9999999999", b'"C9"', b"[]", b"{}"]
-        )
-
-
-MUTATIONS: tuple[Callable[[bytearray, random.Random], None], ...] = (
-    _flip, _flip, _set, _set, _insert, _remove, _repeat, _truncate, _digit,
-)  # fmt: skip
-
-
 def mutated(count: int, seed: int) -> Iterator[bytes]:
     """Yield `count` files, each a seed with one mutation or more."""
-    rng = random.Random(seed)
-    pool = seeds()
-    for _ in range(count):
-        data = bytearray(rng.choice(pool))
-        for _ in range(1 + int(rng.expovariate(0.5))):
-            if data:
-                rng.choice(MUTATIONS)(data, rng)
-        yield bytes(data)
+    return mutations.mutated(seeds(), SCORES, count, seed)

@@ -7,7 +7,7 @@ import random
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tests.unit.music.mutations import MUTATIONS
+from tests.mutations import MUTATIONS, Format
 from tests.unit.sessions.recordings import flac_in_ogg, id3, mp4, recording, wav, webm
 
 from reina.errors import InputError
@@ -17,6 +17,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 CASES = Path(__file__).parents[2] / "cases"
+
+RECORDINGS = Format(
+    interesting=(0x00, 0x01, 0x02, 0x7F, 0x80, 0xFE, 0xFF, 0xFB, 0xF8),
+    tokens=(
+        b"RIFF", b"data", b"fmt ", b"fLaC", b"OggS", b"ID3", b"Xing", b"OpusHead", b"\x01vorbis", b"moov",
+        b"\xff\xfb\x90\x00", b"\xff\xff\xff\xff", b"\x00\x00\x00\x00",
+    ),
+    numbers=(b"0", b"9", b"\x00", b"\xff"),
+)  # fmt: skip
 
 
 @functools.cache
@@ -54,7 +63,7 @@ def mutated(count: int, seed: int) -> Iterator[bytes]:
         rest = data[len(head) :]
         for _ in range(1 + int(rng.expovariate(0.5))):
             if head:
-                rng.choice(MUTATIONS)(head, rng)
+                rng.choice(MUTATIONS)(head, rng, RECORDINGS)
         yield bytes(head + rest)
 
 
@@ -68,7 +77,8 @@ def check_recording(data: bytes) -> bool:
     try:
         info, peaks = probe_recording(data)
     except InputError as error:
-        assert error.detail
+        if not error.detail:
+            raise AssertionError("refused without a reason") from error
         return False
     assert info.duration_s is None or 0 <= info.duration_s <= 4 * 3600
     if peaks is not None:

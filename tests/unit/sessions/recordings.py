@@ -109,7 +109,7 @@ def ogg_shifted(ogg: bytes, frames: int, *, last_alone: bool = False) -> bytes:
 
 
 def flac_in_ogg(flac: bytes, packet_bytes: int = 4000) -> bytes:
-    """FLAC mapped into Ogg (xiph.org's mapping 1.0); where packets are cut does not matter to a reader of bytes."""
+    """FLAC mapped into Ogg (xiph.org's mapping 1.0), but for where packets are cut."""
     first, rest = flac[4:42], flac[42:]
     pages = [ogg_page(b"\x7fFLAC\x01\0\0\x01fLaC" + first, flags=2)]
     for number, at in enumerate(range(0, len(rest), packet_bytes), 1):

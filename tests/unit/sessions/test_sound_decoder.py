@@ -1,4 +1,4 @@
-"""Recordings are probed in a process of their own: what becomes of one that hangs, crashes, or is told off."""
+"""Recordings are probed in a process of their own: what becomes of one that hangs, crashes or complains."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import asyncio
 import os
 import subprocess
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -17,6 +16,8 @@ from reina.sessions.sound_decoder import PROGRAM, SongDecoder
 from reina.sessions.sound_peaks import peaks_path
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from reina.sessions.sound_peaks import Peaks
     from reina.sessions.sound_probe import AudioInfo
 
@@ -102,7 +103,8 @@ def test_no_more_than_its_number_run_at_once(tmp_path: Path) -> None:
         f"folder = pathlib.Path({str(running)!r})\n"
         "mine = folder / str(os.getpid()); mine.touch()\n"
         "time.sleep(0.05); count = len(list(folder.iterdir())); mine.unlink()\n"
-        "print(json.dumps({'format': 'WAV', 'media_type': '', 'suffix': '', 'channels': count, 'warnings': []}))"
+        "told = {'format': 'WAV', 'media_type': '', 'suffix': '', 'channels': count, 'warnings': []}\n"
+        "print(json.dumps(told))"
     )
     song = kept(tmp_path, b"any")
 
