@@ -1,7 +1,7 @@
 """How long a recording takes to be probed, and how much memory: the whole process, as an upload waits for it.
 
-Run as ``python tests/benchmarks/bench_probe.py``. Four minutes of noise under a slow swell, in stereo, in each
-format. Processor time counts: a busy machine makes an upload wait longer.
+Run as ``python tests/benchmarks/bench_probe.py``. Four minutes of noise in stereo, in each format. Processor
+time counts: a busy machine makes an upload wait longer.
 """
 
 from __future__ import annotations

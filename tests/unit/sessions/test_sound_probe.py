@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from tests.unit.sessions.recordings import (
     RATE,
+    element,
     first_frame_bytes,
     flac_in_ogg,
     flac_with_length,
@@ -209,6 +210,11 @@ REFUSED = {
     "MP4 that breaks off": (mp4()[:60], "no moov"),
     "MP4 with an impossible box": (mp4()[:24] + struct.pack(">I4s", 3, b"free"), "impossible length"),
     "Matroska": (webm(doc_type=b"matroska"), "another kind"),
+    "WebM whose element reaches beyond the one it is in": (
+        element(0x1A45DFA3, element(0x4282, b"webm"))
+        + element(0x18538067, element(0x1549A966, b"\x2a\xd7\xb1\x08") + bytes(20)),
+        "breaks off",
+    ),
     "WebM with pictures only": (webm(track_type=1), "no track of sound"),
 }
 
