@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import threading
+from collections import deque
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -81,7 +82,9 @@ def decode(streams: Iterable[SoundStream]) -> Decoded:
     decoded = Decoded()
     meter: PeakMeter | None = None
     complaint = "it holds no sound"
-    for stream in streams:
+    waiting = deque(streams)
+    while waiting:
+        stream = waiting.popleft()
         try:
             with _opened(stream) as file:
                 if meter is None:
@@ -92,7 +95,10 @@ def decode(streams: Iterable[SoundStream]) -> Decoded:
                 elif (file.samplerate, file.channels) != (decoded.sample_rate, decoded.channels):
                     decoded.other_form = f"{file.samplerate} samples a second, {file.channels} channels"
                     break
-                _decode_stream(stream, file, meter, decoded)
+                stopped_after = _decode_stream(stream, file, meter, decoded)
+            if stopped_after is not None and stream.resume and (rest := stream.resume(stopped_after)):
+                decoded.damaged_s.append(decoded.duration_s)
+                waiting.appendleft(rest)
         except soundfile.LibsndfileError as error:
             complaint = f"it cannot be decoded ({error.error_string.strip().rstrip('.')})"
             if decoded.duration_s:
@@ -114,7 +120,8 @@ def _check(file: soundfile.SoundFile) -> None:
 
 def _decode_stream(
     stream: SoundStream, file: soundfile.SoundFile, meter: PeakMeter, decoded: Decoded
-) -> None:
+) -> int | None:
+    """Decode to the end, or to where the decoder stops for good; after how many frames, in that case."""
     rate, begin_s = file.samplerate, decoded.duration_s
     buffer = np.empty((BLOCK_FRAMES, file.channels), dtype=np.float32)
     frames, skip, errors, failed_at = 0, stream.leading, 0, -1
@@ -150,6 +157,7 @@ def _decode_stream(
         decoded.claimed_s = None
     elif decoded.claimed_s is not None:
         decoded.claimed_s += claimed / rate
+    return frames if failed_at >= 0 else None
 
 
 def _ogg_claim(stream: SoundStream) -> int | None:

@@ -8,6 +8,8 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from _typeshed import WriteableBuffer
 
 Data = bytes | mmap.mmap
@@ -83,6 +85,8 @@ class SoundStream:
             length from headers and reads no further.
         leading: How many frames an encoder put before the sound; players leave them out.
         trailing: How many frames it may have put behind.
+        resume: How many frames were decoded until the decoder stopped at something broken -> what follows
+            that, or None where nothing does.
     """
 
     splice: Splice
@@ -91,3 +95,4 @@ class SoundStream:
     piped: bool = False
     leading: int = 0
     trailing: int = 0
+    resume: "Callable[[int], SoundStream | None] | None" = None

@@ -150,6 +150,23 @@ def test_goes_on_behind_damage_and_tells_it() -> None:
     assert info.warnings[0].place.startswith("song, 0.")
 
 
+@pytest.mark.parametrize("channels", [1, 2])
+def test_one_broken_frame_of_flac_is_left_out_and_what_follows_is_not(channels: int) -> None:
+    flac = recording("FLAC", "PCM_16", seconds=3.0, channels=channels)
+    for place in range(len(flac) // 8, len(flac) * 7 // 8, len(flac) // 8):
+        broken = flac[:place] + bytes([flac[place] ^ 1]) + flac[place + 1 :]
+        info, peaks = probe_recording(broken)
+        assert 3.0 - 1.5 * 4096 / RATE < (info.duration_s or 0.0) <= 3.0
+        assert [warning.kind for warning in info.warnings if warning.kind != "song_length"] == [
+            "song_damaged"
+        ]
+        assert peaks is not None
+        # The tone is as loud at the end as at the beginning: nothing is taken for sound that is none.
+        assert peaks.highest.max() == pytest.approx(0.5, abs=0.03)
+    hole, _ = probe_recording(flac[:8000] + bytes(20_000) + flac[8000:])
+    assert hole.duration_s == pytest.approx(3.0, abs=0.1)
+
+
 @pytest.mark.parametrize(
     "other",
     [recording("OGG", "VORBIS", rate=48_000), recording("OGG", "VORBIS", channels=1)],
