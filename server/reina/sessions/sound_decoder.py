@@ -1,6 +1,7 @@
 """Has recordings probed by a process of their own, whose crash or endless work is not the server's."""
 
 import asyncio
+import contextlib
 import json
 import logging
 import sys
@@ -19,7 +20,7 @@ TIMEOUT_S = 300.0
 """Twice what four hours of Opus, the slowest to decode, take on a core that nobody else uses."""
 MOST_AT_ONCE = 2
 STDERR_TOLD = 400
-"""How many characters of a crashed worker's complaint are logged, from its end."""
+"""How many bytes at the end of a crashed worker's complaint its last line is looked for in."""
 ADVICE = "if it plays elsewhere, convert it to WAV, MP3 or FLAC"
 
 log = logging.getLogger(__name__)
@@ -84,8 +85,8 @@ class SongDecoder:
         finally:
             await _end(process)
         if status != 0:
-            shown = complaint[-STDERR_TOLD:].decode(errors="replace").strip()
-            log.warning("the decoder ended with status %d: %s", status, shown)
+            lines = complaint[-STDERR_TOLD:].decode(errors="replace").strip().splitlines()
+            log.warning("the decoder ended with status %d: %s", status, lines[-1] if lines else "")
             raise InputError(f"the song makes the decoder fail, so that it seems to be broken; {ADVICE}")
         message: dict[str, Any] = json.loads(told)
         return message
@@ -96,8 +97,12 @@ async def _read(stream: asyncio.StreamReader | None) -> bytes:
 
 
 async def _end(process: Process) -> None:
+    """Stop it if it runs, and wait until its pipes are closed too, which else outlive the loop."""
     if process.returncode is None:
         process.kill()
     if process.stdin is not None:
         process.stdin.close()
+        with contextlib.suppress(ConnectionError):
+            await process.stdin.wait_closed()
+    await asyncio.gather(_read(process.stdout), _read(process.stderr))
     await process.wait()

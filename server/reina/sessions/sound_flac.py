@@ -53,7 +53,7 @@ def unbounded_flac(data: Data, pieces: tuple[range, ...]) -> SoundStream:
     claimed = int.from_bytes(head[LENGTH_AT:HEAD_BYTES], "big") & (1 << 36) - 1
     head[LENGTH_AT:HEAD_BYTES] = bytes([head[LENGTH_AT] & 0xF0, 0, 0, 0, 0])
     splice = Splice(data, bytes(head), *_after(pieces, HEAD_BYTES))
-    if len(pieces) > 1:
+    if len(pieces) != 1:
         return SoundStream(splice, claimed or None)
     # STREAMINFO as the only block of metadata, and what of it stands behind the length.
     info = b"fLaC\x80" + bytes(head[5:]) + data[pieces[0].start + HEAD_BYTES : pieces[0].start + INFO_END]
