@@ -227,14 +227,3 @@ def test_peaks_come_when_the_song_has_been_made(client: httpx.Client) -> None:
             assert first.headers["retry-after"] == "1"
     finally:
         session.change("DELETE")
-
-
-def test_a_song_that_only_a_browser_decodes_has_none(client: httpx.Client) -> None:
-    # A frame header of MPEG-1 Layer III, 128 kbit/s, 44.1 kHz, and the 417 bytes of a frame, over and over.
-    mp3 = (b"\xff\xfb\x90\x00" + bytes(413)) * 40
-    session = upload(client, scale(4), song=("song.mp3", mp3))
-    try:
-        answer = client.get(f"{session.path}/song/peaks")
-        assert (answer.status_code, answer.content) == (204, b"")
-    finally:
-        session.change("DELETE")

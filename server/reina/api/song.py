@@ -1,20 +1,18 @@
 """A session's sound."""
 
-import asyncio
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Query, Response
 from fastapi.responses import FileResponse, JSONResponse
 
-from reina.api.access import Watched
+from reina.api.access import Store, Watched
 from reina.api.files import ServedFile
 from reina.api.problems import ProblemError
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
-from reina.sessions.sound_peaks import song_peaks
 
 router = APIRouter(tags=["song"])
 
@@ -45,20 +43,19 @@ async def get_song(session: Watched) -> Response:
     response_model=SongPeaks,
     responses={
         202: {"model": SongState, "description": "The song is still being made."},
-        204: {"description": "The server reads WAV alone: the peaks are to be had from the decoded sound."},
+        204: {"description": "The server does not decode M4A and WebM; the page, which plays them, does."},
     },
 )
 async def get_peaks(
-    request: Request,
     session: Watched,
+    store: Store,
     points: Annotated[int, Query(ge=1, le=MOST_PEAKS, description="How many stretches.")] = 1000,
 ) -> Response:
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
     path = _song_path(session)
     if path is None:
         return _under_way(session)
-    async with request.app.state.computing:
-        peaks = await asyncio.to_thread(song_peaks, path)
+    peaks = await store.decoder.peaks(path)
     if peaks is None:
         return Response(status_code=204)
     drawn = peaks.reduced(points)

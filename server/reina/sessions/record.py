@@ -11,6 +11,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from reina.protocol.resources import Warned  # noqa: TC001 - pydantic reads it
 from reina.sessions.production import PLAYER
 
 SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
@@ -18,13 +19,15 @@ SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
 
 
 class SongRecord(BaseModel):
-    """An uploaded song, as its headers told."""
+    """An uploaded song, as it was decoded."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     file: str
     media_type: str
     duration_s: float | None
+    warnings: tuple[Warned, ...] = ()
+    """What its sender should know."""
 
 
 class SessionRecord(BaseModel):

@@ -144,7 +144,11 @@ class Session:
                 for choice in self.production.ranking
             ],
             notes=len(score.notes),
-            warnings=[*warned((*score.warnings, *played.warnings)), *self.show_warnings()],
+            warnings=[
+                *warned((*score.warnings, *played.warnings)),
+                *(self.record.song.warnings if self.record.song else ()),
+                *self.show_warnings(),
+            ],
             song=self.song_state(),
             links=session_links(self.id),
         )

@@ -20,17 +20,14 @@ from reina.sessions.sound_events import SoundPlan
 from reina.sessions.sound_font import MissingSoundfontError, SoundError, find_soundfont, soundfont_id
 from reina.sessions.sound_peaks import peaks_path
 from reina.sessions.sound_plan import plan_sound
-from reina.sessions.sound_probe import AudioInfo, probe_audio
 
 __all__ = [
     "SONG_MEDIA_TYPE",
-    "AudioInfo",
     "MissingSoundfontError",
     "SongRenderer",
     "SongRequest",
     "SoundError",
     "find_soundfont",
-    "probe_audio",
 ]
 
 SONG_MEDIA_TYPE = "audio/wav"
@@ -183,7 +180,7 @@ class SongRenderer:
     async def aclose(self) -> None:
         """Stop every rendering and wait until its process is gone."""
         for task in self._tasks:
-            # One that is being cancelled is waiting for its process's end, which a second time would cut short.
+            # One that is being cancelled waits for its process to end, which a second time would cut short.
             if not task.cancelling():
                 task.cancel()
         if self._tasks:

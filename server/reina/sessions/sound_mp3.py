@@ -1,12 +1,14 @@
-"""MP3's frame headers: ISO/IEC 11172-3 section 2.4.2.3, and the Xing, Info and VBRI headers of encoders."""
+"""Where MP3 begins in a file (ISO/IEC 11172-3, 2.4.2.3), past tags, zeros and encoders' own first frame."""
 
 from dataclasses import dataclass
-from typing import BinaryIO
 
-from reina.sessions.sound_facts import AudioFacts, BrokenAudioError
+from reina.sessions.sound_facts import BrokenAudioError
+from reina.sessions.sound_stream import Data, SoundStream, Splice
 
-SEARCH_BYTES = 64 * 1024
-"""How far after the tags the first frame is looked for."""
+SEARCH_BYTES = 1 << 20
+"""How far the first frame is looked for."""
+FRAMES_IN_A_ROW = 3
+"""How many frames must follow one another, so that other bytes are not taken for one."""
 
 SAMPLE_RATES = {3: (44100, 48000, 32000), 2: (22050, 24000, 16000), 0: (11025, 12000, 8000)}
 """By the header's version bits: 3 is MPEG-1, 2 is MPEG-2, 0 is MPEG-2.5."""
@@ -20,23 +22,19 @@ BIT_RATES_KBPS = {
 
 SAMPLES_PER_FRAME = {3: 1152, 2: 576, 0: 576}
 
+COUNTED_BY = (b"Xing", b"Info")
+"""What encoders call the frame without sound that they put first."""
+DECODER_DELAY = 529
+"""Frames by which a decoder is late, beside what the encoder says of itself."""
+
 
 @dataclass(frozen=True)
 class FrameHeader:
-    """The four bytes that begin each MP3 frame, read."""
+    """The four bytes that begin each MP3 frame, read; `length` is the whole frame's, in bytes."""
 
     version: int
     sample_rate: int
-    bit_rate: int
-    channels: int
     length: int
-
-    @property
-    def side_info_bytes(self) -> int:
-        """Length of the side information between the header and an encoder's Xing header."""
-        if self.version == 3:
-            return 17 if self.channels == 1 else 32
-        return 9 if self.channels == 1 else 17
 
 
 def parse_frame_header(data: bytes) -> FrameHeader | None:
@@ -50,73 +48,68 @@ def parse_frame_header(data: bytes) -> FrameHeader | None:
     sample_rate = SAMPLE_RATES[version][sample_rate_index]
     bit_rate = BIT_RATES_KBPS[version][bit_rate_index] * 1000
     return FrameHeader(
-        version=version,
-        sample_rate=sample_rate,
-        bit_rate=bit_rate,
-        channels=1 if data[3] >> 6 == 3 else 2,
-        length=SAMPLES_PER_FRAME[version] // 8 * bit_rate // sample_rate + padding,
+        version, sample_rate, SAMPLES_PER_FRAME[version] // 8 * bit_rate // sample_rate + padding
     )
 
 
-def is_mp3(head: bytes) -> bool:
-    """Whether a file that begins so is MP3, with an ID3 tag before it or without."""
-    return head.startswith(b"ID3") or parse_frame_header(head[:4]) is not None
+def find_first_frame(data: Data, start: int) -> tuple[int, FrameHeader] | None:
+    """Find the first frame that two more follow, or with which the file ends; None where there is none."""
+    at = data.find(b"\xff", start, start + SEARCH_BYTES)
+    while at >= 0:
+        header = parse_frame_header(data[at : at + 4])
+        if header is not None and _goes_on(data, at, header):
+            return at, header
+        at = data.find(b"\xff", at + 1, start + SEARCH_BYTES)
+    return None
 
 
-def read_mp3(file: BinaryIO, size: int) -> AudioFacts:
-    """Read rate, channels and length of an MP3.
+def mp3_streams(data: Data, start: int) -> list[SoundStream]:
+    """Return the frames of sound from the first to the end of the file, be it one MP3 or several joined.
 
-    The length comes from the encoder's frame count, or else from the size at the first frame's bit rate,
-    which is right for a constant rate; encoders of varying rates write the count.
+    The encoder's own frame is left out, whose count the decoder would stop at.
 
     Raises:
-        BrokenAudioError: No frame follows the tags.
+        BrokenAudioError: There is no frame.
     """
-    start = _tag_bytes(file.read(10))
-    file.seek(start)
-    data = file.read(SEARCH_BYTES)
-    offset, header = _first_frame(data, at_end=start + len(data) >= size)
-    frames = _frame_count(data, offset, header)
-    if frames is not None:
-        duration_s = frames * SAMPLES_PER_FRAME[header.version] / header.sample_rate
-    else:
-        file.seek(max(0, size - 128))
-        trailer = 128 if size >= 128 and file.read(3) == b"TAG" else 0
-        duration_s = (size - start - offset - trailer) * 8 / header.bit_rate
-    return AudioFacts(duration_s=duration_s, sample_rate=header.sample_rate, channels=header.channels)
+    found = find_first_frame(data, start)
+    if found is None:
+        raise BrokenAudioError("no MP3 frame follows its tag")
+    at, header = found
+    claimed, leading, trailing = None, 0, 0
+    frame = data[at : at + header.length]
+    marks = [mark for mark in (frame.find(name, 4, 44) for name in COUNTED_BY) if mark > 0]
+    if marks:
+        at += header.length
+        claimed, leading, trailing = _encoder_says(frame[marks[0] :], SAMPLES_PER_FRAME[header.version])
+    elif frame[36:40] == b"VBRI":
+        at += header.length
+        claimed = int.from_bytes(frame[50:54], "big") * SAMPLES_PER_FRAME[header.version]
+    splice = Splice(data, range(at, len(data)))
+    return [SoundStream(splice, claimed, piped=True, leading=leading, trailing=trailing)]
 
 
-def _tag_bytes(head: bytes) -> int:
-    """Length of the ID3v2 tag at the file's begin, whose size is four times seven bits; 0 without one."""
-    if not head.startswith(b"ID3") or len(head) < 10:
-        return 0
-    size = 0
-    for byte in head[6:10]:
-        size = size << 7 | byte & 0x7F
-    return 10 + size + (10 if head[5] & 0x10 else 0)
+def _encoder_says(tag: bytes, samples_per_frame: int) -> tuple[int | None, int, int]:
+    """Samples that a Xing or Info tag claims, and how many LAME says were put before and behind."""
+    if len(tag) < 12 or not tag[7] & 1:
+        return None, 0, 0
+    claimed = int.from_bytes(tag[8:12], "big") * samples_per_frame
+    # The extension follows a count of bytes, a table and a quality; 21 bytes into it stand two times 12 bits.
+    at = 12 + 4 * bool(tag[7] & 2) + 100 * bool(tag[7] & 4) + 4 * bool(tag[7] & 8) + 21
+    delays = int.from_bytes(tag[at : at + 3], "big")
+    before, behind = delays >> 12, delays & 0xFFF
+    if not before:
+        return claimed, 0, 0
+    return max(0, claimed - before - behind), before + DECODER_DELAY, max(0, behind - DECODER_DELAY)
 
 
-def _first_frame(data: bytes, *, at_end: bool) -> tuple[int, FrameHeader]:
-    """Find the first frame that a second one follows (or with which the file ends)."""
-    offset = data.find(b"\xff")
-    while offset >= 0:
-        header = parse_frame_header(data[offset : offset + 4])
-        if header is not None:
-            following = offset + header.length
-            next_header = parse_frame_header(data[following : following + 4])
-            if next_header is not None and next_header.sample_rate == header.sample_rate:
-                return offset, header
-            if at_end and following == len(data):
-                return offset, header
-        offset = data.find(b"\xff", offset + 1)
-    raise BrokenAudioError("no MP3 frame follows its tag")
-
-
-def _frame_count(data: bytes, offset: int, header: FrameHeader) -> int | None:
-    xing = offset + 4 + header.side_info_bytes
-    if data[xing : xing + 4] in (b"Xing", b"Info") and data[xing + 7 : xing + 8] and data[xing + 7] & 1:
-        return int.from_bytes(data[xing + 8 : xing + 12], "big")
-    vbri = offset + 4 + 32
-    if data[vbri : vbri + 4] == b"VBRI":
-        return int.from_bytes(data[vbri + 14 : vbri + 18], "big")
-    return None
+def _goes_on(data: Data, at: int, first: FrameHeader) -> bool:
+    header = first
+    for _ in range(FRAMES_IN_A_ROW - 1):
+        at += header.length
+        if at >= len(data):
+            return at == len(data)
+        following = parse_frame_header(data[at : at + 4])
+        if following is None or following.sample_rate != first.sample_rate:
+            return False
+        header = following
+    return True

@@ -1,24 +1,17 @@
-"""The shape of a song's sound, to be drawn: its lowest and highest samples, stretch by stretch.
-
-WAV is read, which is what the server renders. The other formats would need a decoder for each; the page has
-one for all of them, since it plays them.
-"""
+"""The shape of a song's sound, to be drawn: its lowest and highest samples, stretch by stretch."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reina.sessions.folders import write_atomically
-from reina.sessions.sound_facts import BrokenAudioError
-from reina.sessions.sound_wav import find_samples, is_wav
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
-    from typing import BinaryIO
 
     import numpy.typing as npt
 
@@ -26,9 +19,6 @@ if TYPE_CHECKING:
 
 PAIRS_A_SECOND = 200
 """As fine as peaks are kept; at most 3 MB an hour."""
-FRAMES_AT_ONCE = 1 << 18
-INTEGERS, FLOATS = 1, 3
-"""Encodings of samples in WAV."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,20 +50,59 @@ def peaks_path(song: Path) -> Path:
     return song.with_suffix(".peaks")
 
 
-def song_peaks(song: Path) -> Peaks | None:
-    """A song's peaks, from its file, and from then on from the one beside it; None where it is not read here.
+def read_peaks(song: Path) -> Peaks | None:
+    """A song's peaks, as they are kept beside it; None where they are not."""
+    try:
+        return _unpack(peaks_path(song).read_bytes())
+    except FileNotFoundError:
+        return None
 
-    Raises:
-        FileNotFoundError: There is no song.
+
+def write_peaks(path: Path, peaks: Peaks) -> None:
+    """Keep peaks."""
+    write_atomically(path, _pack(peaks))
+
+
+class PeakMeter:
+    """Finds the peaks of sound that comes in blocks.
+
+    Args:
+        sample_rate: Samples a second.
+        channels: How many there are; each stretch is that of all together.
     """
-    kept = peaks_path(song)
-    if kept.is_file():
-        return _unpack(kept.read_bytes())
-    with song.open("rb") as file:
-        peaks = _peaks_of_wav(file, song.stat().st_size)
-    if peaks is not None:
-        write_atomically(kept, _pack(peaks))
-    return peaks
+
+    def __init__(self, sample_rate: int, channels: int) -> None:
+        self._stretch = max(1, sample_rate // PAIRS_A_SECOND)
+        self._width = self._stretch * channels
+        self._sample_rate = sample_rate
+        self._lowest: list[npt.NDArray[np.float32]] = []
+        self._highest: list[npt.NDArray[np.float32]] = []
+        self._pending: npt.NDArray[np.float32] = np.empty(0, dtype=np.float32)
+
+    def take(self, samples: npt.NDArray[np.float32]) -> None:
+        """Take in a block: ``(F, C)``, of which what is no number counts as silence."""
+        flat = np.concatenate([self._pending, np.nan_to_num(samples).ravel()])
+        whole = flat.size // self._width * self._width
+        if whole:
+            self._add(flat[:whole].reshape(-1, self._width))
+        self._pending = flat[whole:]
+
+    def peaks(self, duration_s: float) -> Peaks:
+        """The peaks of all; what was taken in beyond the end, as encoders add it, is left out."""
+        if self._pending.size:
+            self._add(self._pending.reshape(1, -1))
+            self._pending = self._pending[:0]
+        count = math.ceil(round(duration_s * self._sample_rate) / self._stretch)
+        lowest, highest = np.concatenate(self._lowest)[:count], np.concatenate(self._highest)[:count]
+        return Peaks(
+            duration_s,
+            np.clip(lowest, -1.0, 1.0).astype(np.float64),
+            np.clip(highest, -1.0, 1.0).astype(np.float64),
+        )
+
+    def _add(self, stretches: npt.NDArray[np.float32]) -> None:
+        self._lowest.append(stretches.min(axis=1))
+        self._highest.append(stretches.max(axis=1))
 
 
 def _pack(peaks: Peaks) -> bytes:
@@ -84,58 +113,3 @@ def _pack(peaks: Peaks) -> bytes:
 def _unpack(data: bytes) -> Peaks:
     pairs = np.frombuffer(data, "<i2", offset=8).reshape(2, -1) / 32767.0
     return Peaks(float(np.frombuffer(data, "<f8", 1)[0]), pairs[0], pairs[1])
-
-
-def _peaks_of_wav(file: BinaryIO, size: int) -> Peaks | None:
-    if not is_wav(file.read(12)):
-        return None
-    try:
-        found = find_samples(file, size)
-    except BrokenAudioError:
-        return None
-    width = found.bits // 8
-    frame_bytes = width * found.channels
-    read_samples = _READERS.get((found.encoding, found.bits))
-    if read_samples is None or found.byte_rate != frame_bytes * found.sample_rate:
-        return None
-    stretch = max(1, found.sample_rate // PAIRS_A_SECOND)
-    at_once = max(1, FRAMES_AT_ONCE // stretch) * stretch
-    lows: list[FloatArray] = []
-    highs: list[FloatArray] = []
-    frames = left = found.bytes // frame_bytes
-    file.seek(found.start)
-    while left > 0:
-        data = file.read(min(at_once, left) * frame_bytes)
-        read = len(data) // frame_bytes
-        if read == 0:
-            break
-        left -= read
-        samples = read_samples(data[: read * frame_bytes]).reshape(read, found.channels)
-        first = np.arange(0, read, stretch)
-        lows.append(np.minimum.reduceat(samples.min(axis=1), first))
-        highs.append(np.maximum.reduceat(samples.max(axis=1), first))
-    if not lows:
-        return None
-    return Peaks(
-        frames / found.sample_rate,
-        np.clip(np.concatenate(lows), -1.0, 1.0),
-        np.clip(np.concatenate(highs), -1.0, 1.0),
-    )
-
-
-def _of_24_bits(data: bytes) -> FloatArray:
-    """Little-endian integers of three bytes: each under a zero byte is one of four."""
-    wide: npt.NDArray[np.uint8] = np.zeros((len(data) // 3, 4), dtype=np.uint8)
-    wide[:, 1:] = np.frombuffer(data, np.uint8).reshape(-1, 3)
-    return wide.view("<i4")[:, 0] / 2.0**31
-
-
-_READERS: dict[tuple[int, int], Callable[[bytes], FloatArray]] = {
-    (INTEGERS, 8): lambda data: np.frombuffer(data, np.uint8) / 128.0 - 1.0,
-    (INTEGERS, 16): lambda data: np.frombuffer(data, "<i2") / 2.0**15,
-    (INTEGERS, 24): _of_24_bits,
-    (INTEGERS, 32): lambda data: np.frombuffer(data, "<i4") / 2.0**31,
-    (FLOATS, 32): lambda data: np.nan_to_num(np.frombuffer(data, "<f4").astype(np.float64)),
-    (FLOATS, 64): lambda data: np.nan_to_num(np.frombuffer(data, "<f8")),
-}
-"""Encoding and bits of a sample -> how bytes become samples, -1..1."""

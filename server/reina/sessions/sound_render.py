@@ -17,6 +17,7 @@ from pathlib import Path
 import midirenderer
 import numpy as np
 
+from reina.sessions.own_process import NICENESS, end_with_parent
 from reina.sessions.sound_events import CONTROL_DTYPE, NOTE_DTYPE, SoundPlan
 from reina.sessions.sound_mix import CHANNELS, FULL_SCALE, Mix, Samples
 from reina.sessions.sound_passages import BLOCK, Passage, cut_into_passages, write_passage
@@ -26,7 +27,6 @@ GAINS = (1.0, 1 / 4, 1 / 16, 1 / 64)
 would clip."""
 RENDERING = 0.95
 """Share of the work that is rendering; the rest is levelling and writing."""
-NICENESS = 5
 
 
 class RenderError(Exception):
@@ -87,7 +87,7 @@ def main() -> int:
         notes=np.frombuffer(stdin.read(note_count * NOTE_DTYPE.itemsize), dtype=NOTE_DTYPE),
         controls=np.frombuffer(stdin.read(control_count * CONTROL_DTYPE.itemsize), dtype=CONTROL_DTYPE),
     )
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    threading.Thread(target=end_with_parent, daemon=True).start()
     try:
         render_plan(plan, soundfont.read_bytes(), out, lambda share: _tell({"progress": round(share, 4)}))
     except (RenderError, OSError) as error:
@@ -100,13 +100,6 @@ def main() -> int:
 def _tell(message: dict[str, object]) -> None:
     sys.stdout.write(json.dumps(message) + "\n")
     sys.stdout.flush()
-
-
-def _end_with_parent() -> None:
-    # Past Python's buffer, whose lock a waiting reader would still hold when the process ends.
-    while os.read(sys.stdin.fileno(), 1):
-        pass
-    os._exit(2)
 
 
 if __name__ == "__main__":

@@ -1,16 +1,16 @@
-"""WAV (Microsoft RIFF/WAVE, and EBU Tech 3306's RF64): its header, read and written."""
+"""WAV (Microsoft RIFF/WAVE, and EBU Tech 3306's RF64): where its samples stand, and a header to write."""
 
 import struct
-from dataclasses import dataclass
-from typing import BinaryIO
+from collections.abc import Iterator
 
-from reina.sessions.sound_facts import AudioFacts, BrokenAudioError, read_exactly
+from reina.sessions.sound_facts import BrokenAudioError
+from reina.sessions.sound_stream import Data, SoundStream, Splice
 
-EXTENSIBLE = 0xFFFE
-"""The format's code stands in an extension then."""
-
-UNKNOWN_SIZES = (0, 0xFFFFFFFF)
-"""What programs that stream write in place of a size that they do not know yet."""
+STREAMED = 0x7FFF0000
+"""A size as large as this, or 0, stands in place of one that the writer did not know yet; the file goes on to
+its end then. RF64 tells the size in a chunk of its own."""
+UNCOMPRESSED = (1, 3, 6, 7, 0xFFFE)
+"""Codes of encodings whose samples all have the same number of bits."""
 
 
 def is_wav(head: bytes) -> bool:
@@ -18,62 +18,54 @@ def is_wav(head: bytes) -> bool:
     return head[:4] in (b"RIFF", b"RF64") and head[8:12] == b"WAVE"
 
 
-@dataclass(frozen=True)
-class WavSamples:
-    """Where a WAV file's samples are, and what.
-
-    Attributes:
-        start: Byte at which they begin.
-        bytes: How many bytes they fill.
-        byte_rate: Bytes a second.
-        sample_rate: Samples a second of one channel.
-        channels: How many channels take turns.
-        encoding: 1 for whole numbers, 3 for floats; others are compressed.
-        bits: Of one sample.
-    """
-
-    start: int
-    bytes: int
-    byte_rate: int
-    sample_rate: int
-    channels: int
-    encoding: int
-    bits: int
-
-
-def read_wav(file: BinaryIO, size: int) -> AudioFacts:
-    """Read the format chunk, and the length from the data chunk's size (bounded by the file's)."""
-    found = find_samples(file, size)
-    return AudioFacts(found.bytes / found.byte_rate, found.sample_rate, found.channels)
-
-
-def find_samples(file: BinaryIO, size: int) -> WavSamples:
-    """Read a WAV file's headers up to its samples.
+def wav_streams(data: Data, start: int) -> list[SoundStream]:
+    """Return the samples under a header that says nothing but their format: sizes may be wrong or missing.
 
     Raises:
-        BrokenAudioError: They contradict themselves or break off.
+        BrokenAudioError: There is no data chunk after a format chunk, or nothing is in it.
     """
-    file.seek(12)
-    byte_rate = sample_rate = channels = encoding = bits = 0
-    while len(chunk := file.read(8)) == 8:
-        name, length = struct.unpack("<4sI", chunk)
-        if name == b"fmt ":
-            fields = read_exactly(file, 16, "its format chunk")
-            encoding, channels, sample_rate, byte_rate, _, bits = struct.unpack("<HHIIHH", fields)
-            length -= 16
-            if encoding == EXTENSIBLE and length >= 10:
-                encoding = struct.unpack("<8xH", read_exactly(file, 10, "its format chunk"))[0]
-                length -= 10
+    form: bytes | None = None
+    long_size = 0
+    for name, content, length in _chunks(data, start):
+        if name == b"ds64":
+            long_size = int.from_bytes(data[content + 8 : content + 16], "little")
+        elif name == b"fmt ":
+            form = data[content : min(content + length, content + 64)]
         elif name == b"data":
-            if not (byte_rate and sample_rate and channels):
+            if form is None or len(form) < 16 or 0 in struct.unpack_from("<2xHI", form):
                 raise BrokenAudioError("its data comes before a usable format chunk")
-            present = size - file.tell()
-            held = present if length in UNKNOWN_SIZES else min(length, present)
-            if held == 0:
+            size = length if 0 < length < STREAMED else long_size
+            held = min(size or len(data), len(data) - content)
+            if held <= 0:
                 raise BrokenAudioError("it holds no samples")
-            return WavSamples(file.tell(), held, byte_rate, sample_rate, channels, encoding, bits)
-        file.seek(max(0, length + length % 2), 1)
+            header = _riff(form, held)
+            return [
+                SoundStream(Splice(data, header, range(content, content + held)), _frames(form, size) or None)
+            ]
     raise BrokenAudioError("it has no data chunk")
+
+
+def _chunks(data: Data, start: int) -> Iterator[tuple[bytes, int, int]]:
+    """Yield each chunk: its name, where its content begins, and how long it says that this is."""
+    at = start + 12
+    while len(head := data[at : at + 8]) == 8:
+        name, length = struct.unpack("<4sI", head)
+        yield name, at + 8, length
+        at += 8 + length + length % 2
+
+
+def _riff(form: bytes, size: int) -> bytes:
+    """What stands before samples, for a format chunk's content."""
+    form += bytes(len(form) % 2)
+    riff = struct.pack("<4sI4s", b"RIFF", 20 + len(form) + size, b"WAVE")
+    return riff + struct.pack("<4sI", b"fmt ", len(form)) + form + struct.pack("<4sI", b"data", size)
+
+
+def _frames(form: bytes, size: int) -> int:
+    """How many samples of each channel so many bytes hold; 0 where the format does not tell."""
+    encoding, channels, _, _, _, bits = struct.unpack_from("<HHIIHH", form)
+    frame_bytes = channels * (bits // 8)
+    return size // frame_bytes if encoding in UNCOMPRESSED and frame_bytes else 0
 
 
 def wav_header(frames: int, *, sample_rate: int, channels: int) -> bytes:

@@ -72,6 +72,8 @@ def _elements(file: BinaryIO, start: int, end: int) -> Iterator[tuple[int, int, 
         identifier, _ = _number(file, keep_marker=True)
         length, unknown = _number(file, keep_marker=False)
         content = file.tell()
+        if content > end:
+            raise BrokenAudioError("an element's header breaks off")
         following = end if unknown else min(content + length, end)
         yield identifier, content, following
         start = following

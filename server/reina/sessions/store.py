@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.music import read_score
+from reina.sessions.description import warned
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
 from reina.sessions.kept_show import KeptShow
 from reina.sessions.production import PLAYER, Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import DECIDES_THE_SOUND, Session
 from reina.sessions.song import RenderedSong, Song, UploadedSong
-from reina.sessions.sound import SongRenderer, probe_audio
+from reina.sessions.sound_decoder import SongDecoder
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Sequence
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from reina.keyframes import Show, ShowHistory
     from reina.music import Score
     from reina.sessions.production import Stage
+    from reina.sessions.sound import SongRenderer
 
 SONG_CACHE_BYTES = 2_000_000_000
 """How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
@@ -96,6 +98,7 @@ class SessionStore:
         now: Server time, seconds; never goes back.
         loaded: How many sessions are kept in memory.
         song_cache_bytes: How large the rendered songs may be together.
+        decoder: Tells what uploaded songs are.
     """
 
     def __init__(
@@ -107,8 +110,10 @@ class SessionStore:
         now: Callable[[], float],
         loaded: int = LOADED,
         song_cache_bytes: int = SONG_CACHE_BYTES,
+        decoder: SongDecoder | None = None,
     ) -> None:
         self.stage = stage
+        self.decoder = decoder or SongDecoder()
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
         self._now = now
@@ -137,7 +142,9 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
-        return self._admit(*await asyncio.to_thread(self._make, draft, hash_token(token))), token
+        score = await asyncio.to_thread(_read_draft, draft)
+        song = None if draft.song is None else await self._keep_song(draft.folder / draft.song)
+        return self._admit(*await asyncio.to_thread(self._make, draft, score, song, hash_token(token))), token
 
     async def get(self, session_id: str) -> Session | None:
         """A session, loaded if need be; None where there is none."""
@@ -267,16 +274,21 @@ class SessionStore:
         if self._pruning:
             await asyncio.wait(self._pruning)
 
-    def _make(self, draft: Draft, token_sha256: str) -> tuple[SessionRecord, Production, KeptShow]:
-        score = read_score(
-            (draft.folder / draft.score).read_bytes(), filename=draft.score_filename, sequence=draft.sequence
+    async def _keep_song(self, uploaded: Path) -> SongRecord:
+        """Have a song decoded, and give it the name that its format has; its peaks stand beside it."""
+        info = await self.decoder.probe(uploaded)
+        song = uploaded.with_name(f"song{info.suffix}")
+        await asyncio.to_thread(uploaded.rename, song)
+        return SongRecord(
+            file=song.name,
+            media_type=info.media_type,
+            duration_s=info.duration_s,
+            warnings=tuple(warned(info.warnings)),
         )
-        song: SongRecord | None = None
-        if draft.song is not None:
-            info = probe_audio(draft.folder / draft.song)
-            named = f"song{info.suffix}"
-            (draft.folder / draft.song).rename(draft.folder / named)
-            song = SongRecord(file=named, media_type=info.media_type, duration_s=info.duration_s)
+
+    def _make(
+        self, draft: Draft, score: Score, song: SongRecord | None, token_sha256: str
+    ) -> tuple[SessionRecord, Production, KeptShow]:
         show = None
         if draft.show is not None:
             show = read_show((draft.folder / draft.show).read_bytes(), self.stage.registry)
@@ -407,6 +419,11 @@ def _names_another_part(session: Session, part: int | None, sequence: int | None
     """Whether another part than is played is asked for, or another sequence, whose parts are others."""
     another_sequence = sequence not in (None, session.production.score.sequence)
     return another_sequence or part not in (None, session.record.part)
+
+
+def _read_draft(draft: Draft) -> Score:
+    data = (draft.folder / draft.score).read_bytes()
+    return read_score(data, filename=draft.score_filename, sequence=draft.sequence)
 
 
 def _write_show(folder: Path, kept: KeptShow) -> None:

@@ -13,7 +13,8 @@ from tests.unit.sessions.sound_material import CLICK_HZ, Row, a_score, write_cli
 
 from reina.errors import InputError
 from reina.music import Score
-from reina.sessions.sound import MissingSoundfontError, SongRenderer, SongRequest, SoundError, probe_audio
+from reina.sessions.sound import MissingSoundfontError, SongRenderer, SongRequest, SoundError
+from reina.sessions.sound_probe import probe_recording
 
 SHORT = a_score([(0, 0.5, 0.15, 60, 1.0), (0, 1.25, 0.15, 60, 1.0)])
 
@@ -73,7 +74,7 @@ def test_a_score_becomes_a_song_whose_time_is_the_score_s(tmp_path: Path, soundf
     path = with_renderer(tmp_path, soundfont, use)
     assert path.parent == tmp_path / "songs"
     assert files(tmp_path) == [path.name]
-    info = probe_audio(path)
+    info, _ = probe_recording(path.read_bytes())
     assert (info.format, info.sample_rate, info.channels) == ("WAV", 48000, 2)
     with wave.open(str(path)) as file:
         sound = np.frombuffer(file.readframes(file.getnframes()), dtype="<i2").reshape(-1, 2)[:, 0] / 32768

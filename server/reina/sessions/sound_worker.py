@@ -1,0 +1,71 @@
+"""Probes one recording in a process of its own, started by `reina.sessions.sound_decoder`.
+
+    python -m reina.sessions.sound_worker SONG PEAKS
+
+On standard output it tells, as one JSON object, what `probe_recording` says, or ``{"error": "..."}``; the
+peaks are written to PEAKS. Standard input stays open: when it is closed, the one who asked is gone, and the
+process ends.
+"""
+
+import json
+import mmap
+import os
+import sys
+import threading
+from dataclasses import asdict
+from pathlib import Path
+
+from reina.errors import InputError
+from reina.sessions.own_process import NICENESS, end_with_parent
+from reina.sessions.sound_peaks import write_peaks
+from reina.sessions.sound_probe import probe_recording
+
+MOST_MEMORY_BYTES = 1_500_000_000
+"""Address space, most of it libraries; a decoder that wants more fails."""
+
+
+def main() -> int:
+    """Probe, and tell."""
+    song, peaks_file = Path(sys.argv[1]), Path(sys.argv[2])
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
+    _bound_memory()
+    threading.Thread(target=end_with_parent, daemon=True).start()
+    _silence_libraries()
+    try:
+        with song.open("rb") as file:
+            data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if song.stat().st_size else b""
+            info, peaks = probe_recording(data)
+        if peaks is not None:
+            write_peaks(peaks_file, peaks)
+    except InputError as error:
+        _tell({"error": str(error)})
+        return 0
+    _tell(asdict(info))
+    return 0
+
+
+def _tell(message: dict[str, object]) -> None:
+    sys.stdout.write(json.dumps(message) + "\n")
+    sys.stdout.flush()
+
+
+def _bound_memory() -> None:
+    try:
+        import resource
+    except ImportError:  # not on Windows
+        return
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY_BYTES, hard))
+
+
+def _silence_libraries() -> None:
+    """Let what decoders print go nowhere; what Python tells of its own end still goes to standard error."""
+    sys.stderr = os.fdopen(os.dup(2), "w")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    os.close(nowhere)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
