@@ -149,9 +149,10 @@ class _TrackReader:
         notes, pitch, onset_s, onset_beats = self._essentials(notes)
         end_s, end_beats = self._ends(notes, onset_s, onset_beats)
         velocity = notes.column("velocity", loudest) / loudest.high
+        names = (track.text("name"), instrument.text("name"))
         return PartNotes(
             path=track.path,
-            name=(track.text("name") or instrument.text("name"))[:LONGEST_NAME],
+            name=(names[0] or names[1])[:LONGEST_NAME],
             program=wish.program,
             is_drums=wish.is_drums,
             channel=channel,

@@ -29,7 +29,8 @@ class ToneHeader:
 def read_header(header: Entry, limits: Limits) -> ToneHeader:
     """Read the header, without what is strange in it."""
     header.tell_unknown(HEADER)
-    ppq = header.number("ppq", PPQ) or header.number("PPQ", PPQ) or DEFAULT_PPQ
+    written = (header.number("ppq", PPQ), header.number("PPQ", PPQ))
+    ppq = written[0] or written[1] or DEFAULT_PPQ
     return ToneHeader(
         name=header.text("name"),
         ppq=ppq,
