@@ -5,6 +5,7 @@ archives inside of archives are not opened.
 """
 
 import io
+import struct
 import zipfile
 import zlib
 from collections.abc import Iterable
@@ -31,8 +32,18 @@ MIDI_SUFFIXES = frozenset({".mid", ".midi", ".smf", ".kar", ".rmi"})
 JSON_WORDS = (b'"tracks"', b'"parts"', b'"header"', b'"reina-score"')
 """One of these stands near the beginning of a JSON score, beside other JSON."""
 
-DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, NotImplementedError, RuntimeError)
-"""What `zipfile` raises on an archive that is not as it should be; ValueError for offsets and names."""
+DAMAGE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    struct.error,
+    EOFError,
+    IndexError,
+    NotImplementedError,
+    OSError,
+    RuntimeError,
+    ValueError,
+)
+"""What `zipfile` raises on an archive that is not as it should be."""
 
 
 @dataclass(frozen=True)
@@ -142,8 +153,8 @@ def _is_hidden(entry: zipfile.ZipInfo) -> bool:
     """Return whether an entry is a folder, or what file managers put beside one's files."""
     parts = PurePosixPath(entry.filename).parts
     return (
-        entry.is_dir()
-        or not parts
+        not parts
+        or entry.is_dir()
         or parts[0] == "__MACOSX"
         or parts[-1].lower() in {"thumbs.db", "desktop.ini"}
         or any(part.startswith(".") for part in parts)

@@ -121,7 +121,7 @@ STRANGE: list[tuple[str, object]] = [
     ),
     ("tracks/0/name", None),
     ("tracks/0/name", 12),
-    *(("tracks/0/channel", channel) for channel in (None, 99, -1, 1.5, [], "one")),
+    *(("tracks/0/channel", channel) for channel in (None, 99, -1, 1.5, True, "one")),
     ("tracks/0/channelNumber", 16),
     ("tracks/0/instrument", None),
     ("tracks/0/instrument", []),
@@ -341,7 +341,7 @@ def is_strange(path: str, value: object) -> bool:
     return value is None or any(isinstance(value, kind) != isinstance(right, kind) for kind in (list, dict))
 
 
-@settings(max_examples=1000)
+@settings(max_examples=400)
 @given(st.sampled_from(FIELDS), json_values)
 def test_any_field_replaced_costs_at_most_itself(path: str, value: object):
     try:
