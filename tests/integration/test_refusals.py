@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import http.client
 import json
 from typing import TYPE_CHECKING, Any
@@ -51,6 +52,21 @@ BROKEN: dict[str, tuple[dict[str, Any], int, str, str]] = {
     "no notes": ({"score": ("a.mid", NO_NOTES)}, 422, "score-unreadable", "no note"),
     "JSON of the wrong shape": ({"score": ("a.json", b'{"hello": 1}')}, 422, "score-unreadable", ""),
     "broken JSON": ({"score": ("a.json", b'{"notes": [')}, 422, "score-unreadable", "JSON"),
+    "no tracks": ({"score": ("a.json", b'{"tracks": null}')}, 422, "score-unreadable", "tracks: is null"),
+    "MusicXML": ({"score": ("a.xml", b"<score-partwise>")}, 422, "score-unreadable", "this is MusicXML"),
+    "a recording as the score": ({"score": ("a.mp3", b"ID3\4")}, 422, "score-unreadable", "MP3 recording"),
+    "a damaged gzip'd score": (
+        {"score": ("a.mid.gz", gzip.compress(MIDI)[:-9])},
+        422,
+        "score-unreadable",
+        "breaks off",
+    ),
+    "a bomb": (
+        {"score": ("a.gz", gzip.compress(bytes(40_000_000)))},
+        413,
+        "score-too-large",
+        "unpacks to more",
+    ),
     "audio that is none": (
         {"score": ("a.mid", MIDI), "song": ("a.mp3", b"no audio at all")},
         422,

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import gzip
+import io
+import json
 import time
+import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +19,7 @@ if TYPE_CHECKING:
     from tests.integration.server import Owned
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+CASES = Path(__file__).parents[1] / "cases"
 
 
 def test_a_score_becomes_a_session(client: httpx.Client) -> None:
@@ -29,6 +34,34 @@ def test_a_score_becomes_a_session(client: httpx.Client) -> None:
     assert again.keys() == body.keys() - {"control_token"}
     assert all(again[field] == body[field] for field in again.keys() - {"song"})
     session.change("DELETE").raise_for_status()
+
+
+@pytest.mark.parametrize("case", ["json-cc", "json-null"])
+def test_a_json_score_with_strange_fields_is_played(client: httpx.Client, case: str) -> None:
+    right = json.loads((CASES / f"{case}.json").read_text())["right"]
+    session = upload(
+        client, (CASES / f"{case}-score.json").read_bytes(), "score.json", song=("s.wav", song())
+    )
+    assert len(client.get(f"{session.path}/score").json()["notes"]) == right["notes"]
+    assert all(warning["place"].startswith("tracks/0/") for warning in session.body["warnings"])
+    assert session.body["warnings"]
+    session.change("DELETE").raise_for_status()
+
+
+def test_compressed_scores_are_opened(client: httpx.Client) -> None:
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("Band/Scale in B flat.mid", scale(16))
+        file.writestr("Band/cover.png", b"\x89PNG")
+    for data, name in (
+        (gzip.compress(scale(16)), "Scale in B flat.mid.gz"),
+        (archive.getvalue(), "download.zip"),
+    ):
+        session = upload(client, data, name, song=("s.wav", song()))
+        assert (session.body["title"], session.body["notes"]) == ("Scale in B flat", 16)
+        assert [warning["kind"] for warning in session.body["warnings"]] == ["unpacked"]
+        assert len(client.get(f"{session.path}/score").json()["notes"]) == 16
+        session.change("DELETE").raise_for_status()
 
 
 def test_the_notes_come_with_their_fingering(client: httpx.Client) -> None:

@@ -30,7 +30,8 @@ _FORM: dict[str, Any] = {
                         "score": {
                             "type": "string",
                             "format": "binary",
-                            "description": f"MIDI or JSON, at most {FILE_LIMITS['score'] // MEGABYTE} MB",
+                            "description": "MIDI or JSON, gzip'd or zipped if need be, "
+                            f"at most {FILE_LIMITS['score'] // MEGABYTE} MB",
                         },
                         "song": {
                             "type": "string",

@@ -17,7 +17,9 @@ REST = "–"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("file", type=Path, metavar="FILE", help="a MIDI file or a JSON score")
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="a MIDI file or a JSON score, gzip'd or zipped too"
+    )
     parser.add_argument("--json", action="store_true", help="print JSON and not tables")
     parser.add_argument("--instrument", choices=sorted(BRASS), default="trumpet", help="what plays it")
     parser.add_argument("--part", type=int, help="the part to be played; the best one by default")

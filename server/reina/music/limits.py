@@ -13,7 +13,7 @@ class Limits:
         size_bytes: Size of the file.
         tracks: Tracks of a MIDI file, parts of a JSON document.
         chunks: Chunks of a MIDI file beside its tracks.
-        events: Messages of all tracks together, notes and others; objects of a JSON document.
+        events: Messages of all tracks together, notes and others; objects and lists of a JSON document.
         notes: Notes of the score.
         duration_s: Seconds from the beginning to the end of the last note.
         beats: Quarter notes from the beginning to the end of the last note.

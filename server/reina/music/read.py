@@ -1,17 +1,22 @@
 """Any score that people have, from its bytes."""
 
 import re
+from dataclasses import replace
 from pathlib import PurePath
 
 from reina.music.document.reader import read_json
-from reina.music.errors import NotInScoreError, ScoreError
+from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
+from reina.music.file_kinds import kind_of
 from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.midi import read_midi
+from reina.music.packed import unpack
 from reina.music.score import Score
+from reina.music.warnings import ScoreWarning
 
 ENDING = re.compile(r"\.(?=[0-9]*[A-Za-z])[A-Za-z0-9]{1,5}$")
 """What tells a file's kind in its name: ``.mid``, but not the ``. 5`` of a symphony."""
-JSON_BEGINNINGS = (b"{", b"[", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
+JSON_BEGINNINGS = (b"{", b"[", b"\0{", b"\0\0\0{", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")
+"""Of an object or a list in UTF-8, UTF-16 or UTF-32, with a byte order mark or without."""
 
 
 def read_score(
@@ -21,7 +26,7 @@ def read_score(
     sequence: int | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Score:
-    """Read a MIDI file or a JSON score; what it is is told by its bytes, not by its name.
+    """Read a MIDI file or a JSON score, gzip'd or zipped too; what it is is told by its bytes alone.
 
     What was repaired is in the score's `warnings`; docs/music.md lists every case.
 
@@ -36,17 +41,35 @@ def read_score(
         NotInScoreError: If it holds no such sequence.
         ScoreLimitError: If it is beyond `limits`.
     """
+    limits.check("size_bytes", len(data), what="size in bytes")
+    unpacked = unpack(data, filename=filename, limits=limits)
+    if unpacked is None:
+        return _read(data, filename, sequence, limits)
+    score = _read(unpacked.data, unpacked.name, sequence, limits)
+    opened = ScoreWarning("unpacked", "whole file", unpacked.told)
+    return replace(score, warnings=(opened, *score.warnings))
+
+
+def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limits) -> Score:
     if not data:
         raise ScoreError("the file is empty", where="byte 0")
-    limits.check("size_bytes", len(data), what="size in bytes")
     title = _title(filename) if filename else "Untitled"
-    if data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS):
-        if sequence not in {None, 0}:
-            raise NotInScoreError(
-                f"a JSON score holds one sequence, 0; there is no sequence {sequence}", where="sequence"
-            )
-        return read_json(data, title=title, limits=limits)
-    return read_midi(data, title=title, sequence=sequence, limits=limits)
+    is_json = data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS)
+    if is_json and sequence not in {None, 0}:
+        raise NotInScoreError(
+            f"a JSON score holds one sequence, 0; there is no sequence {sequence}", where="sequence"
+        )
+    try:
+        if is_json:
+            return read_json(data, title=title, limits=limits)
+        return read_midi(data, title=title, sequence=sequence, limits=limits)
+    except (NotInScoreError, ScoreLimitError):
+        raise
+    except ScoreError as error:
+        kind = kind_of(data)
+        if kind is None:
+            raise
+        raise ScoreError(str(kind), where="byte 0") from error
 
 
 def _title(filename: str) -> str:

@@ -1,5 +1,6 @@
 """`reina inspect`."""
 
+import gzip
 import json
 import subprocess
 import sys
@@ -111,6 +112,15 @@ def test_warnings_and_sequences(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     assert "unreleased_note" in text
     assert "F♯1 lies below the lowest note" in text
     assert " –  " in text
+
+
+def test_a_compressed_score(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    path = tmp_path / "Call.mid.gz"
+    path.write_bytes(gzip.compress(midi((on(0, 60), off(480, 60)))))
+    assert main(["inspect", str(path)]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith("Call  0:00.50  1 notes")
+    assert "a gzip'd file was unpacked" in text
 
 
 def test_a_score_of_many_bars(capsys: pytest.CaptureFixture[str]):

@@ -363,8 +363,8 @@ def test_a_file_cut_at_a_track_header_is_read():
     [
         (b"", "empty"),
         (b"hello", "no MIDI file"),
-        (b"\x89PNG\r\n\x1a\n" + bytes(100), "no MIDI file"),
-        (b"RIFF\0\0\0\0WAVEfmt " + bytes(100), "no MIDI file"),
+        (b"\x89PNG\r\n\x1a\n" + bytes(100), "a PNG picture"),
+        (b"RIFF\0\0\0\0WAVEfmt " + bytes(100), "a WAV recording"),
         (b"MThd\0\0\0\6\0\1", "inside its header"),
         (header(), "no track"),
         (midi((tempo(0, 500_000),)), "no note"),

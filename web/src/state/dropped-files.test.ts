@@ -18,6 +18,20 @@ describe("sortFiles", () => {
     expect(await sortFiles([tracksAndNotes])).toMatchObject({ score: tracksAndNotes });
   });
 
+  it("takes the JSON of Tone.js's converter, whose tracks hold notes, for a score", async () => {
+    const whole = new File(['{"header": {}, "tracks": [{"notes": []}]}'], "tone.json");
+    const bare = new File(['{"tracks": [null, {"notes": []}]}'], "bare.json");
+    expect(await sortFiles([whole])).toMatchObject({ show: null, score: whole });
+    expect(await sortFiles([bare])).toMatchObject({ show: null, score: bare });
+  });
+
+  it("takes compressed files for scores", async () => {
+    for (const name of ["tune.mid.gz", "Tune.ZIP", "song.kar"]) {
+      const file = new File(["x"], name);
+      expect(await sortFiles([file])).toMatchObject({ score: file, unknown: [] });
+    }
+  });
+
   it("leaves JSON that cannot be read to the server", async () => {
     const broken = new File(["{"], "broken.json");
     expect(await sortFiles([broken])).toMatchObject({ score: broken });

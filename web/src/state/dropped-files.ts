@@ -15,6 +15,8 @@ const ROLE_BY_EXTENSION: Readonly<Record<string, Role | "json">> = {
   smf: "score",
   kar: "score",
   rmi: "score",
+  gz: "score",
+  zip: "score",
   wav: "song",
   mp3: "song",
   ogg: "song",
@@ -51,11 +53,17 @@ async function roleOf(file: File): Promise<Role | null> {
   return role === "json" ? ((await isShow(file)) ? "show" : "score") : role;
 }
 
-/** A show has tracks and no notes; a JSON file that cannot be read is left to the server, which says what is wrong. */
+/**
+ * A show has tracks of parameters; of scores, Tone.js's has tracks too, of notes. A JSON file that cannot be read is left to the
+ * server, which says what is wrong.
+ */
 async function isShow(file: File): Promise<boolean> {
   try {
     const document: unknown = JSON.parse(await file.text());
-    return typeof document === "object" && document !== null && "tracks" in document && !("notes" in document);
+    if (typeof document !== "object" || document === null || !("tracks" in document)) return false;
+    const { tracks } = document;
+    const ofNotes = Array.isArray(tracks) && tracks.some((track: unknown) => typeof track === "object" && track !== null && "notes" in track);
+    return !ofNotes && !["notes", "parts", "header"].some((key) => key in document);
   } catch {
     return false;
   }

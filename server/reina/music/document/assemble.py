@@ -24,6 +24,7 @@ class PartNotes:
 
     Attributes:
         path: Where in the document it stands.
+        note_index: Where each note stands in the part's list.
     """
 
     path: str
@@ -38,6 +39,7 @@ class PartNotes:
     pitch: IntArray
     velocity: FloatArray
     controls: tuple[Control, ...]
+    note_index: IntArray
 
 
 def assemble(
@@ -71,16 +73,14 @@ def assemble(
     path = np.concatenate([np.full(len(part.pitch), index) for index, part in enumerate(played)])
     onset_s = np.concatenate([part.onset_s for part in played])
     onset_beats = np.concatenate([part.onset_beats for part in played])
-    end_s, end_beats, taps = lengthen_taps(
-        onset_s,
-        np.concatenate([part.end_s for part in played]),
-        np.concatenate([part.end_beats for part in played]),
-        tempo_map,
-    )
-    first = np.cumsum([0, *(len(part.pitch) for part in played)])
-    for note in taps.tolist()[:1000]:
-        part = played[int(path[note])]
-        place = f"{part.path}/notes/{note - first[path[note]]}"
+    end_s = np.concatenate([part.end_s for part in played])
+    end_beats = np.concatenate([part.end_beats for part in played])
+    # What is shorter than the last digit of its onset has no length in beats.
+    end_s = np.where(end_beats <= onset_beats, onset_s, end_s)
+    end_s, end_beats, taps = lengthen_taps(onset_s, end_s, end_beats, tempo_map)
+    note_index = np.concatenate([part.note_index for part in played])
+    for note in taps.tolist():
+        place = f"{played[int(path[note])].path}/notes/{note_index[note]}"
         log.add("zero_length_note", place, f"has no duration; it sounds for {TAP_S * 1000:.0f} ms")
     limits.check("duration_s", float(np.max(end_s)), what="length in seconds")
     limits.check("beats", float(np.max(end_beats)), what="length in beats")

@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count
 
 from reina.music.gm import DRUM_CHANNEL
-from reina.music.warnings import WarningLog
 
-CHANNELS = tuple(channel for channel in range(16) if channel != DRUM_CHANNEL)
+CHANNELS_OF_PORT = 16
 
 
 @dataclass(frozen=True)
@@ -24,28 +24,23 @@ class Wish:
     channel: int | None = None
 
 
-def allot_channels(wishes: Sequence[Wish], log: WarningLog) -> list[int]:
+def allot_channels(wishes: Sequence[Wish]) -> list[int]:
     """Return a channel for each part: the wished one, unless another program is on it, else a free one.
 
-    When all are taken, parts of one program share a channel; when that does not help, the last one is shared.
+    A channel of 16 and above is one of a further port: port * 16 + channel.
     """
     programs: dict[int, int | None] = {}
+    wished = {wish.channel for wish in wishes}
+    free = (n for n in count() if n % CHANNELS_OF_PORT != DRUM_CHANNEL)
     allotted: list[int] = []
-    for index, wish in enumerate(wishes):
+    for wish in wishes:
+        channel = wish.channel
         if wish.is_drums:
-            allotted.append(DRUM_CHANNEL)
-            continue
-        wished = () if wish.channel in {None, DRUM_CHANNEL} else (wish.channel,)
-        same = [channel for channel, program in programs.items() if program == wish.program]
-        free = [channel for channel in CHANNELS if channel not in programs]
-        for channel in (*wished, *free, *same, CHANNELS[-1]):
-            if channel is not None and (channel not in programs or programs[channel] == wish.program):
-                break
-        else:
-            channel = CHANNELS[-1]
-            log.add(
-                "channels_shared", f"part {index}", "more instruments than channels; two of them sound alike"
-            )
-        programs.setdefault(channel, wish.program)
+            channel = DRUM_CHANNEL
+        elif (
+            channel is None or channel == DRUM_CHANNEL or programs.get(channel, wish.program) != wish.program
+        ):
+            channel = next(n for n in free if n not in wished and n not in programs)
         allotted.append(channel)
+        programs.setdefault(channel, wish.program)
     return allotted

@@ -1,9 +1,12 @@
-"""Reina's own score document; the published JSON Schema is made from these models."""
+"""Reina's own score document; the published JSON Schema is made from these models.
+
+What may be missing may be null as well, which says the same.
+"""
 
 import re
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeVar
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, FailFast, Field, WithJsonSchema
 
 _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "##": 2, "x": 2, "b": -1, "♭": -1, "bb": -2}
@@ -11,6 +14,9 @@ _NAME = re.compile(r"([A-Ga-g])(##|#|♯|x|bb|b|♭|)(-?\d{1,2})")
 
 MOST_CHANGES = 100_000
 """Of tempos, and of metres."""
+
+DEFAULT_VELOCITY = 0.7
+"""Of notes that say none."""
 
 
 def pitch_number(value: object) -> object:
@@ -42,6 +48,9 @@ Pitch = Annotated[
         }
     ),
 ]
+Item = TypeVar("Item")
+Listed = Annotated[list[Item] | None, FailFast()]
+"""A list that may be long, or missing: of its entries the first with faults is told."""
 
 
 class _Model(BaseModel):
@@ -69,7 +78,9 @@ class NoteEntry(_Model):
     beat: Beat = Field(description="Onset in quarter notes from the beginning.")
     duration: float = Field(gt=0, le=1e7, allow_inf_nan=False, description="Duration in quarter notes.")
     pitch: Pitch = Field(description="MIDI number (60 is middle C) or a name such as C4, F#3, Bb5.")
-    velocity: float = Field(default=0.7, ge=0, le=1, description="Loudness of the attack.")
+    velocity: float | None = Field(
+        default=DEFAULT_VELOCITY, ge=0, le=1, description="Loudness of the attack."
+    )
 
 
 class ControllerEntry(_Model):
@@ -83,36 +94,38 @@ class ControllerEntry(_Model):
 class PartEntry(_Model):
     """What one instrument plays."""
 
-    name: str = Field(default="", max_length=200)
+    name: str | None = Field(default="", max_length=200)
     program: int | None = Field(
         default=None, ge=0, le=127, description="General MIDI program from 0; 56 is the trumpet."
     )
-    drums: bool = Field(default=False, description="Whether the pitches are drums.")
-    transposition: int = Field(
+    drums: bool | None = Field(default=False, description="Whether the pitches are drums.")
+    transposition: int | None = Field(
         default=0,
         ge=-48,
         le=48,
         description="Semitones from the pitches written here to those that sound; -2 for a part in B flat.",
     )
-    notes: list[NoteEntry] = Field(default_factory=list[NoteEntry])
-    controllers: list[ControllerEntry] = Field(default_factory=list[ControllerEntry])
+    notes: Listed[NoteEntry] = Field(default_factory=list[NoteEntry])
+    controllers: Listed[ControllerEntry] = Field(default_factory=list[ControllerEntry])
 
 
 class ScoreDocument(_Model):
     """A score."""
 
     format: Literal["reina-score"] = Field(description="Says that this is a score of this form.")
-    version: Literal[1] = Field(default=1, description="Version of the form.")
-    title: str = Field(default="", max_length=500)
-    tempos: list[TempoEntry] = Field(
+    version: Literal[1] | None = Field(default=1, description="Version of the form.")
+    title: str | None = Field(default="", max_length=500)
+    tempos: Listed[TempoEntry] = Field(
         default_factory=list[TempoEntry],
         max_length=MOST_CHANGES,
         description="120 a minute where none is said.",
     )
-    time_signatures: list[TimeSignatureEntry] = Field(
+    time_signatures: Listed[TimeSignatureEntry] = Field(
         default_factory=list[TimeSignatureEntry],
         max_length=MOST_CHANGES,
         description="4/4 where none is said.",
     )
-    pickup_beats: Beat = Field(default=0.0, description="Length of an incomplete first bar in quarter notes.")
+    pickup_beats: Beat | None = Field(
+        default=0.0, description="Length of an incomplete first bar in quarter notes."
+    )
     parts: list[PartEntry] = Field(min_length=1)

@@ -1,21 +1,29 @@
 """A JSON document into a score."""
 
+import json
+import re
 from collections.abc import Iterable
-from typing import Any, TypeVar, cast
+from typing import cast
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 from pydantic_core import from_json
 
+from reina.music.document.fields import JsonObject, path_part, shown
 from reina.music.document.model import ScoreDocument
 from reina.music.document.own import read_own
 from reina.music.document.tone import read_tone
-from reina.music.document.tonejs import ToneDocument
 from reina.music.errors import ScoreError
 from reina.music.limits import Limits
 from reina.music.score import Score
+from reina.music.warnings import WarningLog
 
 MOST_PROBLEMS = 20
-Document = TypeVar("Document", bound=BaseModel)
+
+LONE_SURROGATE = re.compile(
+    r"((?<!\\)(?:\\\\)*)\\u(?:d[89ab][0-9a-f]{2}(?!\\ud[c-f])|(?<!\\ud[89ab][0-9a-f]{2}\\u)d[c-f][0-9a-f]{2})",
+    re.ASCII | re.IGNORECASE,
+)
+"""Half a character, as JavaScript writes a text that was cut inside one."""
 
 
 def read_json(data: bytes, *, title: str, limits: Limits) -> Score:
@@ -24,14 +32,15 @@ def read_json(data: bytes, *, title: str, limits: Limits) -> Score:
     Raises:
         ScoreError: If it is no JSON, of another shape, or without notes; it names the path in the document.
     """
-    limits.check("events", data.count(b"{"), what="number of JSON objects")
-    document = _parse(data)
+    limits.check("events", data.count(b"{") + data.count(b"["), what="number of JSON objects and lists")
+    log = WarningLog()
+    document = _parse(data, log)
     if document.get("format") == "reina-score" or "parts" in document:
         _count(document.get("parts"), "parts", limits)
-        return read_own(_validate(ScoreDocument, document), title=title, limits=limits)
+        return read_own(_validate(document), title=title, limits=limits, log=log)
     if "tracks" in document:
         _count(document.get("tracks"), "tracks", limits)
-        return read_tone(_validate(ToneDocument, document), title=title, limits=limits)
+        return read_tone(document, title=title, limits=limits, log=log)
     raise ScoreError(
         'a JSON score is either {"format": "reina-score", "parts": [...]} or, by Tone.js\'s converter, '
         f'{{"header": ..., "tracks": [...]}}; this one has {_keys(document)}',
@@ -39,16 +48,33 @@ def read_json(data: bytes, *, title: str, limits: Limits) -> Score:
     )
 
 
-def _parse(data: bytes) -> dict[str, Any]:
-    if data[:2] in {b"\xff\xfe", b"\xfe\xff"}:
-        data = data.decode("utf-16", errors="replace").encode()
+def _parse(data: bytes, log: WarningLog) -> JsonObject:
+    encoding = json.detect_encoding(data)
     try:
-        document = from_json(data.removeprefix(b"\xef\xbb\xbf"), allow_inf_nan=False)
+        text = data.decode(encoding)
+    except UnicodeDecodeError as error:
+        log.add(
+            "bad_text", f"byte {error.start}", f"is not {encoding.upper()}; such letters are shown as \ufffd"
+        )
+        text = data.decode(encoding, errors="replace")
+    try:
+        document = _values(text)
     except ValueError as error:
         raise ScoreError(f"this is no JSON: {error}", where="/") from error
     if not isinstance(document, dict):
-        raise ScoreError(f"a JSON score is an object, not {_kind(document)}", where="/")
-    return cast("dict[str, Any]", document)
+        raise ScoreError(f"a JSON score is an object, not {shown(document)}", where="/")
+    return cast("JsonObject", document)
+
+
+def _values(text: str) -> object:
+    """Parse JSON; NaN and Infinity, which many programs write, are left to those who use the number."""
+    try:
+        return from_json(text, allow_inf_nan=True)
+    except ValueError:
+        whole = LONE_SURROGATE.sub(r"\1\\ufffd", text)
+        if whole == text:
+            raise
+        return from_json(whole, allow_inf_nan=True)
 
 
 def _count(parts: object, name: str, limits: Limits) -> None:
@@ -66,9 +92,9 @@ def _length(part: object, key: str) -> int:
     return len(cast("list[object]", notes)) if isinstance(notes, list) else 0
 
 
-def _validate(model: type[Document], document: dict[str, Any]) -> Document:
+def _validate(document: JsonObject) -> ScoreDocument:
     try:
-        return model.model_validate(document)
+        return ScoreDocument.model_validate(document)
     except ValidationError as error:
         count = error.error_count()
         problems = [
@@ -84,14 +110,9 @@ def _say(message: str, value: object) -> str:
     message = message.removeprefix("Value error, ")
     message = message[:1].lower() + message[1:]
     if isinstance(value, str | int | float | bool):
-        return f"{message}, not {str(value)[:40]!r}" if isinstance(value, str) else f"{message}, not {value}"
+        return f"{message}, not {shown(value)}"
     return message
 
 
-def _kind(value: object) -> str:
-    kinds = {"list": "a list", "str": "a string", "bool": "a truth value", "NoneType": "null"}
-    return kinds.get(type(value).__name__, "a number")
-
-
 def _keys(document: Iterable[str]) -> str:
-    return ", ".join(sorted(document)[:5]) or "no members"
+    return ", ".join(path_part(key) for key in sorted(document)[:5]) or "no members"
