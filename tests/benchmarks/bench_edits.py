@@ -99,7 +99,7 @@ def moves(tracks: list[dict[str, Any]], by: float) -> list[dict[str, Any]]:
 async def measure(folder: Path) -> bool:
     """Print the figures; whether the bounds are met."""
     stage = Stage.load(ROOT / "rigs")
-    stage = dataclasses.replace(stage, registry=stage.registry.extended(parameters()))
+    stage = dataclasses.replace(stage, parameters=(*stage.parameters, *parameters()))
     app = create_app(Settings(data_dir=folder), stage=stage)
     transport = httpx.ASGITransport(app)
     async with (

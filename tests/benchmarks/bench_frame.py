@@ -22,7 +22,7 @@ import numpy as np
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import Show, TimeMap, stage_registry
 from reina.music import read_score
-from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
+from reina.performance import Performance, Performer, player_parameters
 from reina.protocol import build_manifest, encode_block
 from reina.skeleton import load_hold, load_rig
 
@@ -51,10 +51,7 @@ def part(notes: int) -> bytes:
 
 def performance(notes: int, tracks: int = 12) -> Performance:
     """A performance of such a part under a show with so many tracks, twelve at most."""
-    registry = stage_registry()
-    registry = registry.extended(
-        [p for p in (*PLAYER_PARAMETERS, *POSE_PARAMETERS) if p.path not in registry]
-    )
+    registry = stage_registry().extended(player_parameters(0))
     numbers = [p for p in registry if p.type == "number"][:tracks]
     documents = [
         {
@@ -69,16 +66,17 @@ def performance(notes: int, tracks: int = 12) -> Performance:
     score = read_score(part(notes))
     instrument = INSTRUMENTS["trumpet"]
     show = Show.from_document({"version": 1, "tracks": documents}, registry)
-    return Performance(
+    performer = Performer(
         score=score,
         played=instrument.play(score, 0),
         instrument=instrument,
         player_rig=load_rig(RIGS / "trumpeter"),
         instrument_rig=load_rig(RIGS / "trumpet"),
         hold=load_hold(RIGS / "trumpeter", "trumpet"),
-        show_plan=show.plan(registry, TimeMap.steady()),
         registry=registry,
     )
+    plan = show.plan(registry, TimeMap.steady())
+    return Performance([performer], plan, duration_s=score.duration_s)
 
 
 def microseconds(run: Callable[[int], object], frames: int, repetitions: int) -> tuple[float, float]:

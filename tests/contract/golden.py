@@ -76,6 +76,7 @@ def golden_manifest() -> dict[str, Any]:
         skeletons.append(
             {
                 "name": name,
+                "player": 0,
                 "rig": "trumpeter" if name == "player" else name,
                 "joints": names,
                 "offset": HEADER_SIZE + 16 * joints,

@@ -59,6 +59,7 @@ class Skeleton:
     name: str
     rig: str
     joints: tuple[str, ...]
+    player: int = 0
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from reina.music import Score, read_score
 from reina.sessions import sound_passages
 from reina.sessions.sound import SongRenderer, find_soundfont
 from reina.sessions.sound_font import REPOSITORY
-from reina.sessions.sound_plan import plan_sound
+from reina.sessions.sound_plan import PlayedParts, plan_sound
 from reina.sessions.sound_render import render_plan
 
 RATE = 48000
@@ -50,13 +50,13 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("sound")
 
 
-def listen(data_dir: Path, score: Score, trumpet_part: int | None = None) -> Samples:
+def listen(data_dir: Path, score: Score, played: Sequence[PlayedParts] = ()) -> Samples:
     """Return the song of a score, (F, 2) with full scale 1."""
 
     async def render() -> Path:
         renderer = SongRenderer(data_dir, soundfont=find_soundfont(REPOSITORY / "data"))
         try:
-            return await (await renderer.request(score, trumpet_part=trumpet_part)).wait()
+            return await (await renderer.request(score, played)).wait()
         finally:
             await renderer.aclose()
 
@@ -130,7 +130,7 @@ def test_every_part_is_heard(data_dir: Path) -> None:
 
 def test_parts_without_a_program_are_trumpet_or_piano(data_dir: Path) -> None:
     long_note = track("Track 1", [67], 4.0, 4.0)
-    trumpet = listen(data_dir, score_of(long_note), trumpet_part=0)
+    trumpet = listen(data_dir, score_of(long_note), [PlayedParts((0,))])
     named = listen(data_dir, score_of({**long_note, "name": "B-flat Trumpet"}))
     piano = listen(data_dir, score_of(long_note))
     assert np.array_equal(trumpet, named)

@@ -11,6 +11,7 @@ from fastapi import FastAPI
 
 import reina
 from reina.api import (
+    cast,
     catalogue,
     curves,
     examples,
@@ -35,8 +36,8 @@ from reina.api.guard import Guard
 from reina.api.retrieval import Retrieval
 from reina.api.settings import Settings
 from reina.protocol.links import API
-from reina.sessions.production import Stage
 from reina.sessions.sound import SongRenderer
+from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
 
 if TYPE_CHECKING:
@@ -101,6 +102,7 @@ def create_app(
         examples,
         library,
         lab,
+        cast,
         catalogue,
         stream,
     ):

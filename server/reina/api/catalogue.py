@@ -18,7 +18,7 @@ router = APIRouter(tags=["server"])
 @router.get("/parameters")
 async def list_parameters(store: Store) -> ShowParameterList:
     """Every show parameter in the frame's order, and every interpolation that a keyframe may name."""
-    return ShowParameterList.model_validate(store.stage.registry.describe())
+    return ShowParameterList.model_validate(store.stage.registry().describe())
 
 
 @router.get("/health")

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Depends, Query, Response
 
-from reina.api.access import Controlled, Store, Watched
+from reina.api.access import Controlled, Watched
 from reina.api.conditions import IfNoneMatch, named, not_modified, validated
 from reina.api.frames import LATEST_S
 from reina.api.problems import ProblemError
@@ -59,7 +59,6 @@ Span = Annotated[CurveSpan, Depends(_span)]
 @router.get("/sessions/{session_id}/show/curves", response_model=ShowCurves)
 async def get_curves(
     session: Watched,
-    store: Store,
     span: Span,
     parameter: Annotated[
         list[str],
@@ -80,7 +79,7 @@ async def get_curves(
             "ask for fewer points or parameters",
         )
     for path in parameter:
-        known_parameter(store.stage.registry, path)
+        known_parameter(session.production.registry, path)
     production, kept = session.production, session.kept_show
     identity = "\n".join([str(span), *curves_identity(production, kept.text, parameter)])
     etag = f'"{hashlib.sha256(identity.encode()).hexdigest()[:24]}"'
@@ -95,7 +94,6 @@ async def get_curves(
 @router.post("/sessions/{session_id}/show/curves")
 def preview_curve(
     session: Controlled,
-    store: Store,
     span: Span,
     asked: Annotated[CurvePreview, Body(examples=[{"track": EXAMPLE}])],
 ) -> ShowCurves:
@@ -104,7 +102,7 @@ def preview_curve(
     path = track.get("parameter")
     if not isinstance(path, str):
         raise ShowError("a parameter's path is needed here", field="track/parameter")
-    parameter = known_parameter(store.stage.registry, path)
+    parameter = known_parameter(session.production.registry, path)
     read = read_track(track, parameter, session.kept_show.show.time)
     return curves_of_track(session.production, read, span)
 

@@ -32,7 +32,7 @@ from reina.protocol.lab import (
     ReachRequest,
     SolverChoice,
 )
-from reina.sessions.production import PLAYER
+from reina.sessions.stage import FIRST_PLAYER
 from reina.skeleton import load_rig
 
 router = APIRouter()
@@ -47,7 +47,7 @@ async def list_chains(request: Request, settings: ServerSettings) -> LabChainLis
             _describe(chain)
             for path in sorted(
                 settings.rigs_dir.glob(f"*/{DESCRIPTION}"),
-                key=lambda path: (path.parent.name != PLAYER, path.parent.name),
+                key=lambda path: (path.parent.name != FIRST_PLAYER, path.parent.name),
             )
             for chain in _chains_of(path.parent, path.stat().st_mtime_ns)
         ]

@@ -11,6 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
 from reina.errors import InputError
+from reina.instruments import CastError
 from reina.keyframes.errors import KeyNotFoundError, ShowError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
@@ -89,6 +90,7 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (NotInScoreError, 422, "not-in-score", "The score does not hold that"),
     (ScoreError, 422, "score-unreadable", "The score cannot be read"),
     (KeyNotFoundError, 404, "unknown-keyframe", "There is no such track or keyframe"),
+    (CastError, 422, "cast-unusable", "The cast cannot play"),
     (ShowError, 422, "show-unusable", "The show cannot be used"),
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Body, Query, Request, Response
 from pydantic import ValidationError
 
 from reina.api.access import Controlled, Store, Watched
+from reina.api.cast import cast_of_fields
 from reina.api.problems import ProblemError, problem_of_validation
 from reina.api.upload import FILE_LIMITS, MEGABYTE, Upload, receive_upload
 from reina.protocol import resources
@@ -84,6 +85,12 @@ _FORM: dict[str, Any] = {
                             "default": "trumpeter",
                             "description": "who plays: a rig that holds the instrument",
                         },
+                        "cast": {
+                            "type": "string",
+                            "contentMediaType": "application/json",
+                            "description": "everybody who plays, as `PUT /sessions/{id}/cast` takes it, "
+                            "in place of part, transposition, written, octave_fit, joined_parts and player",
+                        },
                     },
                 }
             }
@@ -131,13 +138,7 @@ def _draft(folder: Path, upload: Upload) -> Draft:
         show="show" if "show" in upload.files else None,
         title=fields.title,
         public=fields.public,
-        part=fields.part,
-        transposition=fields.transposition,
-        written=fields.written,
-        octave_fit=fields.octave_fit,
-        joined_parts=tuple(fields.joined_parts),
-        sequence=fields.sequence,
-        player=fields.player,
+        cast=cast_of_fields(fields),
     )
 
 
@@ -170,7 +171,11 @@ async def change_session(
     store: Store,
 ) -> resources.Session:
     """Rename it, list it or not, or have the player play other parts or another sequence, or elsewhere."""
-    await store.change(session, **change.model_dump())
+    wanted = change.model_dump(exclude_none=True)
+    named = {field: wanted.pop(field) for field in ("title", "public") if field in wanted}
+    if "joined_parts" in wanted:
+        wanted["joined_parts"] = tuple(wanted["joined_parts"])
+    await store.change(session, **named, recast=lambda cast: cast.changed(**wanted))
     return session.resource()
 
 

@@ -65,7 +65,7 @@ async def get_show(
 )
 async def put_show(session: Controlled, store: Store, request: Request, if_match: IfMatch = None) -> Response:
     """Another show in its place. Tracks of parameters that nobody knows are kept, without effect."""
-    show = read_show(await read_show_body(request), store.stage.registry)
+    show = read_show(await read_show_body(request), session.production.registry)
     kept = await ShowChange(session, store, if_match).edit(lambda _: show)
     return validated(kept.text.text, kept.text.etag)
 

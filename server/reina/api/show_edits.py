@@ -113,7 +113,7 @@ async def edit_show(
 
     def edit(show: Show) -> Show:
         try:
-            return with_edits(show, edits, store.stage.registry, session.production.show_plan.time_map)
+            return with_edits(show, edits, session.production.registry, session.production.show_plan.time_map)
         except KeyNotFoundError as error:
             raise ProblemError(
                 409, "unknown-keyframe", "There is no such track or keyframe", str(error)

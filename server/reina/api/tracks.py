@@ -55,9 +55,9 @@ TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
 
 
 @router.get(KEYFRAMES, response_model=Document)
-async def list_keyframes(session: Watched, path: TrackPath, store: Store) -> Response:
+async def list_keyframes(session: Watched, path: TrackPath) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
-    known_parameter(store.stage.registry, path)
+    known_parameter(session.production.registry, path)
     kept = session.kept_show
     keyframes = [keyframe_document(keyframe) for keyframe in _keyframes(kept.show, path)]
     return validated(json.dumps({"keyframes": keyframes}), kept.text.track_etag(path))
@@ -73,7 +73,7 @@ async def add_keyframe(
     if_match: IfMatch = None,
 ) -> Document:
     """One keyframe more; it is given the next free key unless it names its own."""
-    parameter = known_parameter(store.stage.registry, path)
+    parameter = known_parameter(session.production.registry, path)
     added: list[Keyframe[Any]] = []
 
     def edit(show: Show) -> Show:
@@ -96,9 +96,9 @@ async def add_keyframe(
 
 
 @router.get(f"{KEYFRAMES}/{{key}}", response_model=Document)
-async def get_keyframe(session: Watched, path: TrackPath, key: Key, store: Store) -> Response:
+async def get_keyframe(session: Watched, path: TrackPath, key: Key) -> Response:
     """One keyframe, under its track's validator."""
-    known_parameter(store.stage.registry, path)
+    known_parameter(session.production.registry, path)
     kept = session.kept_show
     document = keyframe_document(kept.show.track(path).keyframe(key))
     return validated(json.dumps(document), kept.text.track_etag(path))
@@ -115,7 +115,7 @@ async def change_keyframe(
     if_match: IfMatch = None,
 ) -> Document:
     """Change some fields of a keyframe; null takes one back to its default."""
-    parameter = known_parameter(store.stage.registry, path)
+    parameter = known_parameter(session.production.registry, path)
     if fields.get("key", key) != key:
         raise ProblemError(
             422, "key-fixed", "The show cannot be used", "a keyframe's key stays; add another and remove this"
@@ -132,7 +132,7 @@ async def remove_keyframe(
     session: Controlled, path: TrackPath, key: Key, store: Store, response: Response, if_match: IfMatch = None
 ) -> None:
     """One keyframe less; a track that loses its last and answers no events goes with it."""
-    known_parameter(store.stage.registry, path)
+    known_parameter(session.production.registry, path)
     kept = await ShowChange(session, store, if_match, path).edit(
         lambda show: show.without_keyframe(path, key)
     )
@@ -140,9 +140,9 @@ async def remove_keyframe(
 
 
 @router.get(TRACK, response_model=Document)
-async def get_track(session: Watched, path: TrackPath, store: Store) -> Response:
+async def get_track(session: Watched, path: TrackPath) -> Response:
     """A whole track: its keyframes, their unit, what comes before and after them, what it answers."""
-    known_parameter(store.stage.registry, path)
+    known_parameter(session.production.registry, path)
     written = session.kept_show.text.tracks.get(path)
     if written is None:
         raise KeyNotFoundError("the show has no such track", track=path)
@@ -158,7 +158,7 @@ async def put_track(
     if_match: IfMatch = None,
 ) -> Response:
     """Another track of the parameter in the place of its present one, if there is any."""
-    registry = store.stage.registry
+    registry = session.production.registry
     known_parameter(registry, path)
     if fields.get("parameter", path) != path:
         raise ProblemError(

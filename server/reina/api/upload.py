@@ -31,6 +31,7 @@ FIELD_LIMITS = {
     "joined_parts": 10_000,
     "sequence": 10,
     "player": 200,
+    "cast": 20_000,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS
 READ_ON = 32 * MEGABYTE

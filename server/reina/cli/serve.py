@@ -19,7 +19,7 @@ from reina.api.settings import Settings, require_page, require_writable
 from reina.cli.http_protocol import ProblemProtocol
 from reina.cli.listening import listen
 from reina.errors import InputError
-from reina.sessions.production import Stage
+from reina.sessions.stage import Stage
 
 if TYPE_CHECKING:
     import socket

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from reina.instruments.brass.family import FAMILY
+from reina.instruments.casting import MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.describe import describe_notes, describe_score
 from reina.instruments.instrument import Instrument
 from reina.instruments.pitch_names import pitch_name
@@ -23,6 +24,10 @@ BRASS: Mapping[str, Instrument] = MappingProxyType({**INSTRUMENTS, **FAMILY})
 __all__ = [
     "BRASS",
     "INSTRUMENTS",
+    "MAX_PLAYERS",
+    "Cast",
+    "CastError",
+    "Casting",
     "Fingering",
     "Instrument",
     "Line",

@@ -18,6 +18,11 @@ class Instrument(Protocol):
         ...
 
     @property
+    def title(self) -> str:
+        """Its name for people."""
+        ...
+
+    @property
     def rig(self) -> str:
         """Name of its folder under rigs/."""
         ...

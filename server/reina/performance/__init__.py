@@ -1,18 +1,21 @@
 """The whole player at any frame: gestures, body, inverse kinematics, valves and show put together."""
 
-from reina.performance.amounts import PLAYER_PARAMETERS
-from reina.performance.export import performance_clip
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
-from reina.performance.performance import Performance
-from reina.performance.pose_keys import POSE_PARAMETERS
+from reina.performance.performance import TAIL_S, Performance
+from reina.performance.performer import Performer, player_parameters, player_prefix
+from reina.performance.seats import SEATS, SEATS_FOR, Seat
 
 __all__ = [
     "BLOCK_FRAMES",
-    "PLAYER_PARAMETERS",
-    "POSE_PARAMETERS",
+    "SEATS",
+    "SEATS_FOR",
+    "TAIL_S",
     "FrameBlock",
     "FrameLayout",
     "Performance",
+    "Performer",
+    "Seat",
     "SkeletonLayout",
-    "performance_clip",
+    "player_parameters",
+    "player_prefix",
 ]

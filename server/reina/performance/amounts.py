@@ -63,16 +63,17 @@ class Amounts:
 
     Args:
         registry: The show's parameters; amounts that it has not stay at their defaults.
+        prefix: What the player's paths begin with.
     """
 
-    def __init__(self, registry: ParameterRegistry) -> None:
+    def __init__(self, registry: ParameterRegistry, prefix: str = "") -> None:
         layout = registry.layout()
         amounts = [parameter for parameter in PLAYER_PARAMETERS if parameter.type == "number"]
         self._names = [parameter.path.removeprefix("player/") for parameter in amounts]
-        shown = [parameter.path in layout for parameter in amounts]
-        self._shown: IntArray = np.flatnonzero(shown)
+        paths = [prefix + parameter.path for parameter in amounts]
+        self._shown: IntArray = np.flatnonzero([path in layout for path in paths])
         self._columns: IntArray = np.array(
-            [layout[parameter.path][0] for parameter in amounts if parameter.path in layout], dtype=np.intp
+            [layout[path][0] for path in paths if path in layout], dtype=np.intp
         )
         self._defaults: FloatArray = np.array(
             [float(parameter.floats(parameter.default)[0]) for parameter in amounts]

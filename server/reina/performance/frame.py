@@ -20,11 +20,19 @@ Float32Array = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class SkeletonLayout:
-    """A skeleton in the frame: its name there, its rig, its joints' names, parents first."""
+    """A skeleton in the frame.
+
+    Attributes:
+        name: Its name there.
+        rig: Its rig.
+        joints: Its joints' names, parents first.
+        player: Whose it is: a place in the cast, the first being 0.
+    """
 
     name: str
     rig: str
     joints: tuple[str, ...]
+    player: int = 0
 
 
 @dataclass(frozen=True)
@@ -33,8 +41,8 @@ class FrameLayout:
 
     Attributes:
         fps: Frames a second of song time; frame k shows k / fps.
-        skeletons: The player, then the instrument.
-        parameters: The show's, then what the player gives: valves, slide, face.
+        skeletons: Of each performer the player, then the instrument.
+        parameters: The show's, then what each performer gives: valves, slide, face.
     """
 
     fps: int

@@ -49,14 +49,15 @@ class Mute:
         score: The programs of its notes ask for the mute, whatever channel they come on.
         line: The notes that are played.
         registry: The show's parameters; where `MUTE_CHOICE` is not among them the score decides.
+        prefix: What the player's paths begin with.
     """
 
-    def __init__(self, score: Score, line: Line, registry: ParameterRegistry) -> None:
+    def __init__(self, score: Score, line: Line, registry: ParameterRegistry, prefix: str = "") -> None:
         muted = score.notes.program[line.note_index] == MUTED_TRUMPET
         changes = np.flatnonzero(np.diff(muted)) + 1
         self._from_s: FloatArray = np.concatenate(([0.0], line.end_s[changes - 1]))
         self._scored: FloatArray = np.concatenate((muted[:1], muted[changes])).astype(np.float64)
-        path = MUTE_CHOICE.path
+        path = prefix + MUTE_CHOICE.path
         self._column = registry.layout()[path][0] if path in registry else None
 
     def evaluate(self, times_s: FloatArray, shown: FloatArray) -> FloatArray:

@@ -64,12 +64,14 @@ class PoseKeys:
 
     Args:
         registry: The show's parameters; what it has not stays at 0.
+        prefix: What the player's paths begin with.
     """
 
-    def __init__(self, registry: ParameterRegistry) -> None:
+    def __init__(self, registry: ParameterRegistry, prefix: str = "") -> None:
         layout = registry.layout()
-        self._turns = {name: _first(layout, f"player/pose/{name}") for name in LARGEST_TURN_RAD}
-        self._gaze = {side: _first(layout, f"player/pose/gaze_{side}") for side in LARGEST_GAZE_RAD}
+        path = f"{prefix}player/pose"
+        self._turns = {name: _first(layout, f"{path}/{name}") for name in LARGEST_TURN_RAD}
+        self._gaze = {side: _first(layout, f"{path}/gaze_{side}") for side in LARGEST_GAZE_RAD}
 
     def read(self, values: FloatArray) -> dict[str, FloatArray]:
         """Signals by name, radians, ``(F,)`` each, from values ``(F, P)``.

@@ -31,12 +31,13 @@ class StanceChoice:
 
     Args:
         show_plan: The show; where it has no `PATH` the first of `STANCES` is chosen.
+        prefix: What the player's paths begin with.
     """
 
-    def __init__(self, show_plan: ShowPlan) -> None:
-        registry = show_plan.registry
-        track = show_plan.tracks.get(PATH)
-        self._column = registry.layout()[PATH][0] if PATH in registry else None
+    def __init__(self, show_plan: ShowPlan, prefix: str = "") -> None:
+        registry, path = show_plan.registry, prefix + PATH
+        track = show_plan.tracks.get(path)
+        self._column = registry.layout()[path][0] if path in registry else None
         self._steady = 0 if self._column is None else int(registry.defaults()[self._column])
         self._plan = (
             None

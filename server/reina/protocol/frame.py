@@ -111,6 +111,7 @@ def build_manifest(layout: FrameLayout) -> Manifest:
         skeletons.append(
             SkeletonManifest(
                 name=skeleton.name,
+                player=skeleton.player,
                 rig=skeleton.rig,
                 joints=list(skeleton.joints),
                 offset=offset,

@@ -39,22 +39,22 @@ def session_links(session_id: str) -> SessionLinks:
     )
 
 
-def rendering_href(
-    session_id: str, sequence: int, part: int, transposition: int, joined_parts: Sequence[int] = ()
-) -> str:
+def rendering_href(session_id: str, sequence: int, played: Iterable[tuple[Sequence[int], int]]) -> str:
     """A song that the server makes from the score: another address for each of a session's renderings.
 
-    The query only tells them apart; what is sent is always the song of the part that is played now.
+    The query only tells them apart; what is sent is always the song of what is played now.
 
     Args:
         session_id: Whose.
         sequence: Which of the file's sequences.
-        part: The part that the player plays.
-        transposition: Semitones by which it sounds moved, whatever moved it.
-        joined_parts: Further parts that the player plays.
+        played: Of each player the parts, and the semitones by which they sound moved, whatever moved them.
     """
-    href = f"{session_href(session_id)}/song?sequence={sequence}&part={part}&transposition={transposition}"
-    return f"{href}&joined_parts={','.join(map(str, joined_parts))}" if joined_parts else href
+    moved = "".join(
+        f"&part={part}&transposition={semitones}"
+        + (f"&joined_parts={','.join(map(str, joined))}" if joined else "")
+        for (part, *joined), semitones in played
+    )
+    return f"{session_href(session_id)}/song?sequence={sequence}{moved}"
 
 
 def stream_links(session_id: str, rigs: Iterable[str]) -> StreamLinks:

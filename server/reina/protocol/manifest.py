@@ -16,6 +16,8 @@ class SkeletonManifest(WireModel):
 
     name: str
     """`player` or the instrument's name; another player's begin with `players/2/`."""
+    player: int
+    """Whose it is: a place in the cast, 0 being the first."""
     rig: str
     """The rig's name: its joints' rest pose and models stand at the link `rigs[rig]`."""
     joints: list[str]

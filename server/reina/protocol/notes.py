@@ -1,6 +1,6 @@
 """A note as the wire shows it: in the score, and in `note_on` and `note_off`."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -9,8 +9,16 @@ from reina.protocol.model import WireModel
 MidiPitch = Annotated[int, Field(ge=0, le=127)]
 
 
+class ValvesFingering(WireModel):
+    """How valved brass plays a note."""
+
+    type: Literal["valves"] = "valves"
+    valves: list[int]
+    """The valves that are down, ascending; [] is open."""
+
+
 class WireNote(WireModel):
-    """One note of a part, with its fingering where the player plays that part."""
+    """One note of a part, with its fingering where a player plays that part."""
 
     index: int
     """The note's place in the score's table of notes."""
@@ -29,8 +37,12 @@ class WireNote(WireModel):
     velocity: float
     """0 to 1."""
     valves: list[int] | None
-    """The valves that are down, ascending; [] is open, null is not playable (or not played by the player)."""
+    """The valves that are down, ascending; [] is open, null is not playable, not played, no valves."""
+    fingering: ValvesFingering | None
+    """How it is played, by the kind of instrument; null where it is not."""
     reason: str
-    """Why these valves, or why none can be said."""
+    """Why it is played so, or why it is not."""
+    player: int | None
+    """Who plays its part: a place in the cast, 0 being the first; null if nobody does."""
     in_played_part: bool
-    """Whether its part is the player's or joined to it; `reason` says why a note of it is left out."""
+    """Whether somebody plays its part; `reason` says why a note of it is left out."""

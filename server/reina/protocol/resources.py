@@ -2,8 +2,9 @@
 
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, Json
 
+from reina.instruments import MAX_PLAYERS
 from reina.keyframes.value_types import TypeName
 from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
@@ -160,6 +161,30 @@ class SessionChange(WireModel):
     player: PlayerName | None = None
 
 
+class CastingFields(WireModel):
+    """What a player is asked to do; a field left out is as it is by default."""
+
+    part: PartIndex | None = None
+    """Index of the part; null: the one that suits the instrument best of those that nobody else plays."""
+    instrument: PlayerName = "trumpet"
+    player: PlayerName = "trumpeter"
+    """Who plays: a rig with a hold on the instrument."""
+    seat: PlayerName | None = None
+    """Where on the stage; null: by how many play."""
+    transposition: Annotated[int, Field(ge=-48, le=48)] = 0
+    written: bool = False
+    octave_fit: bool = False
+    joined_parts: list[PartIndex] = Field(default_factory=list[int])
+
+
+class CastFields(WireModel):
+    """Who is to play what, the first player first."""
+
+    castings: Annotated[list[CastingFields], Field(min_length=1, max_length=MAX_PLAYERS)]
+    sequence: Annotated[int, Field(ge=0)] | None = None
+    """Which sequence of a MIDI file of format 2; null leaves it as it is."""
+
+
 class SessionFields(WireModel):
     """What the form of POST /sessions may say beside its files."""
 
@@ -175,6 +200,59 @@ class SessionFields(WireModel):
     """As `1,2`."""
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName = "trumpeter"
+    cast: Json[CastFields] | None = None
+    """Everybody who plays, as JSON; the fields for one player are then left out."""
+
+
+class Casting(WireModel):
+    """What a player does, and how it came out."""
+
+    part: int
+    part_name: str
+    instrument: str
+    player: str
+    seat: str
+    transposition: int
+    written: bool
+    octave_fit: bool
+    joined_parts: list[int]
+    sounding_transposition: int
+    """Semitones by which the part is played away from the file's pitches."""
+    notes: int
+    """How many notes the player plays, one at a time."""
+    playable: int
+    """How many of these the instrument has."""
+    reasons: list[str]
+    """Why this part suits the instrument, or does not."""
+    choices: list[PartChoice]
+    """The parts that the instrument could play, best first."""
+
+
+class Cast(WireModel):
+    """Who plays what, in the order of the players."""
+
+    sequence: int
+    castings: list[Casting]
+
+
+class InstrumentSummary(WireModel):
+    """An instrument that somebody can play."""
+
+    name: str
+    title: str
+    rig: str
+    players: list[str]
+    """The rigs that hold it."""
+
+
+class InstrumentList(WireModel):
+    """What a cast can be made of."""
+
+    instruments: list[InstrumentSummary]
+    seats: list[str]
+    """Where players can stand; left and right are theirs."""
+    max_players: int
+    """How many play at once at most."""
 
 
 class Tempo(WireModel):

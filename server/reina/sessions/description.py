@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reina.protocol import resources
 from reina.protocol.messages import Transport
-from reina.protocol.notes import WireNote
+from reina.protocol.notes import ValvesFingering, WireNote
 from reina.protocol.transport import Loop, TransportState
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from reina.instruments import PartRanking
     from reina.music import ClockState, Score, ScoreWarning
     from reina.sessions.production import Production
 
-NOT_PLAYED = "another part than the player's"
+NOT_PLAYED = "nobody plays this part"
 NOT_IN_LINE = "the player plays one note at a time, and another one sounds here"
 NO_PITCH = "the part is moved so far that this note is no pitch"
 
@@ -47,6 +48,18 @@ def warned(warnings: Iterable[ScoreWarning]) -> list[resources.Warned]:
     ]
 
 
+def lead_fields(production: Production) -> dict[str, Any]:
+    """What the first player plays, as the fields of a session, a score and a `score_changed`."""
+    lead = production.cast.lead
+    return {
+        "part": lead.part,
+        "transposition": lead.transposition,
+        "written": lead.written,
+        "octave_fit": lead.octave_fit,
+        "joined_parts": list(lead.joined_parts),
+    }
+
+
 def part_summaries(score: Score) -> list[resources.PartSummary]:
     """The parts of a score, with how many notes each has."""
     counts = np.bincount(score.notes.part, minlength=len(score.parts))
@@ -62,28 +75,70 @@ def part_summaries(score: Score) -> list[resources.PartSummary]:
     ]
 
 
+def cast_resource(production: Production) -> resources.Cast:
+    """Who plays what, and why."""
+    castings: list[resources.Casting] = []
+    for casting, performer, ranking in zip(
+        production.cast.castings, production.performers, production.rankings, strict=True
+    ):
+        played = performer.played
+        castings.append(
+            resources.Casting(
+                part=played.part,
+                part_name=production.score.parts[played.part].name,
+                instrument=casting.instrument,
+                player=casting.player,
+                seat=performer.seat.name,
+                transposition=casting.transposition,
+                written=casting.written,
+                octave_fit=casting.octave_fit,
+                joined_parts=list(played.joined_parts),
+                sounding_transposition=played.transposition,
+                notes=len(played.line),
+                playable=int(np.count_nonzero(played.fingering.playable)),
+                reasons=next(list(choice.reasons) for choice in ranking if choice.part == played.part),
+                choices=part_choices(ranking),
+            )
+        )
+    return resources.Cast(sequence=production.score.sequence, castings=castings)
+
+
+def part_choices(ranking: Iterable[PartRanking]) -> list[resources.PartChoice]:
+    """How well each part suits an instrument."""
+    return [
+        resources.PartChoice(part=choice.part, score=choice.score, reasons=list(choice.reasons))
+        for choice in ranking
+    ]
+
+
 class NoteTable:
     """The notes of a production's score, with the fingering of those that are played."""
 
     def __init__(self, production: Production) -> None:
         self._production = production
-        line = production.played.line
-        self._line_of_note = {int(note): number for number, note in enumerate(line.note_index)}
+        performers = list(enumerate(production.performers))
+        self._player_of_part = {part: player for player, one in performers for part in one.played.parts}
+        self._line_of_note = {
+            note: number
+            for _, one in performers
+            for number, note in enumerate(one.played.line.note_index.tolist())
+        }
 
     def note(self, index: int) -> WireNote:
         """A note by its place in the score's table."""
         production = self._production
         note = production.score.notes[index]
         pitch, valves, reason = note.sounding_pitch, None, NOT_PLAYED
-        in_played_part = note.part in production.played.parts
+        player = self._player_of_part.get(note.part)
+        performer = production.performers[player or 0]
         number = self._line_of_note.get(index)
         if number is not None:
-            fingering = production.played.fingering
-            pitch = int(production.played.line.sounding_pitch[number])
+            fingering = performer.played.fingering
+            pitch = int(performer.played.line.sounding_pitch[number])
             valves, reason = fingering.pressed(number), fingering.reasons[number]
-        elif in_played_part:
+        elif player is not None:
             # What the player leaves out stands, and is heard, where the rest of the part does.
-            moved = pitch + production.played.transposition
+            moved = pitch + performer.played.transposition
             pitch, reason = (moved, NOT_IN_LINE) if 0 <= moved <= 127 else (pitch, NO_PITCH)
         return WireNote(
             index=index,
@@ -93,16 +148,14 @@ class NoteTable:
             onset_beats=note.onset_beats,
             duration_beats=note.duration_beats,
             sounding_pitch=pitch,
-            written_pitch=production.instrument.written_pitch(pitch),
+            written_pitch=performer.instrument.written_pitch(pitch),
             velocity=note.velocity,
             valves=valves,
+            fingering=None if valves is None else ValvesFingering(valves=valves),
             reason=reason,
-            in_played_part=in_played_part,
+            player=player,
+            in_played_part=player is not None,
         )
-
-    def of_line(self, number: int) -> WireNote:
-        """A note by its place in the played line."""
-        return self.note(int(self._production.played.line.note_index[number]))
 
 
 def score_resource(production: Production, title: str, part: int | None = None) -> resources.Score:
@@ -116,11 +169,7 @@ def score_resource(production: Production, title: str, part: int | None = None) 
         title=title,
         duration_s=score.duration_s,
         sequence=score.sequence,
-        part=production.part,
-        transposition=production.transposition,
-        written=production.written,
-        octave_fit=production.octave_fit,
-        joined_parts=list(production.played.joined_parts),
+        **lead_fields(production),
         parts=part_summaries(score),
         tempi=[
             resources.Tempo(onset_beats=tempo.onset_beats, onset_s=tempo.onset_s, bpm=tempo.beats_per_minute)
@@ -137,5 +186,5 @@ def score_resource(production: Production, title: str, part: int | None = None) 
         ],
         bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
         notes=[table.note(int(index)) for index in indices],
-        warnings=warned((*score.warnings, *production.played.warnings)),
+        warnings=warned(production.warnings),
     )

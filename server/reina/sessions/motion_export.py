@@ -38,11 +38,9 @@ class BvhExport:
         names = [layout.name for layout in layouts]
         if skeleton not in names:
             raise InputError(f"the skeletons are {', '.join(names)}, not {skeleton!r}", where="skeleton")
-        stage = production.stage
         self._performance = production.performance
         self._index = names.index(skeleton)
-        player_rig = stage.player(production.player).rig
-        self._skeleton = (player_rig, stage.instrument_rig)[self._index].skeleton
+        self._skeleton = production.stage.rigs[layouts[self._index].rig].skeleton
         start = sum(len(layout.joints) for layout in layouts[: self._index])
         self._joints = slice(start, start + len(layouts[self._index].joints))
         self._first, self._end = first, end

@@ -9,6 +9,8 @@ import numpy as np
 from reina.keyframes import MusicForm, TimeMap, Triggers
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from reina.instruments import PlayedPart
     from reina.music import Score
     from reina.music.arrays import FloatArray
@@ -28,21 +30,26 @@ def time_map(score: Score) -> TimeMap:
     )
 
 
-def triggers(score: Score, played: PlayedPart) -> Triggers:
-    """All notes of a score as events that tracks may answer, those of the player's line as they sound.
+def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
+    """All notes of a score as events that tracks may answer, those of the players' lines as they sound.
 
-    After the valves' columns stands one more, which is down for notes that the player does not finger, so
-    that they are not taken for open ones.
+    After the valves' columns stands one more, which is down for notes that nobody fingers, so that they are
+    not taken for open ones.
     """
-    notes, line, fingering = score.notes, played.line, played.fingering
+    notes = score.notes
     part = notes.part.astype(np.int64)
+    joined_to = part.copy()
     pitch = notes.sounding_pitch.astype(np.int64)
-    pitch[line.note_index] = line.sounding_pitch
-    valves = np.zeros((len(notes), fingering.valves.shape[1] + 1), dtype=np.bool_)
+    columns = max(one.fingering.valves.shape[1] for one in played)
+    valves = np.zeros((len(notes), columns + 1), dtype=np.bool_)
     valves[:, -1] = True
-    fingered = line.note_index[fingering.playable]
-    valves[fingered, :-1] = fingering.valves[fingering.playable]
-    valves[fingered, -1] = False
+    for one in played:
+        line, fingering = one.line, one.fingering
+        pitch[line.note_index] = line.sounding_pitch
+        fingered = line.note_index[fingering.playable]
+        valves[fingered, : fingering.valves.shape[1]] = fingering.valves[fingering.playable]
+        valves[fingered, -1] = False
+        joined_to[np.isin(part, one.joined_parts)] = one.part
     return Triggers(
         onset_s=notes.onset_s,
         part=part,
@@ -50,7 +57,7 @@ def triggers(score: Score, played: PlayedPart) -> Triggers:
         velocity=notes.velocity,
         valves=valves,
         end_s=score.duration_s,
-        joined_to=np.where(np.isin(part, played.joined_parts), played.part, part),
+        joined_to=joined_to,
     )
 
 

@@ -1,4 +1,4 @@
-"""What a session plays, planned: a score, the player's part of it, a show, and the performance of it all."""
+"""What a session plays, planned: a score, its cast, a show, and the performance of it all."""
 
 from __future__ import annotations
 
@@ -6,89 +6,20 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from reina.errors import InputError
-from reina.instruments import INSTRUMENTS
-from reina.keyframes import ParameterRegistry, Show, ShowError, ShowPlan, stage_registry, write_default_show
-from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
+from reina.instruments import Cast, CastError
+from reina.keyframes import Show, ShowError, ShowPlan, UnknownTrack, write_default_show
+from reina.music import NotInScoreError
+from reina.performance import SEATS, SEATS_FOR, Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers
-from reina.skeleton import Hold, Rig, load_hold, load_rig
+from reina.sessions.sound_plan import PlayedParts
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from pathlib import Path
-
-    from reina.instruments import Instrument, PartRanking, PlayedPart
-    from reina.music import Score
-
-PLAYER = "trumpeter"
-"""Who plays where nobody chose."""
-
-INSTRUMENT = "trumpet"
-"""On what."""
-
-
-class UnknownPlayerError(InputError):
-    """A player was asked for that no rig is."""
-
-
-@dataclass(frozen=True)
-class Player:
-    """Somebody who can play: their rig, and how they hold the instrument."""
-
-    rig: Rig
-    hold: Hold
-
-
-@dataclass(frozen=True)
-class Stage:
-    """What all sessions share: the players, the instrument and the parameters of the show.
-
-    Attributes:
-        instrument: How it is played.
-        players: Who can play it, by name.
-        instrument_rig: On what.
-        registry: Everything that a show can move.
-    """
-
-    instrument: Instrument
-    players: Mapping[str, Player]
-    instrument_rig: Rig
-    registry: ParameterRegistry
-
-    def player(self, name: str) -> Player:
-        """A player.
-
-        Raises:
-            UnknownPlayerError: There is none of that name.
-        """
-        if name not in self.players:
-            known = ", ".join(self.players)
-            raise UnknownPlayerError(f"there is no player {name!r}; there are {known}", where="player")
-        return self.players[name]
-
-    @classmethod
-    def load(cls, rigs_dir: Path) -> Stage:
-        """Read the rigs; whoever has a hold on the instrument can play it.
-
-        Args:
-            rigs_dir: One folder a rig.
-
-        Raises:
-            RigError: A rig is not there, or is broken.
-        """
-        instrument = INSTRUMENTS[INSTRUMENT]
-        holds = rigs_dir.glob(f"*/holds/{instrument.rig}.json")
-        others = sorted({path.parents[1].name for path in holds} - {PLAYER})
-        return cls(
-            instrument=instrument,
-            players={
-                name: Player(load_rig(rigs_dir / name), load_hold(rigs_dir / name, instrument.rig))
-                for name in (PLAYER, *others)
-            },
-            instrument_rig=load_rig(rigs_dir / instrument.rig),
-            registry=stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS]),
-        )
+    from reina.instruments import Casting, Instrument, PartRanking, PlayedPart
+    from reina.keyframes import ParameterRegistry
+    from reina.music import Score, ScoreWarning
+    from reina.performance import Performer, Seat
+    from reina.sessions.stage import Stage
 
 
 def read_show(data: bytes, registry: ParameterRegistry) -> Show:
@@ -106,18 +37,14 @@ def read_show(data: bytes, registry: ParameterRegistry) -> Show:
 
 @dataclass(frozen=True)
 class Production:
-    """Never changed: another part or another show gives a new one, which shares what stays.
+    """Never changed: another cast or another show gives a new one, which shares what stays.
 
     Attributes:
         stage: What it is played on.
-        player: Name of who plays.
+        registry: Everything that its show can move.
+        cast: Who plays what, each casting with its part.
         score: What is played.
-        ranking: The parts that suit the instrument, best first.
-        part: The part that the player plays.
-        transposition: Semitones by which it was asked to be moved.
-        written: Whether it is taken as notated for the instrument.
-        octave_fit: Whether it is moved into range by octaves.
-        played: The playable line and its fingering; `played.transposition` is how far all this moves it.
+        rankings: Of each player the parts that suit the instrument, best first.
         show: The show around it.
         show_plan: The show, made ready.
         performance: All of it as a function of time.
@@ -125,14 +52,10 @@ class Production:
     """
 
     stage: Stage
-    player: str
+    registry: ParameterRegistry
+    cast: Cast
     score: Score
-    ranking: tuple[PartRanking, ...]
-    part: int
-    transposition: int
-    written: bool
-    octave_fit: bool
-    played: PlayedPart
+    rankings: tuple[tuple[PartRanking, ...], ...]
     show: Show
     show_plan: ShowPlan
     performance: Performance
@@ -140,59 +63,36 @@ class Production:
 
     @classmethod
     def plan(
-        cls,
-        stage: Stage,
-        score: Score,
-        show: Show | None = None,
-        *,
-        player: str = PLAYER,
-        part: int | None = None,
-        transposition: int = 0,
-        written: bool = False,
-        octave_fit: bool = False,
-        joined_parts: Sequence[int] = (),
+        cls, stage: Stage, score: Score, show: Show | None = None, cast: Cast | None = None
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
         Args:
-            stage: Who plays on what.
+            stage: Who can play what.
             score: What is played.
             show: The show around it; when None, one is written from the form of the music.
-            player: Name of who plays.
-            part: The part that the player plays; the one that suits the instrument best when None.
-            transposition: Semitones by which it is moved.
-            written: Whether it is notated for the instrument and sounds as the instrument transposes.
-            octave_fit: Whether to move it by the octaves that bring most of it into range.
-            joined_parts: Further parts that the player plays together with it.
+            cast: Who plays what; the trumpeter the part that suits best when None.
 
         Raises:
-            NotInScoreError: The score has no such part, or one cannot be joined.
-            UnknownPlayerError: There is no such player.
+            CastError: There is no such player, instrument or seat, or two players have one seat.
+            NotInScoreError: The score has no such part.
         """
-        who = stage.player(player)
-        ranking = stage.instrument.rank_parts(score)
-        played = stage.instrument.play(
-            score,
-            ranking[0].part if part is None else part,
-            transposition,
-            written=written,
-            octave_fit=octave_fit,
-            joined_parts=joined_parts,
-        )
-        if show is None:
-            show = _show_for(score, played)
-        show_plan = show.plan(stage.registry, time_map(score), triggers=triggers(score, played))
-        performance = _performance(stage, who, score, played, show_plan)
+        cast = cast or Cast()
+        registry = stage.registry(len(cast.castings))
+        castings, played, rankings = _prepare(stage, score, cast)
+        performers = [
+            stage.performer(casting, number, seat, score, part, registry)
+            for number, (casting, seat, part) in enumerate(zip(castings, _seats(cast), played, strict=True))
+        ]
+        show = _show_for(score, played[0]) if show is None else rebound(show, registry)
+        show_plan = show.plan(registry, time_map(score), triggers=triggers(score, played))
+        performance = Performance(performers, show_plan, duration_s=score.duration_s)
         return cls(
             stage=stage,
-            player=player,
+            registry=registry,
+            cast=replace(cast, castings=castings),
             score=score,
-            ranking=ranking,
-            part=played.part,
-            transposition=transposition,
-            written=written,
-            octave_fit=octave_fit,
-            played=played,
+            rankings=rankings,
             show=show,
             show_plan=show_plan,
             performance=performance,
@@ -200,9 +100,31 @@ class Production:
         )
 
     @property
+    def performers(self) -> tuple[Performer, ...]:
+        """Who plays."""
+        return self.performance.performers
+
+    @property
+    def played(self) -> PlayedPart:
+        """The first player's part as it is played."""
+        return self.performers[0].played
+
+    @property
     def instrument(self) -> Instrument:
-        """How the instrument is played."""
-        return self.stage.instrument
+        """The first player's instrument."""
+        return self.performers[0].instrument
+
+    @property
+    def sounding(self) -> tuple[PlayedParts, ...]:
+        """What of the score the players play, as it sounds."""
+        played = (performer.played for performer in self.performers)
+        return tuple(PlayedParts(one.parts, one.transposition) for one in played)
+
+    @property
+    def warnings(self) -> tuple[ScoreWarning, ...]:
+        """What was repaired in the score, and what became of the players' parts."""
+        played = (warning for performer in self.performers for warning in performer.played.warnings)
+        return (*self.score.warnings, *played)
 
     @property
     def has_default_show(self) -> bool:
@@ -210,39 +132,81 @@ class Production:
         return self.show == _show_for(self.score, self.played)
 
     def with_show(self, show: Show) -> Production:
-        """The same with another show; what was planned of the player is kept."""
-        plan = show.plan(self.stage.registry, self.show_plan.time_map, earlier=self.show_plan)
+        """The same with another show; what was planned of the players is kept."""
+        show = rebound(show, self.registry)
+        plan = show.plan(self.registry, self.show_plan.time_map, earlier=self.show_plan)
         return replace(self, show=show, show_plan=plan, performance=self.performance.with_show(plan))
 
     def at_rate(self, fps: int) -> Production:
         """The same function on another grid of frames."""
         if fps == self.manifest.fps:
             return self
-        plan = self.show.plan(
-            self.stage.registry, self.show_plan.time_map, triggers=self.show_plan.triggers, fps=fps
-        )
-        who = self.stage.player(self.player)
-        performance = _performance(self.stage, who, self.score, self.played, plan, fps=fps)
+        times, happens = self.show_plan.time_map, self.show_plan.triggers
+        plan = self.show.plan(self.registry, times, triggers=happens, fps=fps)
+        performance = Performance(self.performers, plan, duration_s=self.score.duration_s, fps=fps)
         return replace(
             self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)
         )
 
 
+def rebound(show: Show, registry: ParameterRegistry) -> Show:
+    """A show whose tracks are those of a registry's parameters; others are kept and have no effect."""
+    fits = all(isinstance(track, UnknownTrack) != (track.parameter in registry) for track in show.tracks)
+    return show if fits else Show.from_document(show.to_document(), registry)
+
+
+def _prepare(
+    stage: Stage, score: Score, cast: Cast
+) -> tuple[tuple[Casting, ...], tuple[PlayedPart, ...], tuple[tuple[PartRanking, ...], ...]]:
+    """Complete each casting by its part, and have the parts played."""
+    several = len(cast.castings) > 1
+    taken = {casting.part for casting in cast.castings}
+    castings: list[Casting] = []
+    parts: list[PlayedPart] = []
+    rankings: list[tuple[PartRanking, ...]] = []
+    for number, casting in enumerate(cast.castings):
+        place = f"castings/{number}/" if several else ""
+        instrument = stage.instrument(casting, place)
+        ranking = instrument.rank_parts(score)
+        part = casting.part
+        if part is None:
+            # The best that nobody plays; where all are played, the best.
+            free = (choice.part for choice in ranking if choice.part not in taken)
+            part = next(free, ranking[0].part)
+            taken.add(part)
+        try:
+            played = instrument.play(
+                score,
+                part,
+                casting.transposition,
+                written=casting.written,
+                octave_fit=casting.octave_fit,
+                joined_parts=casting.joined_parts,
+            )
+        except NotInScoreError as error:
+            raise NotInScoreError(error.detail, where=f"{place}{error.where}") from error
+        twice = {other for before in parts for other in before.parts} & set(played.parts)
+        if twice:
+            raise CastError(f"part {min(twice)} is played by another player already", where=f"{place}part")
+        castings.append(replace(casting, part=part, joined_parts=played.joined_parts))
+        parts.append(played)
+        rankings.append(ranking)
+    return tuple(castings), tuple(parts), tuple(rankings)
+
+
+def _seats(cast: Cast) -> tuple[Seat, ...]:
+    """Each player's seat: as asked for, or by how many play."""
+    seats: list[Seat] = []
+    for number, casting in enumerate(cast.castings):
+        place = f"castings/{number}/seat" if len(cast.castings) > 1 else "seat"
+        name = casting.seat or SEATS_FOR[len(cast.castings)][number]
+        if name not in SEATS:
+            raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", where=place)
+        if SEATS[name] in seats:
+            raise CastError(f"the seat {name!r} is taken already", where=place)
+        seats.append(SEATS[name])
+    return tuple(seats)
+
+
 def _show_for(score: Score, played: PlayedPart) -> Show:
     return write_default_show(music_form(score, played), title=score.title)
-
-
-def _performance(
-    stage: Stage, player: Player, score: Score, played: PlayedPart, show_plan: ShowPlan, *, fps: int = 60
-) -> Performance:
-    return Performance(
-        score=score,
-        played=played,
-        instrument=stage.instrument,
-        player_rig=player.rig,
-        instrument_rig=stage.instrument_rig,
-        hold=player.hold,
-        show_plan=show_plan,
-        registry=stage.registry,
-        fps=fps,
-    )

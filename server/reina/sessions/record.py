@@ -7,15 +7,18 @@ import hmac
 import re
 import secrets
 from datetime import UTC, datetime
-from typing import Annotated
+from typing import Annotated, Any, cast
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from reina.instruments import Cast  # noqa: TC001 - pydantic reads it
 from reina.protocol.resources import Warned  # noqa: TC001 - pydantic reads it
-from reina.sessions.production import PLAYER
 
 SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
 """128 random bits, base64url."""
+
+CASTING_FIELDS = ("instrument", "part", "transposition", "written", "player", "octave_fit", "joined_parts")
+"""What a record of one player has of a casting."""
 
 
 class SongRecord(BaseModel):
@@ -40,25 +43,24 @@ class SessionRecord(BaseModel):
     public: bool
     created_at: str
     token_sha256: str
-    instrument: str
-    part: int
-    transposition: int
-    written: bool = False
-    """Whether the part is notated for the instrument."""
-    player: str = PLAYER
-    """Who plays."""
-    octave_fit: bool = False
-    """Whether the part is moved into range by octaves."""
-    joined_parts: tuple[int, ...] = ()
-    """Further parts that the player plays together with it."""
-    sequence: int | None = None
-    """Which of the score's sequences; None: nobody chose, and the first is played."""
+    cast: Cast
+    """Who plays what."""
     score_filename: str | None
     """The name that the score was uploaded under."""
     song: SongRecord | None
     """None: the server renders the score."""
     song_time_s: float = 0.0
     """Where the clock stood when the session was last put away."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_one_player(cls, fields: object) -> object:
+        """Records of before there were casts have the only player's casting beside the other fields."""
+        if not isinstance(fields, dict) or "cast" in fields:
+            return cast("object", fields)
+        rest = dict(cast("dict[str, Any]", fields))
+        casting = {name: rest.pop(name) for name in CASTING_FIELDS if name in rest}
+        return rest | {"cast": {"sequence": rest.pop("sequence", None), "castings": [casting]}}
 
 
 def new_id() -> str:

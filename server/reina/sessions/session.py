@@ -5,14 +5,23 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from reina.music import ClockError, ClockState, MusicClock
-from reina.performance.performance import TAIL_S
+from reina.performance import TAIL_S
 from reina.protocol import resources
 from reina.protocol.links import rendering_href, session_links, stream_links
 from reina.protocol.messages import Hello, ScoreChanged, ShowChanged, SongReady, StreamError
 from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
 from reina.sessions.audience import Audience
-from reina.sessions.description import NoteTable, part_summaries, transport_state, warned
+from reina.sessions.description import (
+    NoteTable,
+    lead_fields,
+    part_choices,
+    part_summaries,
+    transport_state,
+    warned,
+)
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.kept_show import changed_paths
 from reina.sessions.note_messages import NoteMessages
@@ -28,10 +37,6 @@ if TYPE_CHECKING:
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
     from reina.sessions.viewer import Viewer
-
-
-DECIDES_THE_SOUND = ("sequence", "part", "transposition", "written", "octave_fit", "joined_parts")
-"""Fields of a record; who plays is not heard."""
 
 
 class Session:
@@ -95,10 +100,8 @@ class Session:
         if self.record.song is not None:
             href = session_links(self.id).song
         else:
-            played = production.played
-            href = rendering_href(
-                self.id, production.score.sequence, played.part, played.transposition, played.joined_parts
-            )
+            played = ((one.parts, one.transposition) for one in production.sounding)
+            href = rendering_href(self.id, production.score.sequence, played)
         return song_state(self.song, href)
 
     def hello(self, state: ClockState | None = None) -> Hello:
@@ -120,32 +123,25 @@ class Session:
 
     def resource(self) -> resources.Session:
         """What the HTTP interface says of it."""
-        score, played = self.production.score, self.production.played
+        score, lead = self.production.score, self.production.cast.lead
         return resources.Session(
             id=self.id,
             title=self.record.title,
             public=self.record.public,
             created_at=self.record.created_at,
             duration_s=self.clock.duration_s,
-            instrument=self.record.instrument,
-            part=self.record.part,
-            transposition=self.record.transposition,
-            written=self.record.written,
-            octave_fit=self.record.octave_fit,
-            joined_parts=list(self.record.joined_parts),
-            player=self.record.player,
-            players=list(self.production.stage.players),
-            sounding_transposition=played.transposition,
+            **lead_fields(self.production),
+            instrument=lead.instrument,
+            player=lead.player,
+            players=list(self.production.stage.players(lead.instrument)),
+            sounding_transposition=self.production.played.transposition,
             sequence=score.sequence,
             sequences=score.sequences,
             parts=part_summaries(score),
-            choices=[
-                resources.PartChoice(part=choice.part, score=choice.score, reasons=list(choice.reasons))
-                for choice in self.production.ranking
-            ],
+            choices=part_choices(self.production.rankings[0]),
             notes=len(score.notes),
             warnings=[
-                *warned((*score.warnings, *played.warnings)),
+                *warned(self.production.warnings),
                 *(self.record.song.warnings if self.record.song else ()),
                 *self.show_warnings(),
             ],
@@ -208,24 +204,22 @@ class Session:
         self._replace(production)
         self.audience.announce(ShowChanged(path=path, paths=paths, **dict(kept_show.state)))
 
-    def change_part(self, record: SessionRecord, production: Production) -> None:
-        """Let the player play another part, or the same elsewhere; a song that was rendered is made anew.
+    def change_cast(self, record: SessionRecord, production: Production) -> None:
+        """Let others play, or other parts, or the same elsewhere; a song that was rendered is made anew.
 
-        Another sequence is another piece: it begins at its beginning. Of another player `hello` tells again
+        Another sequence is another piece: it begins at its beginning. Of other players `hello` tells again
         what the frames hold.
         """
         another_piece = production.score.sequence != self.production.score.sequence
-        another_player = production.player != self.production.player
-        another_sound = another_piece or any(
-            getattr(record, field) != getattr(self.record, field) for field in DECIDES_THE_SOUND
-        )
+        another_layout = production.manifest != self.production.manifest
+        another_sound = another_piece or production.cast.sound != self.production.cast.sound
         self.record = record
         self.production = production
         if another_piece:
             self.clock.set_loop(None)
             self.clock.seek(0.0)
             self.clock.set_duration(self._duration_s())
-        if another_player:
+        if another_layout:
             self.audience.announce(self.hello())
         self._replace(production, notes=_note_messages(production))
         if record.song is None and another_sound:
@@ -233,11 +227,7 @@ class Session:
         self.audience.announce(
             ScoreChanged(
                 sequence=production.score.sequence,
-                part=record.part,
-                transposition=record.transposition,
-                written=record.written,
-                octave_fit=record.octave_fit,
-                joined_parts=list(record.joined_parts),
+                **lead_fields(production),
                 duration_s=self.clock.duration_s,
                 song=self.song_state(),
             )
@@ -267,5 +257,11 @@ class Session:
 
 
 def _note_messages(production: Production) -> NoteMessages:
-    line = production.played.line
-    return NoteMessages(line.onset_s, line.end_s, line.sounding_pitch, NoteTable(production).of_line)
+    lines = [performer.played.line for performer in production.performers]
+    notes = np.concatenate([line.note_index for line in lines])
+    onset_s = np.concatenate([line.onset_s for line in lines])
+    end_s = np.concatenate([line.end_s for line in lines])
+    pitch = np.concatenate([line.sounding_pitch for line in lines])
+    order = np.argsort(onset_s, kind="stable")
+    table, index = NoteTable(production), notes[order].tolist()
+    return NoteMessages(onset_s[order], end_s[order], pitch[order], lambda number: table.note(index[number]))

@@ -52,7 +52,7 @@ def curves_of_show(
         span: Where.
     """
     tracks = {track.parameter: track for track in kept.show.tracks}
-    registry = production.stage.registry
+    registry = production.registry
     curves: list[ShowCurve] = []
     for path in parameters:
         plan = production.show_plan.tracks.get(path)
@@ -65,7 +65,7 @@ def curves_of_show(
 
 def curves_of_track(production: Production, track: Track, span: CurveSpan) -> ShowCurves:
     """The curve of a track that the show need not hold."""
-    plan = TrackPlan.make(track, production.stage.registry[track.parameter])
+    plan = TrackPlan.make(track, production.registry[track.parameter])
     return ShowCurves(
         times_s=_rounded(span.times_s()), curves=[_curve(production, plan, span, NO_TRACK_ETAG)]
     )

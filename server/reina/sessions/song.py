@@ -11,12 +11,12 @@ from reina.protocol.messages import SongState
 from reina.sessions.sound import SONG_MEDIA_TYPE, SongRenderer, SongRequest, SoundError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from reina.instruments import PlayedPart
     from reina.music import Score
     from reina.sessions.record import SongRecord
+    from reina.sessions.sound_plan import PlayedParts
 
 _log = logging.getLogger(__name__)
 
@@ -43,7 +43,7 @@ class RenderedSong:
     Args:
         renderer: Makes it.
         score: From this.
-        played: The part that the player plays, as it is played.
+        played: What the players play.
         ready: Called when it can be fetched, or has failed.
     """
 
@@ -52,7 +52,12 @@ class RenderedSong:
     duration_s: float | None = None
 
     def __init__(
-        self, renderer: SongRenderer, score: Score, played: PlayedPart, *, ready: Callable[[], None]
+        self,
+        renderer: SongRenderer,
+        score: Score,
+        played: Sequence[PlayedParts],
+        *,
+        ready: Callable[[], None],
     ) -> None:
         self.path: Path | None = None
         self.error: str | None = None
@@ -69,15 +74,10 @@ class RenderedSong:
         self._making.cancel()
 
     async def _make(
-        self, renderer: SongRenderer, score: Score, played: PlayedPart, ready: Callable[[], None]
+        self, renderer: SongRenderer, score: Score, played: Sequence[PlayedParts], ready: Callable[[], None]
     ) -> None:
         try:
-            self._request = await renderer.request(
-                score,
-                trumpet_part=played.part,
-                joined_parts=played.joined_parts,
-                transposition=played.transposition,
-            )
+            self._request = await renderer.request(score, played)
             self.path = await self._request.wait()
         except (SoundError, InputError) as error:
             self.error = str(error)

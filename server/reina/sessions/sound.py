@@ -19,7 +19,7 @@ from reina.music.score import Score
 from reina.sessions.sound_events import SoundPlan
 from reina.sessions.sound_font import MissingSoundfontError, SoundError, find_soundfont, soundfont_id
 from reina.sessions.sound_peaks import peaks_path
-from reina.sessions.sound_plan import plan_sound
+from reina.sessions.sound_plan import PlayedParts, plan_sound
 
 __all__ = [
     "SONG_MEDIA_TYPE",
@@ -134,33 +134,18 @@ class SongRenderer:
         self._renderings: dict[Path, _Rendering] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    async def request(
-        self,
-        score: Score,
-        *,
-        trumpet_part: int | None = None,
-        joined_parts: Sequence[int] = (),
-        transposition: int = 0,
-    ) -> SongRequest:
+    async def request(self, score: Score, played: Sequence[PlayedParts] = ()) -> SongRequest:
         """Ask for a score's song, which is then made in the background unless it is there already.
 
         Args:
             score: The score; time 0 of the song is its time 0.
-            trumpet_part: Index of the part that the trumpeter plays.
-            joined_parts: Indices of further parts that the trumpeter plays.
-            transposition: Semitones by which those parts sound moved, octave fit and written pitch included.
+            played: What the players play.
 
         Raises:
             InputError: The score is longer than an hour.
             MissingSoundfontError: There is nothing to render with.
         """
-        plan = await asyncio.to_thread(
-            plan_sound,
-            score,
-            trumpet_part=trumpet_part,
-            joined_parts=joined_parts,
-            transposition=transposition,
-        )
+        plan = await asyncio.to_thread(plan_sound, score, played)
         soundfont = self._soundfont or find_soundfont(self._data_dir)
         identity = await asyncio.to_thread(soundfont_id, soundfont)
         path = self._songs / f"{plan.digest(RENDERING_VERSION, identity)}.wav"

@@ -46,6 +46,20 @@ KEYS = 128
 
 
 @dataclass(frozen=True)
+class PlayedParts:
+    """What of a score one of the players plays.
+
+    Attributes:
+        parts: Indices of the parts; they are trumpets unless the file says otherwise.
+        transposition: Semitones by which they sound higher than the score says, as they are played: octave
+            fit and written pitch included. What is no pitch then is not heard, as it is not played.
+    """
+
+    parts: tuple[int, ...]
+    transposition: int = 0
+
+
+@dataclass(frozen=True)
 class _Voice:
     """What a part plays on one channel of the file.
 
@@ -66,13 +80,7 @@ class _Voice:
     seat: int = 0
 
 
-def plan_sound(
-    score: Score,
-    *,
-    trumpet_part: int | None = None,
-    joined_parts: Sequence[int] = (),
-    transposition: int = 0,
-) -> SoundPlan:
+def plan_sound(score: Score, played: Sequence[PlayedParts] = ()) -> SoundPlan:
     """Plan how a score sounds.
 
     Every part gets a channel of its own for each channel that the file has it on (drums of one kit share
@@ -81,11 +89,7 @@ def plan_sound(
 
     Args:
         score: The score.
-        trumpet_part: Index of the part that the trumpeter plays; it is a trumpet unless the file says
-            otherwise.
-        joined_parts: Indices of further parts that the trumpeter plays, of which the same is true.
-        transposition: Semitones by which those parts sound higher than the score says, as they are played:
-            octave fit and written pitch included. What is no pitch then is not heard, as it is not played.
+        played: What the players play.
 
     Raises:
         InputError: The score is longer than an hour, or nothing of it is a pitch.
@@ -96,12 +100,13 @@ def plan_sound(
             f"the score lasts {minutes:.0f} minutes; sound is made for at most {LONGEST_S / 60:.0f}: "
             "cut it, or send a song with it"
         )
-    trumpet_parts = [*joined_parts] if trumpet_part is None else [trumpet_part, *joined_parts]
-    voices, voice_of_note = _voices(score, trumpet_parts)
-    moved = np.where(np.isin(score.notes.part, trumpet_parts), transposition, 0)
-    keys = score.notes.sounding_pitch.astype(np.int64) + moved
+    voices, voice_of_note = _voices(score, {part for one in played for part in one.parts})
+    keys = score.notes.sounding_pitch.astype(np.int64)
+    for one in played:
+        keys += np.where(np.isin(score.notes.part, one.parts), one.transposition, 0)
     if not np.any(_is_key(keys)):
-        raise InputError(f"moved by {transposition} semitones, no note of the score is a pitch: move it less")
+        moved = ", ".join(str(one.transposition) for one in played)
+        raise InputError(f"moved by {moved} semitones, no note of the score is a pitch: move it less")
     seats = np.array([(voice.port, voice.seat) for voice in voices], dtype=np.uint16)
     return SoundPlan(
         notes=_plan_notes(score, seats[voice_of_note], keys), controls=_plan_controls(score, voices)

@@ -7,29 +7,30 @@ import logging
 import shutil
 from collections import OrderedDict
 from contextlib import asynccontextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
+from reina.instruments import Cast
 from reina.music import read_score
 from reina.sessions.description import warned
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
 from reina.sessions.kept_show import KeptShow
-from reina.sessions.production import PLAYER, Production, read_show
+from reina.sessions.production import Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
-from reina.sessions.session import DECIDES_THE_SOUND, Session
+from reina.sessions.session import Session
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.sound_decoder import SongDecoder
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable, Sequence
+    from collections.abc import AsyncGenerator, Callable
     from contextlib import AbstractContextManager
     from pathlib import Path
 
-    from reina.keyframes import Show, ShowHistory
+    from reina.keyframes import ShowHistory
     from reina.music import Score
-    from reina.sessions.production import Stage
     from reina.sessions.sound import SongRenderer
+    from reina.sessions.stage import Stage
 
 SONG_CACHE_BYTES = 2_000_000_000
 """How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
@@ -38,9 +39,6 @@ LOADED = 32
 """How many sessions are kept in memory; beyond that, the idle ones that were asked for least recently are put
 away."""
 
-
-DECIDES_WHAT_IS_PLAYED = (*DECIDES_THE_SOUND, "player")
-"""Fields of a record."""
 
 _log = logging.getLogger(__name__)
 
@@ -61,13 +59,7 @@ class Draft:
         show: Name of the show's file, or None.
         title: What to call the session; the score's own title when None.
         public: Whether the list of sessions shows it.
-        part: The part that the player plays; the best when None.
-        transposition: Semitones by which it is moved.
-        written: Whether it is notated for the instrument.
-        octave_fit: Whether it is moved into range by octaves.
-        joined_parts: Further parts that the player plays together with it.
-        sequence: Which of the score's sequences; the first when None.
-        player: Name of who plays.
+        cast: Who plays what.
     """
 
     folder: Path
@@ -77,13 +69,7 @@ class Draft:
     show: str | None = None
     title: str | None = None
     public: bool = False
-    part: int | None = None
-    transposition: int = 0
-    written: bool = False
-    octave_fit: bool = False
-    joined_parts: tuple[int, ...] = ()
-    sequence: int | None = None
-    player: str = PLAYER
+    cast: Cast = field(default_factory=Cast)
 
 
 class SessionStore:
@@ -176,51 +162,32 @@ class SessionStore:
         *,
         title: str | None = None,
         public: bool | None = None,
-        part: int | None = None,
-        transposition: int | None = None,
-        written: bool | None = None,
-        octave_fit: bool | None = None,
-        joined_parts: Sequence[int] | None = None,
-        sequence: int | None = None,
-        player: str | None = None,
+        recast: Callable[[Cast], Cast] | None = None,
     ) -> None:
-        """Rename a session, list it or not, or let the player play something else; None leaves as it is.
+        """Rename a session, list it or not, or change its cast; None leaves as it is.
 
-        Of another sequence the part that suits best is played, unless one is named with it. Another part is
-        played alone, unless `joined_parts` says otherwise. A title and a show that are still those of the
-        sequence before give way to its own.
+        A title and a show that are still those of another sequence give way to this one's.
+
+        Args:
+            session: Which.
+            title: What to call it.
+            public: Whether the list of sessions shows it.
+            recast: The cast as it is -> as it is to be.
 
         Raises:
-            InputError: There is no such part, sequence or player, or a part cannot be joined; nothing is
-                changed then.
+            InputError: The cast names what there is not; nothing is changed then.
         """
-        asked = {
-            "title": title,
-            "public": public,
-            "part": part,
-            "transposition": transposition,
-            "written": written,
-            "octave_fit": octave_fit,
-            "joined_parts": None if joined_parts is None else tuple(joined_parts),
-            "sequence": sequence,
-            "player": player,
-        }
+        asked = {"title": title, "public": public}
         changes = {field: value for field, value in asked.items() if value is not None}
         async with self._edit(session):
-            if joined_parts is None and _names_another_part(session, part, sequence):
-                changes["joined_parts"] = ()
             record, kept = session.record.model_copy(update=changes), session.kept_show
-            if any(
-                getattr(record, field) != getattr(session.record, field) for field in DECIDES_WHAT_IS_PLAYED
-            ):
-                production, kept = await asyncio.to_thread(
-                    self._plan_other, session, record, names_part=part is not None
-                )
+            wanted = recast(record.cast) if recast else record.cast
+            if wanted != record.cast:
+                production, kept = await asyncio.to_thread(self._plan_other, session, wanted)
                 before, after = session.production.score.title, production.score.title
                 titled = {"title": after} if title is None and record.title == before else {}
-                joined = production.played.joined_parts
-                record = record.model_copy(update={"part": production.part, "joined_parts": joined, **titled})
-                session.change_part(record, production)
+                record = record.model_copy(update={"cast": production.cast, **titled})
+                session.change_cast(record, production)
                 if kept is not session.kept_show:
                     session.change_show(production, kept)
                     await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
@@ -291,9 +258,10 @@ class SessionStore:
     ) -> tuple[SessionRecord, Production, KeptShow]:
         show = None
         if draft.show is not None:
-            show = read_show((draft.folder / draft.show).read_bytes(), self.stage.registry)
+            registry = self.stage.registry(len(draft.cast.castings))
+            show = read_show((draft.folder / draft.show).read_bytes(), registry)
             (draft.folder / draft.show).unlink()
-        production = self._plan(score, show, draft, part=draft.part)
+        production = Production.plan(self.stage, score, show, draft.cast)
         (draft.folder / draft.score).rename(draft.folder / SCORE)
         kept = KeptShow.begin(production.show)
         _write_show(draft.folder, kept)
@@ -303,14 +271,7 @@ class SessionStore:
             public=draft.public,
             created_at=created_now(),
             token_sha256=token_sha256,
-            instrument=self.stage.instrument.name,
-            part=production.part,
-            transposition=production.transposition,
-            written=production.written,
-            octave_fit=production.octave_fit,
-            joined_parts=production.played.joined_parts,
-            sequence=draft.sequence,
-            player=production.player,
+            cast=production.cast,
             score_filename=draft.score_filename,
             song=song,
         )
@@ -341,42 +302,27 @@ class SessionStore:
 
     def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow]:
         record = self._folders.record(session_id)
-        score = self._score(record)
-        show = read_show((self._folders.folder(session_id) / SHOW).read_bytes(), self.stage.registry)
-        return record, self._plan(score, show, record, part=record.part), KeptShow.begin(show)
+        score = self._score(record, record.cast.sequence)
+        registry = self.stage.registry(len(record.cast.castings))
+        show = read_show((self._folders.folder(session_id) / SHOW).read_bytes(), registry)
+        return record, Production.plan(self.stage, score, show, record.cast), KeptShow.begin(show)
 
-    def _score(self, record: SessionRecord) -> Score:
+    def _score(self, record: SessionRecord, sequence: int | None) -> Score:
         data = (self._folders.folder(record.id) / SCORE).read_bytes()
-        return read_score(data, filename=record.score_filename, sequence=record.sequence)
+        return read_score(data, filename=record.score_filename, sequence=sequence)
 
-    def _plan(
-        self, score: Score, show: Show | None, wanted: Draft | SessionRecord, *, part: int | None
-    ) -> Production:
-        return Production.plan(
-            self.stage,
-            score,
-            show,
-            part=part,
-            transposition=wanted.transposition,
-            written=wanted.written,
-            octave_fit=wanted.octave_fit,
-            joined_parts=wanted.joined_parts,
-            player=wanted.player,
-        )
-
-    def _plan_other(
-        self, session: Session, record: SessionRecord, *, names_part: bool
-    ) -> tuple[Production, KeptShow]:
-        """Plan what `record` asks for in place of what the session plays."""
+    def _plan_other(self, session: Session, wanted: Cast) -> tuple[Production, KeptShow]:
+        """Plan another cast in place of the session's."""
         before, kept = session.production, session.kept_show
-        if record.sequence == session.record.sequence:
-            return self._plan(before.score, before.show, record, part=record.part), kept
-        score = self._score(record)
-        another = score.sequence != before.score.sequence
-        show = None if another and before.has_default_show else before.show
-        part = None if another and not names_part else record.part
-        production = self._plan(score, show, record, part=part)
-        return production, kept.then(lambda history: history.then(production.show)) if show is None else kept
+        score, show = before.score, before.show
+        if wanted.sequence != session.record.cast.sequence:
+            score = self._score(session.record, wanted.sequence)
+            if score.sequence != before.score.sequence and before.has_default_show:
+                show = None
+        production = Production.plan(self.stage, score, show, wanted)
+        if production.show is not kept.show:
+            kept = kept.then(lambda history: history.then(production.show))
+        return production, kept
 
     def _admit(self, record: SessionRecord, production: Production, kept: KeptShow) -> Session:
         session = Session(record, production, kept, self._song, now=self._now)
@@ -389,7 +335,7 @@ class SessionStore:
         if record.song:
             return UploadedSong(self._folders.folder(record.id), record.song)
         return RenderedSong(
-            self._renderer, production.score, production.played, ready=lambda: self._song_made(session)
+            self._renderer, production.score, production.sounding, ready=lambda: self._song_made(session)
         )
 
     def _song_made(self, session: Session) -> None:
@@ -415,15 +361,9 @@ class SessionStore:
         session.close()
 
 
-def _names_another_part(session: Session, part: int | None, sequence: int | None) -> bool:
-    """Whether another part than is played is asked for, or another sequence, whose parts are others."""
-    another_sequence = sequence not in (None, session.production.score.sequence)
-    return another_sequence or part not in (None, session.record.part)
-
-
 def _read_draft(draft: Draft) -> Score:
     data = (draft.folder / draft.score).read_bytes()
-    return read_score(data, filename=draft.score_filename, sequence=draft.sequence)
+    return read_score(data, filename=draft.score_filename, sequence=draft.cast.sequence)
 
 
 def _write_show(folder: Path, kept: KeptShow) -> None:

@@ -12,7 +12,7 @@ import pytest
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import ParameterRegistry, Show, TimeMap, stage_registry
 from reina.music import read_score
-from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
+from reina.performance import Performance, Performer, player_parameters
 from reina.skeleton import Hold, Rig, load_hold, load_rig
 
 RIGS = Path(__file__).parents[3] / "rigs"
@@ -47,7 +47,7 @@ def hold(player: str) -> Hold:
 @pytest.fixture(scope="session")
 def registry() -> ParameterRegistry:
     known = stage_registry()
-    return known.extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS])
+    return known.extended(player_parameters(0))
 
 
 def midi(notes: Sequence[NoteBeats], velocity: int) -> bytes:
@@ -86,17 +86,18 @@ def perform(player_rig: Rig, trumpet_rig: Rig, hold: Hold, registry: ParameterRe
             for path, value in (values or {}).items()
         ]
         show = Show.from_document({"version": 1, "tracks": [*constant, *tracks]}, registry)
-        return Performance(
+        performer = Performer(
             score=score,
             played=instrument.play(score, 0),
             instrument=instrument,
             player_rig=player_rig,
             instrument_rig=trumpet_rig,
             hold=hold,
-            show_plan=show.plan(registry, TimeMap.steady()),
             registry=registry,
             seed=seed,
         )
+        plan = show.plan(registry, TimeMap.steady())
+        return Performance([performer], plan, duration_s=score.duration_s)
 
     return make
 

@@ -6,7 +6,8 @@ import pytest
 
 from reina import rotations as r
 from reina.keyframes import ParameterRegistry, Show, TimeMap
-from reina.performance import BLOCK_FRAMES, POSE_PARAMETERS, FrameBlock, Performance
+from reina.performance import BLOCK_FRAMES, FrameBlock, Performance
+from reina.performance.pose_keys import POSE_PARAMETERS
 from reina.skeleton import Hold, Point, Rig, forward_kinematics
 
 NoteBeats = tuple[float, float, int]
@@ -168,7 +169,7 @@ def test_pads_stay_on_their_buttons(frames: Frames) -> None:
 
 
 def test_valves_follow_the_fingering(played: Frames) -> None:
-    performance, part = played.performance, played.performance.played
+    performance, part = played.performance, played.performance.performers[0].played
     valve = column(performance, "trumpet/valve/1")
     checked = 0
     for note in range(len(part.line)):

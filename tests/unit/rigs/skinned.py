@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from reina.instruments import INSTRUMENTS
 from reina.keyframes import Show, TimeMap, stage_registry
 from reina.music import read_score
-from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS, Performance
+from reina.performance import Performance, Performer, player_parameters
 from reina.rotations import to_matrix
 from reina.skeleton import forward_kinematics, load_hold, load_rig
 
@@ -109,7 +109,7 @@ class Played:
 
 def play(name: str, path: Path, times_s: Array) -> Played:
     """A player's frames of an example at some times."""
-    registry = stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS])
+    registry = stage_registry().extended(player_parameters(0))
     show = Show.from_document({"version": 1, "tracks": []}, registry)
     player, trumpet = load_rig(ROOT / "rigs" / name), load_rig(ROOT / "rigs/trumpet")
     skeleton = player.skeleton
@@ -117,16 +117,17 @@ def play(name: str, path: Path, times_s: Array) -> Played:
     back = np.swapaxes(to_matrix(rest_turns), -1, -2)
     score = read_score(path.read_bytes(), filename=path.name)
     instrument = INSTRUMENTS["trumpet"]
-    performance = Performance(
+    performer = Performer(
         score=score,
         played=instrument.play(score, instrument.rank_parts(score)[0].part),
         instrument=instrument,
         player_rig=player,
         instrument_rig=trumpet,
         hold=load_hold(ROOT / "rigs" / name, "trumpet"),
-        show_plan=show.plan(registry, TimeMap.steady()),
         registry=registry,
     )
+    plan = show.plan(registry, TimeMap.steady())
+    performance = Performance([performer], plan, duration_s=score.duration_s)
     block = performance.sample(times_s)
     local = block.rotations[:, : len(skeleton)].astype(np.float64)
     places, turns = forward_kinematics(skeleton, local, block.root_positions[:, 0].astype(np.float64))

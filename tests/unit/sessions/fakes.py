@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from reina.instruments import Cast, Casting
 from reina.protocol import build_manifest, decode
 from reina.sessions.frames import EncodedFrames
 
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
     from reina.performance import FrameLayout, Performance
     from reina.protocol import Frames
+    from reina.sessions.session import Session
+    from reina.sessions.store import SessionStore
 
 
 @dataclass(frozen=True)
@@ -22,6 +25,7 @@ class Skeleton:
     name: str = "player"
     rig: str = "trumpeter"
     joints: tuple[str, ...] = ("hips", "spine", "head")
+    player: int = 0
 
 
 @dataclass(frozen=True)
@@ -103,3 +107,21 @@ class HandClock:
 
     def __call__(self) -> float:
         return self.time_s
+
+
+CASTING_FIELDS = ("part", "transposition", "written", "octave_fit", "joined_parts", "player")
+
+
+def draft_fields(options: dict[str, Any]) -> dict[str, Any]:
+    """The fields of a draft, those of the only player's casting put into a cast."""
+    casting = {name: options.pop(name) for name in CASTING_FIELDS if name in options}
+    of_one = Cast((Casting(**casting),), options.pop("sequence", None))
+    return {**options, "cast": of_one}
+
+
+async def choose(store: SessionStore, session: Session, **fields: Any) -> None:
+    """Change a session's title, or what its first player plays, as `PATCH` does."""
+    named = {name: fields.pop(name) for name in ("title", "public") if name in fields}
+    if "joined_parts" in fields:
+        fields["joined_parts"] = tuple(fields["joined_parts"])
+    await store.change(session, **named, recast=lambda cast: cast.changed(**fields))

@@ -9,7 +9,7 @@ from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, r
 
 from reina.music import MusicClock
 from reina.protocol import FrameFlag
-from reina.protocol.notes import WireNote
+from reina.protocol.notes import ValvesFingering, WireNote
 from reina.sessions.audience import Audience
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.viewer import Viewer
@@ -36,7 +36,9 @@ def note(index: int) -> WireNote:
         written_pitch=62 + index,
         velocity=0.8,
         valves=[1],
+        fingering=ValvesFingering(valves=[1]),
         reason="the usual fingering",
+        player=0,
         in_played_part=True,
     )
 

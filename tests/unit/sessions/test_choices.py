@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from tests.integration.scores import chords, collection, duet, relay, scale, show, song, two_duets
-from tests.unit.sessions.fakes import HandClock
+from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 from tests.unit.sessions.sound_material import Row, a_part, a_score
 
 from reina.errors import InputError
@@ -18,9 +18,9 @@ from reina.music import NotInScoreError
 from reina.protocol.links import rendering_href
 from reina.protocol.transport import Seek, SetLoop
 from reina.sessions.description import NO_PITCH, NOT_IN_LINE, NoteTable
-from reina.sessions.production import Stage
 from reina.sessions.sound import SongRenderer
-from reina.sessions.sound_plan import plan_sound
+from reina.sessions.sound_plan import PlayedParts, plan_sound
+from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
 
 if TYPE_CHECKING:
@@ -47,7 +47,9 @@ async def create(store: SessionStore, score: bytes, **options: Any) -> Session:
         if "show" in options:
             (folder / "show").write_bytes(options.pop("show"))
             options["show"] = "show"
-        session, _ = await store.create(Draft(folder=folder, score="score", song="song", **options))
+        session, _ = await store.create(
+            Draft(folder=folder, score="score", song="song", **draft_fields(options))
+        )
     return session
 
 
@@ -64,14 +66,23 @@ def test_a_record_of_before_the_choices_still_loads(tmp_path: Path, stage: Stage
         made = await create(a_store(tmp_path, stage), scale(4))
         path = tmp_path / "sessions" / made.id / "session.json"
         stored = json.loads(path.read_text())
-        for field in ("written", "octave_fit", "joined_parts", "sequence"):
-            del stored[field]
-        path.write_text(json.dumps(stored))
-        found = await a_store(tmp_path, stage).get(made.id)
-        assert found is not None
-        assert (found.record.written, found.record.octave_fit, found.record.sequence) == (False, False, None)
-        assert found.record.joined_parts == found.production.played.joined_parts == ()
-        assert pitches(found) == pitches(made)
+        del stored["cast"]
+        # As the first version wrote it, and as the last one before there were casts did.
+        before: dict[str, Any] = {"instrument": "trumpet", "part": 0, "transposition": -2}
+        chosen: dict[str, Any] = {"written": True, "octave_fit": True, "joined_parts": [], "sequence": 0}
+        chosen["player"] = "soloist"
+        for fields, pitch in ((before, 56), (before | chosen, 54)):
+            path.write_text(json.dumps(stored | fields))
+            found = await a_store(tmp_path, stage).get(made.id)
+            assert found is not None
+            lead = found.record.cast.lead
+            assert (lead.part, lead.transposition, lead.written) == (0, -2, fields.get("written", False))
+            assert (lead.player, lead.octave_fit) == (
+                fields.get("player", "trumpeter"),
+                fields.get("octave_fit", False),
+            )
+            assert found.record.cast.sequence == fields.get("sequence")
+            assert pitches(found)[0] == pitch
 
     run(scenario)
 
@@ -80,8 +91,8 @@ def test_choices_are_kept(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
         made = await create(store, collection())
-        await store.change(made, written=True, octave_fit=True, sequence=1)
-        await store.change(made, title="Walk")
+        await choose(store, made, written=True, octave_fit=True, sequence=1)
+        await choose(store, made, title="Walk")
         found = await a_store(tmp_path, stage).get(made.id)
         assert found is not None
         assert found.record == made.record
@@ -95,25 +106,25 @@ def test_joined_parts_are_kept_until_another_part_is_chosen(tmp_path: Path, stag
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
         made = await create(store, relay(), joined_parts=(2, 1))
-        assert made.record.joined_parts == made.production.played.joined_parts == (1, 2)
+        assert made.record.cast.lead.joined_parts == made.production.played.joined_parts == (1, 2)
         found = await a_store(tmp_path, stage).get(made.id)
         assert found is not None
         assert found.record == made.record
         assert pitches(found) == pitches(made)
-        await store.change(made, part=0, transposition=1)
-        assert made.record.joined_parts == (1, 2), "the part is the same"
-        await store.change(made, sequence=0)
-        assert made.record.joined_parts == (1, 2), "the sequence is the same"
-        await store.change(made, part=1)
-        assert made.record.joined_parts == ()
+        await choose(store, made, part=0, transposition=1)
+        assert made.record.cast.lead.joined_parts == (1, 2), "the part is the same"
+        await choose(store, made, sequence=0)
+        assert made.record.cast.lead.joined_parts == (1, 2), "the sequence is the same"
+        await choose(store, made, part=1)
+        assert made.record.cast.lead.joined_parts == ()
         assert pitches(made) == [70, 71]
-        await store.change(made, part=0, joined_parts=[1])
+        await choose(store, made, part=0, joined_parts=[1])
         assert pitches(made) == [66, 68, 70, 71]
-        await store.change(made, joined_parts=[])
+        await choose(store, made, joined_parts=[])
         assert pitches(made) == [66, 68]
         found = await a_store(tmp_path, stage).get(made.id)
         assert found is not None
-        assert found.record.joined_parts == ()
+        assert found.record.cast.lead.joined_parts == ()
 
     run(scenario)
 
@@ -123,11 +134,11 @@ def test_of_another_sequence_no_parts_are_joined(tmp_path: Path, stage: Stage) -
         store = a_store(tmp_path, stage)
         session = await create(store, two_duets(), joined_parts=(1,))
         assert len(pitches(session)) == 4
-        await store.change(session, sequence=1)
-        assert session.record.joined_parts == ()
+        await choose(store, session, sequence=1)
+        assert session.record.cast.lead.joined_parts == ()
         assert len(pitches(session)) == 2
-        await store.change(session, sequence=0, joined_parts=[1])
-        assert (session.record.part, session.record.joined_parts) == (0, (1,))
+        await choose(store, session, sequence=0, joined_parts=[1])
+        assert (session.record.cast.lead.part, session.record.cast.lead.joined_parts) == (0, (1,))
 
     run(scenario)
 
@@ -138,7 +149,7 @@ def test_parts_that_cannot_be_joined_change_nothing(tmp_path: Path, stage: Stage
         session = await create(store, relay(), joined_parts=(1,))
         record, production = session.record, session.production
         with pytest.raises(NotInScoreError, match=r"joined_parts/1: part 3 \(“Drums”\) is drums"):
-            await store.change(session, joined_parts=[2, 3], title="Never")
+            await choose(store, session, joined_parts=[2, 3], title="Never")
         assert (session.record, session.production) == (record, production)
 
     run(scenario)
@@ -154,7 +165,7 @@ def test_that_a_file_holds_several_sequences_is_told_until_one_is_chosen(
         for session in (made, found):
             assert session is not None
             assert "sequences" in {warning.kind for warning in session.resource().warnings}
-        await store.change(made, sequence=0)
+        await choose(store, made, sequence=0)
         assert "sequences" not in {warning.kind for warning in made.resource().warnings}
 
     run(scenario)
@@ -168,12 +179,12 @@ def test_another_sequence_begins_anew_and_the_same_goes_on(tmp_path: Path, stage
         session.control(SetLoop(action="loop", start_s=0.5, end_s=1.5))
         choices: list[dict[str, Any]] = [{"sequence": 0}, {"written": True}, {"octave_fit": True}]
         for choice in choices:
-            await store.change(session, **choice)
+            await choose(store, session, **choice)
             state = session.transport()
             assert state.song_time_s == 1.0
             assert state.loop is not None
         before = session.clock.duration_s
-        await store.change(session, sequence=2)
+        await choose(store, session, sequence=2)
         assert (session.transport().song_time_s, session.transport().loop) == (0.0, None)
         assert session.clock.duration_s < before
         assert session.kept_show.show.tracks[0].parameter == "lights/key/intensity", "an own show stays"
@@ -187,12 +198,12 @@ def test_a_show_written_for_one_sequence_is_written_anew_for_another(tmp_path: P
         session = await create(store, collection())
         fresh = await create(store, collection(), sequence=1)
         before = session.kept_show.show
-        await store.change(session, sequence=1)
+        await choose(store, session, sequence=1)
         assert session.production.show == session.kept_show.show == fresh.production.show != before
         assert session.kept_show.history.past == (before,)
         assert session.record.title == fresh.record.title == "Walk"
-        await store.change(session, sequence=2, title="Mine")
-        await store.change(session, sequence=1)
+        await choose(store, session, sequence=2, title="Mine")
+        await choose(store, session, sequence=1)
         assert session.record.title == "Mine"
         found = await a_store(tmp_path, stage).get(session.id)
         assert found is not None
@@ -207,9 +218,9 @@ def test_what_cannot_be_chosen_changes_nothing(tmp_path: Path, stage: Stage) -> 
         session = await create(store, collection())
         record, production, epoch = session.record, session.production, session.transport().epoch
         with pytest.raises(NotInScoreError, match="holds 3 sequences, 0 to 2; there is no sequence 9"):
-            await store.change(session, sequence=9, title="Never")
+            await choose(store, session, sequence=9, title="Never")
         with pytest.raises(NotInScoreError, match="no part 3"):
-            await store.change(session, sequence=1, part=3)
+            await choose(store, session, sequence=1, part=3)
         assert (session.record, session.production) == (record, production)
         assert session.transport().epoch == epoch
 
@@ -221,12 +232,15 @@ def test_a_song_has_one_address_for_what_sounds_the_same(tmp_path: Path, stage: 
         store = a_store(tmp_path, stage)
         with store.staging() as folder:
             (folder / "score").write_bytes(duet())
-            session, _ = await store.create(Draft(folder=folder, score="score", written=True))
-        assert session.song_state().href == rendering_href(session.id, 0, 1, -2)
-        await store.change(session, written=False, transposition=-2)
-        assert session.song_state().href == rendering_href(session.id, 0, 1, -2)
-        await store.change(session, octave_fit=True)
-        assert session.song_state().href == rendering_href(session.id, 0, 1, -2), "it lies in range as it is"
+            session, _ = await store.create(
+                Draft(folder=folder, score="score", **draft_fields({"written": True}))
+            )
+        href = rendering_href(session.id, 0, [((1,), -2)])
+        assert session.song_state().href == href
+        await choose(store, session, written=False, transposition=-2)
+        assert session.song_state().href == href
+        await choose(store, session, octave_fit=True)
+        assert session.song_state().href == href, "it lies in range as it is"
         await store.aclose()
 
     run(scenario)
@@ -239,7 +253,7 @@ def test_notes_that_are_left_out_move_with_their_part(tmp_path: Path, stage: Sta
         table = NoteTable(session.production)
         assert [table.note(index).sounding_pitch for index in range(4)] == [58, 62, 60, 63]
         assert table.note(0).reason == NOT_IN_LINE
-        await store.change(session, written=False, transposition=64)
+        await choose(store, session, written=False, transposition=64)
         top = NoteTable(session.production).note(3)
         assert (top.sounding_pitch, top.valves, top.reason) == (65, None, NO_PITCH)
 
@@ -249,8 +263,8 @@ def test_notes_that_are_left_out_move_with_their_part(tmp_path: Path, stage: Sta
 def test_what_is_moved_out_of_midi_is_not_heard() -> None:
     rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (0, 1.0, 1.0, 100, 0.8), (1, 0.0, 1.0, 100, 0.8)]
     parts = [a_part(0), a_part(1, "Flute", 73)]
-    plan = plan_sound(a_score(rows, parts), trumpet_part=0, transposition=40)
+    plan = plan_sound(a_score(rows, parts), [PlayedParts((0,), 40)])
     assert sorted(plan.notes["key"].tolist()) == [100, 100]
     assert np.all(plan.notes["on"] == 0)
     with pytest.raises(InputError, match="moved by 40 semitones, no note"):
-        plan_sound(a_score([(0, 0.0, 1.0, 100, 0.8)], [a_part(0)]), trumpet_part=0, transposition=40)
+        plan_sound(a_score([(0, 0.0, 1.0, 100, 0.8)], [a_part(0)]), [PlayedParts((0,), 40)])

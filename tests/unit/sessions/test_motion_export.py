@@ -13,7 +13,8 @@ from reina.music import read_score
 from reina.rotations import multiply, rotate
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.motion_export import BvhExport
-from reina.sessions.production import Production, Stage
+from reina.sessions.production import Production
+from reina.sessions.stage import Stage
 from reina.skeleton import MotionClip, forward_kinematics, read_bvh
 
 RIGS = Path(__file__).parents[3] / "rigs"
@@ -54,7 +55,7 @@ def test_joints_are_where_the_frames_have_them(
     names = [layout.name for layout in at_rate.manifest.skeletons]
     index = names.index(skeleton)
     start = sum(len(layout.joints) for layout in at_rate.manifest.skeletons[:index])
-    rig = (production.stage.player(production.player).rig, production.stage.instrument_rig)[index]
+    rig = production.stage.rigs[("trumpeter", "trumpet")[index]]
     joints = len(rig.skeleton.names)
     expected, _ = forward_kinematics(
         rig.skeleton, frames["rotations"][:, start : start + joints], frames["root_positions"][:, index]

@@ -19,13 +19,13 @@ def played(
 
 
 def onsets(score: Score, line: PlayedPart, where: NoteFilter) -> list[float]:
-    times, _ = EventResponse("notes", where).events(triggers(score, line), time_map(score), "seconds")
+    times, _ = EventResponse("notes", where).events(triggers(score, [line]), time_map(score), "seconds")
     return times.tolist()
 
 
 def test_notes_of_every_part_are_events() -> None:
     score, line = played(duet(), part=1)
-    found = triggers(score, line)
+    found = triggers(score, [line])
     assert found.onset_s.tolist() == score.notes.onset_s.tolist()
     assert found.end_s == score.duration_s
     assert (
@@ -35,7 +35,7 @@ def test_notes_of_every_part_are_events() -> None:
 
 def test_the_players_notes_are_at_the_pitch_that_sounds() -> None:
     score, line = played(duet(), part=1, transposition=-2)
-    found = triggers(score, line)
+    found = triggers(score, [line])
     assert found.pitch[found.part == 1].tolist() == [63, 65, 67, 68]
     assert found.pitch[found.part == 0].tolist() == [84, 86, 88, 89]
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from tests.unit.sessions.sound_material import a_score
 
-from reina.instruments import INSTRUMENTS
 from reina.sessions.song import RenderedSong, song_state
 from reina.sessions.sound import SongRenderer, SoundError
+from reina.sessions.sound_plan import PlayedParts
 
 
 @pytest.mark.parametrize(
@@ -23,7 +23,6 @@ def test_any_failure_is_told_as_one(
     fault: Exception, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     score = a_score([(0, 0.0, 1.0, 60, 0.8)])
-    played = INSTRUMENTS["trumpet"].play(score, 0)
 
     async def fail(*_: object, **__: object) -> None:
         raise fault
@@ -32,7 +31,7 @@ def test_any_failure_is_told_as_one(
 
     async def make() -> RenderedSong:
         heard = asyncio.Event()
-        song = RenderedSong(SongRenderer(tmp_path), score, played, ready=heard.set)
+        song = RenderedSong(SongRenderer(tmp_path), score, [PlayedParts((0,))], ready=heard.set)
         await asyncio.wait_for(heard.wait(), 10)
         return song
 

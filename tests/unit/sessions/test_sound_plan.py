@@ -9,7 +9,7 @@ from tests.unit.sessions.sound_material import Row, a_controller, a_part, a_scor
 from reina.errors import InputError
 from reina.music import Control
 from reina.sessions.sound_events import DRUM_CHANNEL, SAMPLE_RATE, SoundPlan
-from reina.sessions.sound_plan import LONGEST_S, SHORTEST_NOTE, plan_sound
+from reina.sessions.sound_plan import LONGEST_S, SHORTEST_NOTE, PlayedParts, plan_sound
 from reina.sessions.sound_programs import default_program
 
 
@@ -75,7 +75,7 @@ def test_drums_of_several_tracks_share_one_kit() -> None:
 def test_a_part_without_a_program_sounds_by_choice_or_name(name: str, chosen: bool, program: int) -> None:
     part = a_part(0, name)
     assert default_program(part, is_trumpet=chosen) == program
-    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8)], [part]), trumpet_part=0 if chosen else None)
+    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8)], [part]), [PlayedParts((0,))] if chosen else [])
     assert list(programs(plan).values()) == [program]
 
 
@@ -133,7 +133,7 @@ def test_controls_go_with_every_part_of_their_channel() -> None:
 def test_the_trumpet_part_alone_is_transposed() -> None:
     rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (1, 0.0, 1.0, 60, 0.8)]
     score = a_score(rows, [a_part(0, "Trumpet"), a_part(1, "Piano")])
-    plan = plan_sound(score, trumpet_part=0, transposition=-2)
+    plan = plan_sound(score, [PlayedParts((0,), -2)])
     assert dict(zip(plan.notes["channel"].tolist(), plan.notes["key"].tolist(), strict=True)) == {
         0: 58,
         1: 60,
@@ -143,7 +143,7 @@ def test_the_trumpet_part_alone_is_transposed() -> None:
 def test_parts_joined_to_the_trumpet_part_are_transposed_with_it_and_are_trumpets_too() -> None:
     rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (1, 0.0, 1.0, 62, 0.8), (2, 0.0, 1.0, 64, 0.8)]
     score = a_score(rows, [a_part(number, f"Track {number}") for number in range(3)])
-    plan = plan_sound(score, trumpet_part=0, joined_parts=(2,), transposition=-2)
+    plan = plan_sound(score, [PlayedParts((0, 2), -2)])
     assert plan.notes["key"].tolist() == [58, 62, 62]
     assert sorted(programs(plan).values()) == [0, 56, 56]
 

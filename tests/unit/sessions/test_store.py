@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 from tests.integration.scores import duet, scale, song
-from tests.unit.sessions.fakes import HandClock
+from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.keyframes import Show
 from reina.protocol.transport import Pause, Play, Seek
-from reina.sessions.production import Stage
 from reina.sessions.sound import SongRenderer
+from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionEndedError, SessionStore
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Desk:
         with self.store.staging() as folder:
             (folder / "score").write_bytes(score)
             (folder / "song").write_bytes(song(0.1))
-            draft = Draft(folder=folder, score="score", song="song", **options)
+            draft = Draft(folder=folder, score="score", song="song", **draft_fields(options))
             session, _ = await self.store.create(draft)
         return session
 
@@ -119,14 +119,15 @@ def test_another_part_keeps_the_show_and_begins_an_epoch(tmp_path: Path, stage: 
         show = Show(title="Kept")
         await desk.store.change_show(session, lambda history: history.then(show))
         epoch = session.transport().epoch
-        await desk.store.change(session, part=0)
+        await choose(desk.store, session, part=0)
         assert session.transport().epoch == epoch + 1
         assert session.production.show.title == "Kept"
-        assert session.production.part == session.record.part == 0
-        await desk.store.change(session, title="Renamed")
+        assert session.production.played.part == session.record.cast.lead.part == 0
+        await choose(desk.store, session, title="Renamed")
         assert session.transport().epoch == epoch + 1, "a name is in no frame"
         again = await Desk(tmp_path, stage).get(session.id)
-        assert (again.record.title, again.record.part, again.production.show.title) == ("Renamed", 0, "Kept")
+        assert (again.record.title, again.production.show.title) == ("Renamed", "Kept")
+        assert again.record.cast.lead.part == 0
 
     run(scenario)
 
@@ -149,7 +150,7 @@ def test_whoever_comes_too_late_to_end_or_change_a_session_is_told_so(tmp_path: 
         outcomes = await asyncio.gather(
             desk.store.delete(session),
             desk.store.delete(session),
-            desk.store.change(session, part=0),
+            choose(desk.store, session, part=0),
             desk.store.change_show(session, lambda history: history.then(Show(title="Late"))),
             return_exceptions=True,
         )

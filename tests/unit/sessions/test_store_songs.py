@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.integration.scores import duet, relay, scale, show, song
-from tests.unit.sessions.fakes import HandClock
+from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.keyframes import Show
-from reina.sessions.production import Stage
 from reina.sessions.sound import SongRenderer, SongRequest
+from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from reina.music import Score
     from reina.sessions.session import Session
+    from reina.sessions.sound_plan import PlayedParts
 
 RIGS = Path(__file__).parents[3] / "rigs"
 SONG_BYTES = 1000
@@ -38,22 +39,13 @@ class HandRenderer(SongRenderer):
         soundfont = data_dir / "font.sf2"
         soundfont.write_bytes(b"a soundfont")
         super().__init__(data_dir, soundfont=soundfont)
-        self.asked: list[tuple[int | None, int]] = []
+        self.asked: list[tuple[int, int]] = []
         self.let = asyncio.Event()
         self.let.set()
 
-    async def request(
-        self,
-        score: Score,
-        *,
-        trumpet_part: int | None = None,
-        joined_parts: Sequence[int] = (),
-        transposition: int = 0,
-    ) -> SongRequest:
-        self.asked.append((trumpet_part, transposition))
-        return await super().request(
-            score, trumpet_part=trumpet_part, joined_parts=joined_parts, transposition=transposition
-        )
+    async def request(self, score: Score, played: Sequence[PlayedParts] = ()) -> SongRequest:
+        self.asked.append((played[0].parts[0], played[0].transposition))
+        return await super().request(score, played)
 
     async def _run(self, rendering: object, plan: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
@@ -90,7 +82,9 @@ class Desk:
             if "show" in options:
                 (folder / "show").write_bytes(options.pop("show"))
                 options["show"] = "show"
-            draft = Draft(folder=folder, score="score", song="song" if with_song else None, **options)
+            draft = Draft(
+                folder=folder, score="score", song="song" if with_song else None, **draft_fields(options)
+            )
             session, _ = await self.store.create(draft)
         return session
 
@@ -124,16 +118,16 @@ def test_the_song_is_of_the_part_and_the_transposition(tmp_path: Path, stage: St
         first = await ready(session)
         assert desk.renderer.asked == [(0, -12)]
         href = session.song_state().href
-        await desk.store.change(session, transposition=-10)
+        await choose(desk.store, session, transposition=-10)
         assert session.song_state().href != href
         second = await ready(session)
-        await desk.store.change(session, part=1)
+        await choose(desk.store, session, part=1)
         third = await ready(session)
         assert desk.renderer.asked == [(0, -12), (0, -10), (1, -10)]
         assert len({first, second, third}) == 3
-        await desk.store.change(session, part=0, transposition=-12)
+        await choose(desk.store, session, part=0, transposition=-12)
         assert (await ready(session), session.song_state().href) == (first, href)
-        await desk.store.change(session, title="Other", public=True)
+        await choose(desk.store, session, title="Other", public=True)
         assert len(desk.renderer.asked) == 4, "a name is not heard"
         await desk.store.aclose()
 
@@ -145,13 +139,13 @@ def test_the_song_is_of_the_joined_parts_too(tmp_path: Path, stage: Stage) -> No
         desk = Desk(tmp_path, stage)
         session = await desk.create(relay(), transposition=-2)
         alone, href = await ready(session), session.song_state().href
-        await desk.store.change(session, joined_parts=[1, 2])
+        await choose(desk.store, session, joined_parts=[1, 2])
         assert session.song_state().href == f"{href}&joined_parts=1,2"
         joined = await ready(session)
         assert joined != alone
-        await desk.store.change(session, joined_parts=[2, 1])
+        await choose(desk.store, session, joined_parts=[2, 1])
         assert await ready(session) == joined, "the order says nothing"
-        await desk.store.change(session, joined_parts=[])
+        await choose(desk.store, session, joined_parts=[])
         assert (await ready(session), session.song_state().href) == (alone, href)
         await desk.store.aclose()
 
@@ -168,7 +162,7 @@ def test_viewers_are_told_of_the_song_twice(tmp_path: Path, stage: Stage) -> Non
         session.join(viewer)
         sending = asyncio.create_task(viewer.run())
         desk.renderer.let.clear()
-        await desk.store.change(session, transposition=2)
+        await choose(desk.store, session, transposition=2)
         await until(lambda: any('"score_changed"' in text for text in page.texts))
         told = next(text for text in page.texts if '"score_changed"' in text)
         assert '"status":"rendering"' in told
@@ -193,7 +187,7 @@ def test_a_rendering_that_is_overtaken_is_never_announced(tmp_path: Path, stage:
         session = await desk.create(duet())
         await until(lambda: len(desk.renderer.asked) == 1)
         for transposition in (1, 2, 3):
-            await desk.store.change(session, transposition=transposition)
+            await choose(desk.store, session, transposition=transposition)
             await until(lambda count=transposition: len(desk.renderer.asked) == count + 1)
         desk.renderer.let.set()
         await ready(session)
@@ -210,7 +204,7 @@ def test_an_uploaded_song_stays_as_it_is(tmp_path: Path, stage: Stage) -> None:
         desk = Desk(tmp_path, stage)
         session = await desk.create(duet(), with_song=True)
         before = session.song_state()
-        await desk.store.change(session, part=0, transposition=5)
+        await choose(desk.store, session, part=0, transposition=5)
         assert session.song_state() == before
         assert session.song.path is not None
         assert session.song.path.read_bytes() == song(0.1)
@@ -226,7 +220,7 @@ def test_songs_beyond_the_bound_go_unless_a_session_needs_them(tmp_path: Path, s
         kept = await ready(session)
         other = await desk.create(scale(4))
         for transposition in range(1, 6):
-            await desk.store.change(other, transposition=transposition)
+            await choose(desk.store, other, transposition=transposition)
             await ready(other)
         await until(lambda: len(desk.songs()) == 2)
         assert kept in desk.songs()

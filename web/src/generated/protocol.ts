@@ -168,7 +168,7 @@ export interface ShowState {
   redo: number
 }
 
-/** One note of a part, with its fingering where the player plays that part. */
+/** One note of a part, with its fingering where a player plays that part. */
 export interface WireNote {
   /** The note's place in the score's table of notes. */
   index: number
@@ -186,11 +186,15 @@ export interface WireNote {
   written_pitch: number
   /** 0 to 1. */
   velocity: number
-  /** The valves that are down, ascending; [] is open, null is not playable (or not played by the player). */
+  /** The valves that are down, ascending; [] is open, null is not playable, not played, no valves. */
   valves: number[] | null
-  /** Why these valves, or why none can be said. */
+  /** How it is played, by the kind of instrument; null where it is not. */
+  fingering: ValvesFingering | null
+  /** Why it is played so, or why it is not. */
   reason: string
-  /** Whether its part is the player's or joined to it; reason says why a note of it is left out. */
+  /** Who plays its part: a place in the cast, 0 being the first; null if nobody does. */
+  player: number | null
+  /** Whether somebody plays its part; reason says why a note of it is left out. */
   in_played_part: boolean
 }
 
@@ -643,6 +647,8 @@ export interface ShowSummary {
 export interface SkeletonManifest {
   /** player or the instrument's name; another player's begin with players/2/. */
   name: string
+  /** Whose it is: a place in the cast, 0 being the first. */
+  player: number
   /** The rig's name: its joints' rest pose and models stand at the link rigs[rig]. */
   rig: string
   /** Joint names, parents before children; the first is the root. */
@@ -688,6 +694,13 @@ export interface TimeKnots {
   seconds: number[]
   beats: number[]
   bars: number[]
+}
+
+/** How valved brass plays a note. */
+export interface ValvesFingering {
+  type: "valves"
+  /** The valves that are down, ascending; [] is open. */
+  valves: number[]
 }
 
 /** Something in a file that could not be taken as it stands, and what was done instead. */

@@ -1,0 +1,78 @@
+"""A session's cast: who plays what."""
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from reina.api.access import Controlled, Store, Watched
+from reina.api.problems import ProblemError
+from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting
+from reina.performance import SEATS
+from reina.protocol import resources
+from reina.sessions.description import cast_resource
+
+router = APIRouter(tags=["cast"])
+
+ALONE = ("part", "transposition", "written", "octave_fit", "joined_parts", "player")
+"""Fields of the form that are for one player."""
+
+
+@router.get("/instruments")
+async def list_instruments(store: Store) -> resources.InstrumentList:
+    """What a cast can be made of: instruments and who can play them, seats, how many players."""
+    return resources.InstrumentList(
+        instruments=[
+            resources.InstrumentSummary(
+                name=name,
+                title=INSTRUMENTS[name].title,
+                rig=INSTRUMENTS[name].rig,
+                players=list(store.stage.players(name)),
+            )
+            for name in store.stage.instruments
+        ],
+        seats=list(SEATS),
+        max_players=MAX_PLAYERS,
+    )
+
+
+@router.get("/sessions/{session_id}/cast")
+async def get_cast(session: Watched) -> resources.Cast:
+    """Who plays what, and why."""
+    return cast_resource(session.production)
+
+
+@router.put("/sessions/{session_id}/cast")
+async def put_cast(session: Controlled, fields: resources.CastFields, store: Store) -> resources.Cast:
+    """Let others play, or other parts, elsewhere; who watches is told by `hello` what frames now hold."""
+    await store.change(session, recast=lambda cast: cast_of(fields, cast.sequence))
+    return cast_resource(session.production)
+
+
+def cast_of(fields: resources.CastFields, sequence: int | None = None) -> Cast:
+    """The cast that is asked for; of no sequence in it that one."""
+    castings = tuple(_casting(casting.model_dump()) for casting in fields.castings)
+    return Cast(castings, sequence if fields.sequence is None else fields.sequence)
+
+
+def cast_of_fields(fields: resources.SessionFields) -> Cast:
+    """The cast that a form asks for.
+
+    Raises:
+        ProblemError: 422, it says both a cast and what one player plays.
+    """
+    if fields.cast is None:
+        return Cast((_casting(fields.model_dump(include=set(ALONE))),), fields.sequence)
+    both = sorted(fields.model_fields_set & set(ALONE))
+    if both:
+        raise ProblemError(
+            422,
+            "cast-twice",
+            "The form does not fit",
+            f"`cast` says what everybody plays; leave out {', '.join(both)}, or put it into the cast",
+        )
+    return cast_of(fields.cast, fields.sequence)
+
+
+def _casting(fields: dict[str, Any]) -> Casting:
+    fields["joined_parts"] = tuple(fields["joined_parts"])
+    return Casting(**fields)

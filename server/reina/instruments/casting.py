@@ -1,0 +1,97 @@
+"""Who plays what: a cast of castings."""
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from reina.errors import InputError
+
+MAX_PLAYERS = 4
+"""How many play at once at most."""
+
+PLAYER = "trumpeter"
+INSTRUMENT = "trumpet"
+
+
+class CastError(InputError):
+    """A cast names what there is not; the message says what there is."""
+
+
+@dataclass(frozen=True)
+class Casting:
+    """One player's share.
+
+    Attributes:
+        part: Index of the part; None: the one that suits the instrument best and nobody else plays.
+        instrument: Name of the instrument.
+        player: Name of the player's rig.
+        seat: Name of the place on the stage; None: by how many play.
+        transposition: Semitones by which the part was asked to be moved.
+        written: Whether the part is taken as notated for the instrument.
+        octave_fit: Whether it is moved by the octaves that bring most of it into range.
+        joined_parts: Further parts that are played together with it.
+    """
+
+    part: int | None = None
+    instrument: str = INSTRUMENT
+    player: str = PLAYER
+    seat: str | None = None
+    transposition: int = 0
+    written: bool = False
+    octave_fit: bool = False
+    joined_parts: tuple[int, ...] = ()
+
+    @property
+    def sound(self) -> tuple[object, ...]:
+        """What of it is heard: who plays, and where, is not."""
+        heard = (self.part, self.transposition, self.written, self.octave_fit, self.joined_parts)
+        return (*heard, self.instrument)
+
+    def changed(self, **changes: Any) -> "Casting":
+        """The same with other fields; another part is played alone unless `joined_parts` comes with it."""
+        if "joined_parts" not in changes and changes.get("part", self.part) != self.part:
+            changes["joined_parts"] = ()
+        return replace(self, **changes)
+
+
+@dataclass(frozen=True)
+class Cast:
+    """Everybody who plays, and which of the score's sequences.
+
+    Attributes:
+        castings: At least one, in the order of the players.
+        sequence: Which sequence of a MIDI file of format 2; None: nobody chose, and the first is played.
+
+    Raises:
+        CastError: There is nobody, or there are too many.
+    """
+
+    castings: tuple[Casting, ...] = field(default=(Casting(),))
+    sequence: int | None = None
+
+    def __post_init__(self) -> None:
+        if not 1 <= len(self.castings) <= MAX_PLAYERS:
+            told = f"1 to {MAX_PLAYERS} players play at once, not {len(self.castings)}"
+            raise CastError(told, where="castings")
+
+    @property
+    def lead(self) -> Casting:
+        """The first player's."""
+        return self.castings[0]
+
+    @property
+    def sound(self) -> tuple[object, ...]:
+        """What of it is heard."""
+        return (self.sequence, *(casting.sound for casting in self.castings))
+
+    def changed(self, *, sequence: int | None = None, **lead: Any) -> "Cast":
+        """The same with another sequence, or other fields of the first player's casting.
+
+        Of another sequence, whose parts are others, everybody plays the part that suits best, unless the
+        first player's is named with it.
+        """
+        castings = self.castings
+        if sequence is not None and sequence != (self.sequence or 0):
+            castings = tuple(replace(one, part=None, joined_parts=()) for one in castings)
+        if lead:
+            castings = (castings[0].changed(**lead), *castings[1:])
+        return Cast(castings, self.sequence if sequence is None else sequence)

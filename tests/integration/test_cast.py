@@ -1,0 +1,169 @@
+"""Several players at once: who plays what is chosen, carried whole, and each moves exactly."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import httpx
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from tests.integration.scores import duet, scale, song
+from tests.integration.server import serve, upload
+from tests.integration.stranger import take
+from tests.integration.test_audit import excess
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from tests.integration.server import Owned
+
+SONG: dict[str, Any] = {"song": ("s.wav", song())}
+FLUTE_TOO: dict[str, Any] = {
+    "castings": [{"part": 1}, {"part": 0, "player": "soloist", "transposition": -12}],
+}
+
+
+@pytest.fixture
+def pair(client: httpx.Client) -> Any:
+    """A trumpet and, an octave lower, the flute's part on another."""
+    made = upload(client, duet(), **SONG, cast=json.dumps(FLUTE_TOO))
+    yield made
+    made.change("DELETE")
+
+
+def test_a_cast_comes_with_the_upload_and_tells_who_plays_what(pair: Owned) -> None:
+    cast = pair.client.get(f"{pair.path}/cast").raise_for_status().json()
+    told = [(one["part"], one["part_name"], one["player"], one["seat"]) for one in cast["castings"]]
+    assert told == [(1, "Trumpet", "trumpeter", "right"), (0, "Flute", "soloist", "left")]
+    assert [one["sounding_transposition"] for one in cast["castings"]] == [0, -12]
+    assert all(one["playable"] == one["notes"] == 4 for one in cast["castings"])
+    assert any("Trumpet" in reason for reason in cast["castings"][0]["reasons"])
+    notes = pair.client.get(f"{pair.path}/score").json()["notes"]
+    assert {note["part"]: note["player"] for note in notes} == {0: 1, 1: 0}
+    assert all(note["fingering"] == {"type": "valves", "valves": note["valves"]} for note in notes)
+    assert all(note["in_played_part"] for note in notes)
+
+
+def test_every_player_has_skeletons_and_parameters_of_their_own(pair: Owned) -> None:
+    manifest = pair.client.get(f"{pair.path}/manifest").json()
+    assert [(one["name"], one["rig"], one["player"]) for one in manifest["skeletons"]] == [
+        ("player", "trumpeter", 0),
+        ("trumpet", "trumpet", 0),
+        ("players/2/player", "soloist", 1),
+        ("players/2/trumpet", "trumpet", 1),
+    ]
+    paths = {parameter["path"] for parameter in manifest["parameters"]}
+    for path in ("trumpet/valve/1", "trumpet/mute", "face/cheek_puff", "player/sway", "player/stance"):
+        assert {path, f"players/2/{path}"} <= paths
+
+
+def test_each_player_plays_exactly_wherever_they_stand(pair: Owned) -> None:
+    frames = take(pair.client, pair.id, 0.0, pair.body["duration_s"])
+    apart = frames.poses["player"].positions["hips"] - frames.poses["players/2/player"].positions["hips"]
+    assert np.linalg.norm(apart, axis=1).min() > 0.9
+    for prefix in ("", "players/2/"):
+        player, trumpet = frames.poses[f"{prefix}player"], frames.poses[f"{prefix}trumpet"]
+        pressed = 0
+        for entry in trumpet.rig["buttons"]:
+            valve = frames.parameters[f"{prefix}trumpet/valve/{entry['valve']}"][:, :1]
+            local = np.array(entry["position"]) + valve * np.array(entry["travel"])
+            root = trumpet.rig["joints"][0]["name"]
+            top = trumpet.positions[root] + trumpet.rotations[root].apply(local)
+            gap = np.linalg.norm(player.named("effectors", entry["effector"]) - top, axis=1)
+            pressed += int((valve == 1.0).sum())
+            assert gap[valve[:, 0] > 0].max() <= 0.0005
+        assert pressed > 20
+        mouth = player.named("contacts", "lips") - trumpet.named("contacts", "mouthpiece")
+        assert np.linalg.norm(mouth, axis=1)[frames.sounding].max() <= 0.001
+        for sole in ("leftSole", "rightSole"):
+            place = player.named("contacts", sole)
+            assert np.abs(place - place[0]).max() <= 0.001
+        for index, joint in enumerate(player.rig["joints"]):
+            if "limits" in joint and joint["parent"] is not None:
+                turned = Rotation.from_quat(frames.local[f"{prefix}player"][:, index])
+                assert excess(joint, turned) <= 3e-5, joint["name"]
+
+
+def test_a_second_player_changes_nothing_for_the_first_but_the_seat(client: httpx.Client) -> None:
+    castings = [{"part": 1, "seat": "middle"}, {"part": 0, "seat": "left", "transposition": -12}]
+    both = upload(client, duet(), **SONG, cast=json.dumps({"castings": castings}))
+    alone = upload(client, duet(), **SONG)
+    one, two = (take(client, made.id, 0.0, 2.0) for made in (alone, both))
+    for skeleton in ("player", "trumpet"):
+        np.testing.assert_array_equal(one.local[skeleton], two.local[skeleton])
+    for path in one.parameters.keys() - {"camera/position", "camera/target"}:
+        np.testing.assert_array_equal(one.parameters[path], two.parameters[path], err_msg=path)
+    for made in (both, alone):
+        made.change("DELETE")
+
+
+def test_a_show_moves_each_player_and_keeps_what_a_smaller_cast_has_not(pair: Owned) -> None:
+    track = {"keyframes": [{"time": 0, "value": 0.0}]}
+    path = "players/2/player/sway"
+    pair.change("PUT", f"/show/tracks/{path}", json={"parameter": path, **track}).raise_for_status()
+    frames = take(pair.client, pair.id, 0.5, 1.5)
+    assert np.all(frames.parameters[path] == 0.0)
+    assert np.all(frames.parameters["player/sway"] == 1.0)
+    pair.change("PUT", "/cast", json={"castings": [{"part": 1}]}).raise_for_status()
+    told = pair.client.get(pair.path).json()["warnings"]
+    assert [one["place"] for one in told if one["kind"] == "show-unknown-parameter"] == [path]
+    pair.change("PUT", "/cast", json=FLUTE_TOO).raise_for_status()
+    assert np.all(take(pair.client, pair.id, 0.5, 1.5).parameters[path] == 0.0)
+
+
+@pytest.mark.parametrize(
+    ("castings", "place", "told"),
+    [
+        ([{"player": "nobody"}], "player", "there are trumpeter, soloist"),
+        ([{"instrument": "kazoo"}], "instrument", "there are trumpet"),
+        ([{"seat": "moon"}], "seat", "there are middle, left, right"),
+        ([{"part": 1}, {"part": 7}], "castings/1/part", "there are 0 to 1"),
+        ([{"part": 1}, {"part": 1}], "castings/1/part", "part 1 is played by another player already"),
+        ([{"seat": "left"}, {"seat": "left"}], "castings/1/seat", "taken already"),
+    ],
+)
+def test_a_cast_that_cannot_play_is_refused_with_its_place(
+    client: httpx.Client, castings: list[dict[str, Any]], place: str, told: str
+) -> None:
+    made = upload(client, duet(), **SONG)
+    before = client.get(f"{made.path}/cast").json()
+    refused = made.change("PUT", "/cast", json={"castings": castings})
+    assert refused.status_code == 422
+    assert refused.headers["content-type"] == "application/problem+json"
+    assert place in refused.json()["detail"]
+    assert told in refused.json()["detail"]
+    assert client.get(f"{made.path}/cast").json() == before
+    too_many = made.change("PUT", "/cast", json={"castings": [{}] * 5})
+    assert too_many.status_code == 422
+    made.change("DELETE")
+
+
+def test_a_form_says_a_cast_or_what_one_player_plays(client: httpx.Client) -> None:
+    files = {"score": ("s.mid", scale(4))}
+    form = {"cast": json.dumps({"castings": [{}]}), "part": "0"}
+    refused = client.post("/api/v1/sessions", files=files, data=form)
+    assert refused.status_code == 422
+    assert "leave out part" in refused.json()["detail"]
+    broken = client.post("/api/v1/sessions", files=files, data={"cast": "{"})
+    assert broken.status_code == 422
+    assert "cast" in broken.json()["detail"]
+
+
+def test_a_cast_outlives_the_server(tmp_path: Path) -> None:
+    with serve(tmp_path) as before, httpx.Client(base_url=before.address, timeout=30) as client:
+        made = upload(client, duet(), **SONG, cast=json.dumps(FLUTE_TOO))
+        told = client.get(f"{made.path}/cast").json()
+    with serve(tmp_path) as after, httpx.Client(base_url=after.address, timeout=30) as client:
+        assert client.get(f"{made.path}/cast").json() == told
+
+
+def test_what_there_is_to_cast(client: httpx.Client) -> None:
+    told = client.get("/api/v1/instruments").json()
+    assert {"name": "trumpet", "title": "B♭ trumpet", "rig": "trumpet"}.items() <= told["instruments"][
+        0
+    ].items()
+    assert told["instruments"][0]["players"] == ["trumpeter", "soloist"]
+    assert told["seats"][0] == "middle"
+    assert told["max_players"] == 4
