@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from tests.integration.scores import duet
+from tests.integration.scores import duet, song
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,3 +69,21 @@ def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) 
         said = row.locator(".why").inner_text().split("; ")
         assert len(said) == len(choice["reasons"]) > 0
         assert all(reason.startswith(text) for text, reason in zip(said, choice["reasons"], strict=True))
+
+
+def test_the_page_tells_what_is_amiss_with_a_song_and_a_show(visit: Visit, client: httpx.Client) -> None:
+    cut = ("cut.wav", "audio/wav", song(12.0)[:20_044])
+    opened = visit(size=NARROW).open_files(("scale.mid", "audio/midi", duet()), cut)
+    path = f"/api/v1/sessions/{opened.session}"
+    opened.page.keyboard.press("p")
+    opened.page.get_by_text("what is in it lasts").wait_for()
+    late = {"version": 1, "title": "Late", "time": "seconds", "tracks": []}
+    late["markers"] = [{"time": 1000.0, "name": "too late"}]
+    answer = client.put(f"{path}/show", json=late, headers=opened.headers)
+    assert answer.status_code == 200, answer.text
+    opened.page.get_by_text("too late").wait_for()
+    warnings = client.get(path).json()["warnings"]
+    listed = opened.page.locator(".warnings li").all_inner_texts()
+    assert [text.split("\n") for text in listed] == [
+        [warning["place"], warning["message"]] for warning in warnings
+    ]

@@ -6,6 +6,9 @@ import numpy as np
 
 from reina.music.arrays import BoolArray, IntArray
 
+LEGATO_BEATS = 1 / 8
+"""How far notes of one pitch overlap that are bound."""
+
 
 @dataclass(frozen=True)
 class Pairs:
@@ -25,19 +28,23 @@ class Pairs:
     stray: IntArray
 
 
-def pair_notes(key: IntArray, is_on: BoolArray, tick: IntArray) -> Pairs:
+def pair_notes(
+    key: IntArray, is_on: BoolArray, tick: IntArray, longest_legato: float = float("inf")
+) -> Pairs:
     """Pair M messages: first in, first out, where every note has its end.
 
     Where a note-off is missing, first in, first out would shift all later ends of the key by one. From where
-    the key was last at rest a note-on ends the note before it there, as a synthesizer has it.
+    the key was last at rest a note-on ends the note before it there, as a synthesizer has it. So it is where
+    one note-off too many comes in the end, since then no note is left.
 
     Args:
         key: (M,) what has to agree for a note-off to end a note-on (track, channel and pitch in one number).
         is_on: (M,) bool.
         tick: (M,) when, increasing among messages of one key.
+        longest_legato: For how many ticks a key struck again and again is meant to sound twice.
     """
     order = np.argsort(key, kind="stable")
-    key, is_on = key[order], is_on[order]
+    key, is_on, tick = key[order], is_on[order], tick[order]
     begins = np.concatenate(([True], key[1:] != key[:-1]))[: len(key)]
     group = np.cumsum(begins) - 1
     start = np.flatnonzero(begins)
@@ -63,9 +70,10 @@ def pair_notes(key: IntArray, is_on: BoolArray, tick: IntArray) -> Pairs:
     overlapping = depth[on_at] > 1
 
     place_of_on = np.cumsum(is_on) - 1
-    for run in _hanging_runs(depth, is_stray, start):
+    runs = _hanging_runs(depth, is_stray, start)
+    for run in [*runs, *_late_runs(depth, group, tick, longest_legato)]:
         messages = order[run]
-        ends = _end_by_the_next(is_on[run].tolist(), tick[messages].tolist())
+        ends = _end_by_the_next(is_on[run].tolist(), tick[run].tolist())
         ons = place_of_on[run][is_on[run]]
         off[ons] = [messages[end] if end is not None else -1 for end in ends]
         overlapping[ons] = False
@@ -97,6 +105,35 @@ def _hanging_runs(depth: IntArray, is_stray: BoolArray, start: IntArray) -> list
         begin = max(int(last_rest[end[key] - 1]) + 1, int(start[key]))
         run = np.arange(begin, int(end[key]))
         runs.append(run[~is_stray[run]])
+    return runs
+
+
+def _late_runs(
+    depth: IntArray, group: IntArray, tick: IntArray, longest_legato: float
+) -> list[IntArray]:
+    """Return the runs from rest to rest whose last note-off makes up for one that is missing.
+
+    In such a run each stroke of the key is let go before the next, though one note sounds on beneath; two or
+    more strokes are, all for longer than where notes are bound, and the last note-off comes after all.
+
+    Args:
+        depth: (M,) how many notes of the key sound after each message, sorted by key.
+        group: (M,) the number of their key.
+        tick: (M,) when they are.
+        longest_legato: For how many ticks notes that are bound overlap.
+    """
+    ends = np.flatnonzero(depth == 0)
+    begins = np.append(0, ends[:-1] + 1)[: len(ends)]
+    lengths = ends - begins + 1
+    is_candidate = (lengths >= 6) & (lengths % 2 == 0) & (group[begins] == group[ends])
+    runs: list[IntArray] = []
+    for begin, end in zip(begins[is_candidate].tolist(), ends[is_candidate].tolist(), strict=True):
+        # 1, then 2 and 1 for every stroke, then 0.
+        strokes = depth[begin + 1 : end].reshape(-1, 2)
+        overlaps = np.diff(tick[begin + 1 : end].reshape(-1, 2))
+        is_late = tick[begin] < tick[begin + 1] and tick[end - 1] < tick[end]
+        if is_late and np.all(strokes == (2, 1)) and np.all(overlaps > longest_legato):
+            runs.append(np.arange(begin, end + 1))
     return runs
 
 
