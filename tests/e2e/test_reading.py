@@ -62,7 +62,7 @@ def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) 
         [warning["place"], warning["message"]] for warning in warnings
     ]
     session = client.get(path).json()
-    rows = page.get_by_role("group", name="Part the trumpet plays").locator("label")
+    rows = page.get_by_role("group", name="Part the trumpet plays").locator("label:has([type=radio])")
     assert rows.count() == len(session["choices"]) == 2
     assert [row.locator(".name").inner_text() for row in rows.all()] == ["Trumpet", "Flute"], "the best first"
     for row, choice in zip(rows.all(), session["choices"], strict=True):

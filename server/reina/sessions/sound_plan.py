@@ -78,8 +78,8 @@ def plan_sound(
     """Plan how a score sounds.
 
     Every part gets a channel of its own for each channel that the file has it on (drums of one channel and
-    kit share theirs), on as many ports of sixteen channels as that takes, so that a file whose parts collide on a
-    channel, or that names no channels, sounds right. The controls of the file's channel go with it.
+    kit share theirs), on as many ports of sixteen channels as that takes, so that a file whose parts collide
+    on a channel, or that names no channels, sounds right. The controls of the file's channel go with it.
 
     Args:
         score: The score.

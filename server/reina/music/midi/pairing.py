@@ -108,9 +108,7 @@ def _hanging_runs(depth: IntArray, is_stray: BoolArray, start: IntArray) -> list
     return runs
 
 
-def _late_runs(
-    depth: IntArray, group: IntArray, tick: IntArray, longest_legato: float
-) -> list[IntArray]:
+def _late_runs(depth: IntArray, group: IntArray, tick: IntArray, longest_legato: float) -> list[IntArray]:
     """Return the runs from rest to rest whose last note-off makes up for one that is missing.
 
     In such a run each stroke of the key is let go before the next, though one note sounds on beneath; two or

@@ -59,7 +59,9 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     note_messages = messages.take(np.flatnonzero(sounding & ~is_silence))
     is_on = (note_messages.command == NOTE_ON) & (note_messages.second > 0)
     if not np.any(is_on):
-        raise ScoreError("the file is MIDI and holds no note", where=f"{len(tracks)} track{'s' * (len(tracks) != 1)}")
+        raise ScoreError(
+            "the file is MIDI and holds no note", where=f"{len(tracks)} track{'s' * (len(tracks) != 1)}"
+        )
     limits.check("notes", int(np.count_nonzero(is_on)), what="number of notes")
 
     tempo_map = read_tempo_map(tracks, division, log)
