@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.integration.scores import duet, song
@@ -77,7 +77,7 @@ def test_the_page_tells_what_is_amiss_with_a_song_and_a_show(visit: Visit, clien
     path = f"/api/v1/sessions/{opened.session}"
     opened.page.keyboard.press("p")
     opened.page.get_by_text("what is in it lasts").wait_for()
-    late = {"version": 1, "title": "Late", "time": "seconds", "tracks": []}
+    late: dict[str, Any] = {"version": 1, "title": "Late", "time": "seconds", "tracks": []}
     late["markers"] = [{"time": 1000.0, "name": "too late"}]
     answer = client.put(f"{path}/show", json=late, headers=opened.headers)
     assert answer.status_code == 200, answer.text

@@ -125,7 +125,8 @@ def _late_runs(depth: IntArray, group: IntArray, tick: IntArray, longest_legato:
     lengths = ends - begins + 1
     is_candidate = (lengths >= 6) & (lengths % 2 == 0) & (group[begins] == group[ends])
     runs: list[IntArray] = []
-    for begin, end in zip(begins[is_candidate].tolist(), ends[is_candidate].tolist(), strict=True):
+    candidates: list[tuple[int, int]] = np.stack((begins, ends), axis=1)[is_candidate].tolist()
+    for begin, end in candidates:
         # 1, then 2 and 1 for every stroke, then 0.
         strokes = depth[begin + 1 : end].reshape(-1, 2)
         overlaps = np.diff(tick[begin + 1 : end].reshape(-1, 2))
