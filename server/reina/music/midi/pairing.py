@@ -70,8 +70,13 @@ def pair_notes(
     overlapping = depth[on_at] > 1
 
     place_of_on = np.cumsum(is_on) - 1
-    runs = _hanging_runs(depth, is_stray, start)
-    for run in [*runs, *_late_runs(depth, group, tick, longest_legato)]:
+    is_late = _in_late_runs(depth, group, tick, longest_legato)
+    late_ons = np.flatnonzero(is_late & is_on)
+    off[place_of_on[late_ons]] = order[late_ons + 1]
+    overlapping[place_of_on[late_ons]] = False
+    is_stray |= is_late & (depth == 0)
+
+    for run in _hanging_runs(depth, is_stray, start):
         messages = order[run]
         ends = _end_by_the_next(is_on[run].tolist(), tick[run].tolist())
         ons = place_of_on[run][is_on[run]]
@@ -108,8 +113,8 @@ def _hanging_runs(depth: IntArray, is_stray: BoolArray, start: IntArray) -> list
     return runs
 
 
-def _late_runs(depth: IntArray, group: IntArray, tick: IntArray, longest_legato: float) -> list[IntArray]:
-    """Return the runs from rest to rest whose last note-off makes up for one that is missing.
+def _in_late_runs(depth: IntArray, group: IntArray, tick: IntArray, longest_legato: float) -> BoolArray:
+    """Return (M,) which messages are of a run from rest to rest whose last end makes up for a missing one.
 
     In such a run each stroke of the key is let go before the next, though one note sounds on beneath; two or
     more strokes are, all for longer than where notes are bound, and the last note-off comes after all.
@@ -120,20 +125,21 @@ def _late_runs(depth: IntArray, group: IntArray, tick: IntArray, longest_legato:
         tick: (M,) when they are.
         longest_legato: For how many ticks notes that are bound overlap.
     """
-    ends = np.flatnonzero(depth == 0)
-    begins = np.append(0, ends[:-1] + 1)[: len(ends)]
-    lengths = ends - begins + 1
-    is_candidate = (lengths >= 6) & (lengths % 2 == 0) & (group[begins] == group[ends])
-    runs: list[IntArray] = []
-    candidates: list[tuple[int, int]] = np.stack((begins, ends), axis=1)[is_candidate].tolist()
-    for begin, end in candidates:
-        # 1, then 2 and 1 for every stroke, then 0.
-        strokes = depth[begin + 1 : end].reshape(-1, 2)
-        overlaps = np.diff(tick[begin + 1 : end].reshape(-1, 2))
-        is_late = tick[begin] < tick[begin + 1] and tick[end - 1] < tick[end]
-        if is_late and np.all(strokes == (2, 1)) and np.all(overlaps > longest_legato):
-            runs.append(np.arange(begin, end + 1))
-    return runs
+    at_rest = depth == 0
+    begins = np.append(True, at_rest[:-1] | (group[1:] != group[:-1]))[: len(depth)]
+    start = np.flatnonzero(begins)
+    run = np.cumsum(begins) - 1
+    place = np.arange(len(depth)) - start[run]
+    # One note sounds, then two and one with every stroke, then none.
+    fits = at_rest | (depth == 1 + place % 2)
+    since = np.diff(tick, prepend=0)
+    is_let_go = (place > 0) & (place % 2 == 0)
+    fits &= ~is_let_go | (since > longest_legato)
+    fits &= ~((place == 1) | at_rest) | (since > 0)
+    length = np.diff(np.append(start, len(depth)))
+    last = start + length - 1
+    is_late = np.logical_and.reduceat(fits, start) & at_rest[last] & (length >= 6) if len(start) else fits
+    return is_late[run]
 
 
 def _end_by_the_next(is_on: list[bool], tick: list[int]) -> list[int | None]:
