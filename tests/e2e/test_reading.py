@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
-from tests.integration.scores import duet
+from tests.integration.scores import duet, song
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -62,10 +62,28 @@ def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) 
         [warning["place"], warning["message"]] for warning in warnings
     ]
     session = client.get(path).json()
-    rows = page.get_by_role("group", name="Part the trumpet plays").locator("label")
+    rows = page.get_by_role("group", name="Part the trumpet plays").locator("label:has([type=radio])")
     assert rows.count() == len(session["choices"]) == 2
     assert [row.locator(".name").inner_text() for row in rows.all()] == ["Trumpet", "Flute"], "the best first"
     for row, choice in zip(rows.all(), session["choices"], strict=True):
         said = row.locator(".why").inner_text().split("; ")
         assert len(said) == len(choice["reasons"]) > 0
         assert all(reason.startswith(text) for text, reason in zip(said, choice["reasons"], strict=True))
+
+
+def test_the_page_tells_what_is_amiss_with_a_song_and_a_show(visit: Visit, client: httpx.Client) -> None:
+    cut = ("cut.wav", "audio/wav", song(12.0)[:20_044])
+    opened = visit(size=NARROW).open_files(("scale.mid", "audio/midi", duet()), cut)
+    path = f"/api/v1/sessions/{opened.session}"
+    opened.page.keyboard.press("p")
+    opened.page.get_by_text("what is in it lasts").wait_for()
+    late: dict[str, Any] = {"version": 1, "title": "Late", "time": "seconds", "tracks": []}
+    late["markers"] = [{"time": 1000.0, "name": "too late"}]
+    answer = client.put(f"{path}/show", json=late, headers=opened.headers)
+    assert answer.status_code == 200, answer.text
+    opened.page.get_by_text("too late").wait_for()
+    warnings = client.get(path).json()["warnings"]
+    listed = opened.page.locator(".warnings li").all_inner_texts()
+    assert [text.split("\n") for text in listed] == [
+        [warning["place"], warning["message"]] for warning in warnings
+    ]

@@ -29,8 +29,12 @@ BREATH_S = 0.25
 TOLD_OVERLAP_S = 0.001
 """Overlaps of less are cut without a word: they are rounding."""
 
-GRACE_S = 0.06
-"""What is no longer, and lasts a third of the note that it begins with at most, ornaments that note."""
+GRACE_S = 0.09
+"""What is no longer, and lasts a third of the note that it begins with at most, ornaments that note: a
+thirty-second note at 90 beats a minute does."""
+
+EARLY_GRACE_S = 0.13
+"""So it is up to this length with what begins before that note."""
 
 LEGATO_S = 0.08
 """How far a note may reach into the next where both are meant to follow each other."""
@@ -55,7 +59,9 @@ class _Note(NamedTuple):
         is_tap = abs(self.duration_s - TAP_S) < ROUNDING_S
         if is_tap and other.duration_s > self.duration_s + ROUNDING_S:
             return True
-        return self.duration_s <= GRACE_S and 3 * self.duration_s <= other.duration_s
+        is_early = self.onset_s < other.onset_s - SOUND_TOGETHER_S
+        longest = EARLY_GRACE_S if is_early else GRACE_S
+        return self.duration_s <= longest and 3 * self.duration_s <= other.duration_s
 
 
 def playable_line(

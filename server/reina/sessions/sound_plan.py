@@ -33,6 +33,8 @@ SHORTEST_NOTE = SAMPLE_RATE // 50
 MELODIC_CHANNELS = tuple(channel for channel in range(CHANNELS_OF_PORT) if channel != DRUM_CHANNEL)
 MOST_VOICES = 4 * len(MELODIC_CHANNELS)
 """With more melodic voices than this, those of one channel and program share a channel."""
+MOST_DRUMS = 8
+"""With drums on more channels than this, those of one kit share a channel; each takes a port."""
 
 HEARD_CONTROLLERS = frozenset({1, 33, 7, 39, 10, 42, 11, 43, 64, 91, 93, 6, 38, 98, 99, 100, 101, 121})
 """Those the synthesizer acts on: modulation, volume, pan, expression, hold, reverb, chorus, registered
@@ -83,9 +85,9 @@ class _Voice:
 def plan_sound(score: Score, played: Sequence[PlayedParts] = ()) -> SoundPlan:
     """Plan how a score sounds.
 
-    Every part gets a channel of its own for each channel that the file has it on (drums of one kit share
-    theirs), on as many ports of sixteen channels as that takes, so that a file whose parts collide on a
-    channel, or that names no channels, sounds right. The controls of the file's channel go with it.
+    Every part gets a channel of its own for each channel that the file has it on (drums of one channel and
+    kit share theirs), on as many ports of sixteen channels as that takes, so that a file whose parts collide
+    on a channel, or that names no channels, sounds right. The controls of the file's channel go with it.
 
     Args:
         score: The score.
@@ -149,12 +151,14 @@ def _voices(score: Score, trumpet_parts: Collection[int]) -> tuple[list[_Voice],
 def _seat(voices: list[_Voice]) -> list[_Voice]:
     """Give each voice its port and channel."""
     melodic = sum(not voice.part.is_drums for voice in voices)
+    drum_channels = {voice.channel for voice in voices if voice.part.is_drums}
     seats: dict[tuple[object, ...], tuple[int, int]] = {}
     seated: list[_Voice] = []
     drums = tones = 0
     for index, voice in enumerate(voices):
         if voice.part.is_drums:
-            key: tuple[object, ...] = ("drums", voice.program)
+            channel = voice.channel if len(drum_channels) <= MOST_DRUMS else None
+            key: tuple[object, ...] = ("drums", channel, voice.program)
         elif melodic <= MOST_VOICES:
             key = ("voice", index)
         else:

@@ -91,6 +91,13 @@ def test_a_grace_note_that_reaches_into_its_note_sounds_before_it():
     assert [warning.kind for warning in warnings] == ["note_shortened"]
 
 
+def test_thirty_second_notes_are_graces_at_the_place_of_a_longer_note():
+    # 62.5 ms: one at 120 a minute. One that begins early and reaches into its note may be a sixteenth.
+    line, _ = line_of((0.0, 0.3, 60), (0.5, 0.5625, 65), (0.5, 1.0, 64), (1.48, 1.6, 59), (1.5, 2.0, 64))
+    assert line.sounding_pitch.tolist() == [60, 65, 64, 59, 64]
+    np.testing.assert_allclose(line.onset_s, [0.0, 0.4375, 0.5, 1.48, 1.5])
+
+
 def test_a_chord_of_taps_and_a_staccato_melody_keep_their_top_note():
     line, _ = line_of((0.0, 0.05, 60), (0.0, 0.05, 67), (1.0, 2.0, 60), (1.0, 1.1, 67))
     assert line.sounding_pitch.tolist() == [67, 67]

@@ -180,6 +180,15 @@ def test_a_port_named_late_or_of_any_number_holds_for_its_whole_track() -> None:
     assert read_score(midi((port(200), *note()))).parts[0].channel == 0
 
 
+def test_a_setup_track_that_names_no_port_sets_up_the_first() -> None:
+    setup = (program(0, 56), program(0, 33, 1))
+    score = read_score(midi(setup, (port(1), *note()), (port(2), *note(36, 1)), (port(1), *note(36, 1))))
+    assert [(part.program, part.channel) for part in score.parts] == [(56, 0), (None, 17), (33, 1)]
+    # A track that has notes and names no port is on the first of MIDI's.
+    score = read_score(midi((program(0, 56), *note()), (port(1), program(0, 33), *note(36))))
+    assert [(part.program, part.channel) for part in score.parts] == [(56, 0), (33, 16)]
+
+
 def test_a_track_may_go_from_port_to_port() -> None:
     score = read_score(midi((port(0), program(0, 56), *note(), port(1), program(0, 33), *note(36)), form=0))
     assert [(part.program, part.channel) for part in score.parts] == [(56, 0), (33, 16)]

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.unit.music.midi_bytes import meta, midi, off, on
 from tests.unit.sessions.sound_material import Row, a_controller, a_part, a_score
 
 from reina.errors import InputError
-from reina.music import Control
+from reina.music import Control, read_score
 from reina.sessions.sound_events import DRUM_CHANNEL, SAMPLE_RATE, SoundPlan
 from reina.sessions.sound_plan import LONGEST_S, SHORTEST_NOTE, PlayedParts, plan_sound
 from reina.sessions.sound_programs import default_program
@@ -60,6 +61,31 @@ def test_drums_of_several_tracks_share_one_kit() -> None:
     parts = [a_part(0, "Hi-hat", None, is_drums=True), a_part(1, "Bass drum", None, is_drums=True)]
     plan = plan_sound(a_score([(0, 0.0, 1.0, 42, 0.8), (1, 0.0, 1.0, 36, 0.8)], parts))
     assert programs(plan) == {(0, DRUM_CHANNEL): 0}
+
+
+def test_drums_of_two_ports_have_each_their_own_volume() -> None:
+    events = [
+        *(port(0), volume(100), on(0, 36, channel=9), off(480, 36, 9)),
+        *(port(1), volume(0), on(0, 38, channel=9), off(480, 38, 9)),
+    ]
+    plan = plan_sound(read_score(midi(events)))
+    volumes = plan.controls[plan.controls["data1"] == 7]
+    assert volumes[["port", "data2"]].tolist() == [(0, 100), (1, 0)]
+    assert plan.notes[["port", "channel", "key"]].tolist() == [(0, DRUM_CHANNEL, 36), (1, DRUM_CHANNEL, 38)]
+
+
+def test_drums_on_very_many_channels_share_one_kit() -> None:
+    banks = [(0, bytes([0xB0 | channel, 0, 120])) for channel in range(16)]
+    hits = [event for channel in range(16) for event in (on(0, 36, channel=channel), off(9, 36, channel))]
+    assert list(programs(plan_sound(read_score(midi([*banks, *hits]))))) == [(0, DRUM_CHANNEL)]
+
+
+def port(number: int) -> tuple[int, bytes]:
+    return meta(0, 0x21, bytes([number]))
+
+
+def volume(value: int) -> tuple[int, bytes]:
+    return 0, bytes([0xB9, 7, value])
 
 
 @pytest.mark.parametrize(

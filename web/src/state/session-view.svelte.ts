@@ -166,6 +166,13 @@ export class SessionView {
     });
   }
 
+  /** Read what the server says of the session: its warnings change with the show. */
+  async readSession(): Promise<void> {
+    await this.#attempt(async () => {
+      this.session = await this.#surroundings.api.session(this.id);
+    });
+  }
+
   /** Let a moment of the song be heard where nothing plays: for a pointer on a timeline. */
   scrub(songTime: number): void {
     this.#player.scrub(songTime);

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reina.music.arrays import IntArray
-from reina.music.midi.track import Track
+from reina.music.midi.track import NOTE_ON, Track
 
 CHANNELS_OF_PORT = 16
 
@@ -37,7 +37,8 @@ class Messages:
         lengths = [len(track.packed) for track in tracks]
         packed = np.concatenate([np.array(track.packed, dtype=np.int64) for track in tracks])
         status = packed >> 16 & 0xFF
-        ports = np.concatenate([_ports(track) for track in tracks])
+        named = [port for track in tracks for _, port in track.ports]
+        ports = np.concatenate([_ports(track, setup_port=min(named, default=0)) for track in tracks])
         # Numbered by their order: a file whose only port is the third has channels 0 to 15 like any other.
         port = np.unique(ports, return_inverse=True)[1].astype(np.int64)
         return cls(
@@ -55,13 +56,15 @@ class Messages:
         return Messages(*(column[chosen] for column in columns))
 
 
-def _ports(track: Track) -> IntArray:
+def _ports(track: Track, setup_port: int) -> IntArray:
     """Return the port of each channel message of a track.
 
-    Until the first port is named that one holds too: programs often stand before it.
+    Until the first port is named that one holds too: programs often stand before it. Where none is named, it
+    is 0; a track without notes sets up the first port that there is.
     """
     if not track.ports:
-        return np.zeros(len(track.packed), dtype=np.int64)
+        has_notes = any(message >> 20 & 0xF == NOTE_ON for message in track.packed)
+        return np.full(len(track.packed), 0 if has_notes else setup_port)
     begins = np.array([begin for begin, _ in track.ports])
     ports = np.array([port for _, port in track.ports])
     named = np.searchsorted(begins, np.arange(len(track.packed)), side="right") - 1

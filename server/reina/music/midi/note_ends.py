@@ -7,12 +7,13 @@ import numpy as np
 from reina.music.arrays import BoolArray, IntArray
 from reina.music.midi.messages import Messages
 from reina.music.midi.pairing import Pairs
-from reina.music.midi.track import CONTROLLER
+from reina.music.midi.silences import next_silence, next_tick, source_of
 
-ALL_SOUND_OFF, ALL_NOTES_OFF = 120, 123
+LONGEST_BEATS = 4
+"""How long a note may sound that nothing ends: a bar. A high one would keep all others out of its line."""
 
-LONGEST_AFTER_BEATS = 4
-"""How long after the last note event of its track a note that is never released may sound on: a bar."""
+LAST_BEATS = 1
+"""How long it sounds where its track ends with its beginning."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +23,8 @@ class NoteEnds:
     Attributes:
         tick: (N,) when.
         struck_again: (N,) bool, whether the key is pressed again before it is let go.
-        silenced: (N,) bool, whether a controller ends the note before its note-off, if it has one.
-        left: (N,) bool, whether nothing ends it.
+        silenced: (N,) bool, whether its channel is silenced before its note-off, if it has one.
+        left: (N,) bool, whether nothing says when it ends.
     """
 
     tick: IntArray
@@ -33,7 +34,7 @@ class NoteEnds:
 
 
 def find_note_ends(
-    messages: Messages,
+    silences: Messages,
     note_messages: Messages,
     is_on: BoolArray,
     pairs: Pairs,
@@ -42,12 +43,11 @@ def find_note_ends(
 ) -> NoteEnds:
     """Find when notes end.
 
-    All Sound Off and All Notes Off end what sounds on their channel and track. A note that nothing ends lasts
-    to the end of its track; where that lies far behind the track's last note event, it ends with that, or
-    after a bar.
+    A note that nothing ends lasts to the end of its track, but no longer than a bar. On a channel without any
+    note-off a note ends where the next begins.
 
     Args:
-        messages: The channel messages of all tracks.
+        silences: The messages that silence their channel.
         note_messages: Those that begin and end notes.
         is_on: (M,) which of these begin one.
         pairs: Their pairs.
@@ -56,41 +56,20 @@ def find_note_ends(
     """
     on = note_messages.take(pairs.on)
     has_end = pairs.off >= 0
-    struck_again = has_end & is_on[pairs.off]
-    last = np.zeros(len(track_end), dtype=np.int64)
-    np.maximum.at(last, note_messages.track, note_messages.tick)
-    bar = round(LONGEST_AFTER_BEATS * ticks_per_beat)
-    sensible = np.maximum(last[on.track], on.tick + bar)
-    end_of_track = np.maximum(track_end[on.track], on.tick)
-    is_far = end_of_track - last[on.track] > bar
-    tick = np.where(
-        has_end,
-        note_messages.tick[pairs.off],
-        np.where(is_far, np.minimum(sensible, end_of_track), end_of_track),
-    )
-    silence = _next_silence(messages, on)
-    silenced = (silence > on.tick) & (silence < np.where(has_end, tick, end_of_track + 1))
+    longest, last = (on.tick + round(beats * ticks_per_beat) for beats in (LONGEST_BEATS, LAST_BEATS))
+    end_of_track = track_end[on.track]
+    left_end = np.where(end_of_track > on.tick, np.minimum(end_of_track, longest), last)
+    tick = np.where(has_end, note_messages.tick[pairs.off], left_end)
+    source = source_of(on)
+    never_released = ~np.isin(source, source_of(note_messages.take(np.flatnonzero(~is_on))))
+    following = next_tick(source, on.tick, source, on.tick)
+    is_cut = never_released & (following > on.tick) & (following < tick)
+    tick = np.where(is_cut, following, tick)
+    silence = next_silence(silences, on)
+    silenced = (silence > on.tick) & (~has_end | (silence < tick))
     return NoteEnds(
         tick=np.where(silenced, silence, tick),
-        struck_again=struck_again & ~silenced,
+        struck_again=has_end & is_on[pairs.off] & ~is_cut & ~silenced,
         silenced=silenced,
-        left=~has_end & ~silenced,
+        left=(~has_end | is_cut) & ~silenced,
     )
-
-
-def _next_silence(messages: Messages, on: Messages) -> IntArray:
-    """Return (N,) when a controller next silences the track and channel of each note, -1 if none does."""
-    silences = messages.take(
-        np.flatnonzero(
-            (messages.command == CONTROLLER) & np.isin(messages.first, (ALL_SOUND_OFF, ALL_NOTES_OFF))
-        )
-    )
-    if not len(silences.tick):
-        return np.full(len(on.tick), -1)
-
-    def moment(of: Messages) -> IntArray:
-        return (of.track << 12 | of.channel) << 40 | of.tick
-
-    moments = np.sort(moment(silences))
-    found = np.append(moments, -1)[np.searchsorted(moments, moment(on), side="right")]
-    return np.where(found >> 40 == moment(on) >> 40, found & ((1 << 40) - 1), -1)

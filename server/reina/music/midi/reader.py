@@ -16,8 +16,9 @@ from reina.music.midi.encoding import decide_encoding
 from reina.music.midi.maps import read_metre_map, read_tempo_map
 from reina.music.midi.messages import Messages
 from reina.music.midi.note_ends import NoteEnds, find_note_ends
-from reina.music.midi.pairing import Pairs, pair_notes
+from reina.music.midi.pairing import LEGATO_BEATS, Pairs, pair_notes
 from reina.music.midi.parts import find_parts
+from reina.music.midi.silences import find_silences
 from reina.music.midi.text import decode_text
 from reina.music.midi.track import INSTRUMENT_NAME, NOTE_OFF, NOTE_ON, TRACK_NAME, Track
 from reina.music.midi.tracks import read_tracks
@@ -53,19 +54,24 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         )
 
     messages = Messages.of(tracks)
+    is_silence = find_silences(messages)
     sounding = (messages.command == NOTE_ON) | (messages.command == NOTE_OFF)
-    note_messages = messages.take(np.flatnonzero(sounding))
+    note_messages = messages.take(np.flatnonzero(sounding & ~is_silence))
     is_on = (note_messages.command == NOTE_ON) & (note_messages.second > 0)
     if not np.any(is_on):
-        raise ScoreError("the file is MIDI and holds no note", where=f"{len(tracks)} tracks")
+        raise ScoreError(
+            "the file is MIDI and holds no note", where=f"{len(tracks)} track{'s' * (len(tracks) != 1)}"
+        )
     limits.check("notes", int(np.count_nonzero(is_on)), what="number of notes")
 
     tempo_map = read_tempo_map(tracks, division, log)
     key = note_messages.track << 19 | note_messages.channel << 7 | note_messages.first
-    pairs = pair_notes(key, is_on, note_messages.tick)
+    longest_legato = LEGATO_BEATS * division.ticks_per_beat
+    pairs = pair_notes(key, is_on, note_messages.tick, longest_legato)
     on = note_messages.take(pairs.on)
     track_end = np.array([track.end_tick for track in tracks], dtype=np.int64)
-    ends = find_note_ends(messages, note_messages, is_on, pairs, track_end, division.ticks_per_beat)
+    silences = messages.take(np.flatnonzero(is_silence))
+    ends = find_note_ends(silences, note_messages, is_on, pairs, track_end, division.ticks_per_beat)
     notes = _time_notes(on, ends, tracks, division, tempo_map, log)
     _tell_of_pairs(note_messages, pairs, tracks, log)
     state = read_channel_state(messages, on, tracks)
@@ -158,9 +164,9 @@ def _time_notes(
         on,
         "unreleased_note",
         ends.left,
-        "is never released; it ends with the notes of its track",
+        "is never released; when it ends is a guess",
     )
-    _tell(log, tracks, on, "silenced_note", ends.silenced, "ends where a controller silences its channel")
+    _tell(log, tracks, on, "silenced_note", ends.silenced, "ends where its channel is silenced")
     is_tap = np.zeros(len(onset_s), dtype=np.bool_)
     is_tap[taps] = True
     _tell(
