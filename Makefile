@@ -1,6 +1,8 @@
 # Every target sets up what it needs. `make serve` and `make test` work in a fresh clone.
 PYTHON ?= python3
 BIN := .venv/bin
+# How many processes run the tests; each has a server and a browser of its own.
+WORKERS ?= 2
 WEB_SOURCES := $(shell find web/src web/public web/index.html web/lab.html web/vite.config.ts web/package.json web/package-lock.json -type f 2>/dev/null)
 
 # Where PATH has no npm, or no Node that web/package.json names, .venv gets one and every recipe finds it there.
@@ -10,7 +12,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test check unit assets bench generate lock clean
+.PHONY: help setup serve test check format assets bench generate lock clean
 
 help: ## Show the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -23,7 +25,7 @@ serve: setup ## Start Reina and print its address
 test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
-	$(BIN)/pytest
+	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
 
 check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated files
 	$(BIN)/ruff check .
@@ -33,6 +35,10 @@ check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated file
 	cd web && npm run check
 	$(BIN)/python -m reina.protocol.generate --check
 	$(BIN)/python -m reina.api.openapi --check
+
+format: .venv/.dev web/node_modules/.stamp ## Format Python and the page
+	$(BIN)/ruff format .
+	cd web && npm run format
 
 generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
 	$(BIN)/python -m reina.protocol.generate
