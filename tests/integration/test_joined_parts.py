@@ -128,12 +128,12 @@ def test_another_part_is_played_alone_unless_others_are_named(client: httpx.Clie
 
 
 def test_what_is_joined_outlives_a_restart(tmp_path: Path) -> None:
-    with serve(tmp_path) as server, httpx.Client(base_url=server.address) as client:
+    with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30) as client:
         session = upload(client, relay(), joined_parts="2, 1", **SONG)
         before, notes = client.get(session.path).json(), played(session)
         assert before["joined_parts"] == [MUTED, FLUTE]
         server.stop()
-    with serve(tmp_path) as server, httpx.Client(base_url=server.address) as client:
+    with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30) as client:
         again = type(session)(client, session.body)
         assert client.get(session.path).json() == before
         assert played(again) == notes

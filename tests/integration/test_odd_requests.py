@@ -9,14 +9,25 @@ from typing import TYPE_CHECKING
 import pytest
 import websockets
 from tests.integration.scores import scale, song
+from tests.integration.server import upload
 from websockets.exceptions import InvalidStatus
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import httpx
     from tests.integration.server import Owned, Running
 
 LONG = "a" * 300
 KEYFRAMES = "/show/tracks/lights/key/intensity/keyframes"
+
+
+@pytest.fixture(scope="module")
+def unchanged(client: httpx.Client) -> Iterator[Owned]:
+    """One session for all requests: none of them changes it."""
+    session = upload(client, scale(), song=("song.wav", song()))
+    yield session
+    session.change("DELETE")
 
 
 def refused(answer: httpx.Response) -> None:
@@ -65,8 +76,8 @@ def test_names_that_no_file_has(client: httpx.Client, path: str) -> None:
         "fps=999999999999999999999",
     ],
 )
-def test_spans_that_no_music_has(client: httpx.Client, owned: Owned, query: str) -> None:
-    refused(client.get(f"{owned.path}/frames?{query}"))
+def test_spans_that_no_music_has(client: httpx.Client, unchanged: Owned, query: str) -> None:
+    refused(client.get(f"{unchanged.path}/frames?{query}"))
 
 
 @pytest.mark.parametrize(
@@ -83,11 +94,11 @@ def test_spans_that_no_music_has(client: httpx.Client, owned: Owned, query: str)
         b"null",
     ],
 )
-def test_keyframes_that_are_none(owned: Owned, body: bytes) -> None:
-    before = owned.client.get(f"{owned.path}{KEYFRAMES}").json()
-    headers = {**owned.headers, "Content-Type": "application/json"}
-    refused(owned.client.post(f"{owned.path}{KEYFRAMES}", content=body, headers=headers))
-    assert owned.client.get(f"{owned.path}{KEYFRAMES}").json() == before
+def test_keyframes_that_are_none(unchanged: Owned, body: bytes) -> None:
+    before = unchanged.client.get(f"{unchanged.path}{KEYFRAMES}").json()
+    headers = {**unchanged.headers, "Content-Type": "application/json"}
+    refused(unchanged.client.post(f"{unchanged.path}{KEYFRAMES}", content=body, headers=headers))
+    assert unchanged.client.get(f"{unchanged.path}{KEYFRAMES}").json() == before
 
 
 @pytest.mark.parametrize(
@@ -99,18 +110,18 @@ def test_keyframes_that_are_none(owned: Owned, body: bytes) -> None:
         b'{"version": 1, "tracks": [{"parameter": "x/y", "keyframes": ' + b"[" * 900 + b"]" * 900 + b"}]}",
     ],
 )
-def test_shows_that_could_not_be_read_again(client: httpx.Client, owned: Owned, body: bytes) -> None:
-    before = client.get(f"{owned.path}/show").json()
-    refused(owned.change("PUT", "/show", content=body))
-    assert client.get(f"{owned.path}/show").json() == before
+def test_shows_that_could_not_be_read_again(client: httpx.Client, unchanged: Owned, body: bytes) -> None:
+    before = client.get(f"{unchanged.path}/show").json()
+    refused(unchanged.change("PUT", "/show", content=body))
+    assert client.get(f"{unchanged.path}/show").json() == before
     files = {"score": ("a.mid", scale(4)), "song": ("a.wav", song(0.1)), "show": ("a.json", body)}
     refused(client.post("/api/v1/sessions", files=files))
 
 
 @pytest.mark.parametrize("name", [LONG, "a" * 200, "../trumpeter", "\0", "trumpeter/."])
-def test_players_that_no_rig_is(client: httpx.Client, owned: Owned, name: str) -> None:
+def test_players_that_no_rig_is(client: httpx.Client, unchanged: Owned, name: str) -> None:
     refused(client.post("/api/v1/sessions", files={"score": ("a.mid", scale(2))}, data={"player": name}))
-    refused(owned.change("PATCH", "", json={"player": name}))
+    refused(unchanged.change("PATCH", "", json={"player": name}))
 
 
 @pytest.mark.parametrize(
@@ -126,9 +137,9 @@ def test_forms_that_are_none(client: httpx.Client, content_type: str, content: b
 
 
 @pytest.mark.parametrize("size", ["0", "13", "-1", "1.5", "x", "9" * 5000])
-def test_numbers_of_frames_that_no_message_has(server: Running, owned: Owned, size: str) -> None:
+def test_numbers_of_frames_that_no_message_has(server: Running, unchanged: Owned, size: str) -> None:
     async def status() -> int:
-        address = f"{server.stream(owned.id)}frames_per_message={size}"
+        address = f"{server.stream(unchanged.id)}frames_per_message={size}"
         with pytest.raises(InvalidStatus) as caught:
             async with websockets.connect(address, subprotocols=[websockets.Subprotocol("reina.v1")]):
                 pass
@@ -151,11 +162,11 @@ NO_PINGS: tuple[str | bytes, ...] = (
 )
 
 
-def test_messages_that_are_no_pings_are_told_so(server: Running, owned: Owned) -> None:
+def test_messages_that_are_no_pings_are_told_so(server: Running, unchanged: Owned) -> None:
     async def types() -> list[str]:
         heard: list[str] = []
         async with websockets.connect(
-            server.stream(owned.id), subprotocols=[websockets.Subprotocol("reina.v1")]
+            server.stream(unchanged.id), subprotocols=[websockets.Subprotocol("reina.v1")]
         ) as socket:
             for message in NO_PINGS:
                 await socket.send(message)
@@ -172,9 +183,9 @@ def test_messages_that_are_no_pings_are_told_so(server: Running, owned: Owned) -
     assert heard[-1] == "pong"
 
 
-def test_a_message_too_large_ends_its_sender_alone(server: Running, owned: Owned) -> None:
+def test_a_message_too_large_ends_its_sender_alone(server: Running, unchanged: Owned) -> None:
     async def closed_with() -> int:
-        address, protocols = server.stream(owned.id), [websockets.Subprotocol("reina.v1")]
+        address, protocols = server.stream(unchanged.id), [websockets.Subprotocol("reina.v1")]
         async with (
             websockets.connect(address, subprotocols=protocols) as loud,
             websockets.connect(address, subprotocols=protocols) as quiet,

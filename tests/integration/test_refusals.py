@@ -252,7 +252,7 @@ def test_writes_from_other_origins_are_refused(client: httpx.Client) -> None:
 
 def test_names_and_origins_can_be_allowed(tmp_path: Path) -> None:
     allowed = ("--allow-host", "Studio.example", "--allow-origin", "http://localhost:5173")
-    with serve(tmp_path, *allowed) as running, httpx.Client(base_url=running.address) as client:
+    with serve(tmp_path, *allowed) as running, httpx.Client(base_url=running.address, timeout=30) as client:
         assert client.get("/api/v1/health", headers={"Host": "studio.example"}).status_code == 200
         origin = {"Origin": "http://localhost:5173"}
         answer = client.post("/api/v1/sessions", files={"score": ("a.mid", b"?")}, headers=origin)

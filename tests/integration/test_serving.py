@@ -63,7 +63,7 @@ def test_sigterm_ends_it_within_seconds_with_streams_open(tmp_path: Path) -> Non
             await asyncio.wait_for(watcher.socket.wait_closed(), 5)
             return status, watcher.socket.close_code, took_s
 
-    with serve(tmp_path) as running, httpx.Client(base_url=running.address) as client:
+    with serve(tmp_path) as running, httpx.Client(base_url=running.address, timeout=30) as client:
         session = upload(client, scale(), song=("s.wav", song()))
         # One that never reads, too: it must not be waited for.
         host, port = running.address.removeprefix("http://").split(":")
@@ -86,9 +86,9 @@ def test_the_environment_configures_it(tmp_path: Path) -> None:
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     address = process.stdout.readline().strip()
-    assert httpx.get(f"{address}/api/v1/health").json()["status"] == "ok"
+    assert httpx.get(f"{address}/api/v1/health", timeout=30).json()["status"] == "ok"
     process.terminate()
-    assert process.wait(10) == 0
+    assert process.wait(30) == 0
     process.stdout.close()
     assert (tmp_path / "sessions").is_dir()
 
@@ -153,8 +153,8 @@ def test_the_page_stands_at_the_root_and_at_each_session(client: httpx.Client) -
 def test_without_the_page_the_api_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("REINA_PAGE", str(tmp_path / "nowhere"))
     with serve(tmp_path / "data", "--no-page") as running:
-        assert httpx.get(f"{running.api}/health").json()["ready"] is True
-        home = httpx.get(running.address)
+        assert httpx.get(f"{running.api}/health", timeout=30).json()["ready"] is True
+        home = httpx.get(running.address, timeout=30)
     assert home.status_code == 503
     assert "make setup" in home.json()["detail"]
 

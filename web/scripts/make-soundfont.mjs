@@ -43,7 +43,9 @@ for (const preset of bank.presets.filter((preset) => preset.isGMGSDrum && MARCHI
 }
 bank.removeUnusedElements();
 await bank.setSampleFormat({ format: "pcm" });
-const bytes = Buffer.from(bank.writeSF2({ software: MADE_BY, writeDefaultModulators: false, writeExtendedLimits: false }));
+const bytes = Buffer.from(
+  bank.writeSF2({ software: MADE_BY, writeDefaultModulators: false, writeExtendedLimits: false }),
+);
 
 // Beside the target first, then renamed: nobody ever sees half a soundfont.
 await mkdir(dirname(target), { recursive: true });

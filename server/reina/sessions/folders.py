@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import logging
-import os
 import secrets
 import shutil
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from reina.sessions.atomic_write import write_atomically
 from reina.sessions.record import SESSION_ID, SessionRecord
 
 if TYPE_CHECKING:
@@ -86,16 +86,3 @@ class SessionFolders:
         doomed = self._staging / f"{session_id}-{secrets.token_hex(4)}"
         self.folder(session_id).rename(doomed)
         return doomed
-
-
-def write_atomically(path: Path, data: bytes) -> None:
-    """Write a file that is there as a whole or, after a crash, as it was before."""
-    draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    try:
-        with draft.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.sessions.folders import write_atomically
+from reina.sessions.atomic_write import write_atomically
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 from reina.errors import InputError
 from reina.instruments import Cast
 from reina.music import read_score
+from reina.sessions.atomic_write import write_atomically
 from reina.sessions.description import warned
-from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
+from reina.sessions.folders import SCORE, SHOW, SessionFolders
 from reina.sessions.kept_show import KeptShow
 from reina.sessions.production import Production, read_show
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token

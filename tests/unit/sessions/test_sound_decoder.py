@@ -137,3 +137,11 @@ def test_libraries_complaints_go_nowhere(tmp_path: Path) -> None:
     os.close(writing_end)
     assert ended.stderr == b""
     assert ended.stdout.startswith(b'{"format": "MP3"')
+
+
+def test_the_worker_starts_with_no_more_than_it_needs() -> None:
+    """Each song of an upload waits for its start."""
+    program = "import sys, reina.sessions.sound_worker; print(*sys.modules)"
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    layers = {name.split(".")[1] for name in told.stdout.split() if name.startswith("reina.")}
+    assert layers == {"errors", "music", "sessions"}

@@ -41,15 +41,19 @@ let now: number;
 
 function open(listener: Partial<StreamListener> = {}): Stream {
   const silent: StreamListener = { message: () => undefined, frames: () => undefined, connection: () => undefined };
-  return new Stream("ws://page/api/v1/sessions/s/stream", { ...silent, ...listener }, {
-    now: () => now,
-    random: () => 0.5,
-    connect: (url, protocol) => {
-      const socket = new HeldSocket(url, protocol);
-      sockets.push(socket);
-      return socket as unknown as WebSocket;
+  return new Stream(
+    "ws://page/api/v1/sessions/s/stream",
+    { ...silent, ...listener },
+    {
+      now: () => now,
+      random: () => 0.5,
+      connect: (url, protocol) => {
+        const socket = new HeldSocket(url, protocol);
+        sockets.push(socket);
+        return socket as unknown as WebSocket;
+      },
     },
-  });
+  );
 }
 
 function socketAt(place: number): HeldSocket {

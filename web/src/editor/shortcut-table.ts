@@ -1,4 +1,5 @@
 /** Everything that a key does in the show's editor; `?` lists it. */
+// prettier-ignore
 export type EditorAction =
   | "undo" | "redo" | "add" | "cameraKey" | "marker" | "all" | "none" | "copy" | "cut" | "paste" | "duplicate" | "remove"
   | "before" | "after" | "nudgeBack" | "nudgeOn" | "frameBack" | "frameOn" | "barBack" | "barOn"
@@ -21,6 +22,7 @@ export interface EditorShortcut {
   readonly needsKeys?: boolean;
 }
 
+// prettier-ignore
 export const EDITOR_SHORTCUTS: readonly EditorShortcut[] = [
   { action: "undo", keys: ["z"], ctrl: true, shown: "Ctrl Z", says: "Undo", everywhere: true, edits: true },
   { action: "redo", keys: ["z"], ctrl: true, shift: true, shown: "Ctrl Shift Z", says: "Redo", everywhere: true, edits: true },

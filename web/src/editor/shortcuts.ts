@@ -1,4 +1,14 @@
-import { addCameraKeys, addKeyHere, copyKeys, cutKeys, duplicateKeys, nudge, pasteKeys, removeKeys, selectAll } from "./commands/keys";
+import {
+  addCameraKeys,
+  addKeyHere,
+  copyKeys,
+  cutKeys,
+  duplicateKeys,
+  nudge,
+  pasteKeys,
+  removeKeys,
+  selectAll,
+} from "./commands/keys";
 import { addMarker, removeMarker } from "./commands/markers";
 import { goToKey, showChosen } from "./commands/places";
 import { muteTrack, soloTrack } from "./commands/tracks";

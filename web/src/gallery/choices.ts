@@ -7,7 +7,8 @@ export type Overrides = Readonly<Record<string, readonly number[]>>;
 export const PARTS: Readonly<Record<string, RegExp | null>> = {
   stage: null,
   "player and instrument": /./,
-  player: /^(skin|lashes|eyes|hair|shirt|blazer|jacket|skirt|trousers|tights|shoes|lapels|pockets|piping|hem|buttons|collar|ribbon|tie)/i,
+  player:
+    /^(skin|lashes|eyes|hair|shirt|blazer|jacket|skirt|trousers|tights|shoes|lapels|pockets|piping|hem|buttons|collar|ribbon|tie)/i,
   head: /^(skin|lashes|eyes|hair)/i,
   uniform: /^(shirt|blazer|jacket|skirt|trousers|tights|shoes|lapels|pockets|piping|hem|buttons|collar|ribbon|tie)/i,
   "body without clothes": /^(skin|lashes|eyes)/i,

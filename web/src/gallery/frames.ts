@@ -53,6 +53,7 @@ export class SessionFrames {
 
 async function openExample(api: ReinaApi): Promise<string> {
   const example = (await api.examples())[0];
-  if (example === undefined) throw new Error("The server has no example; give the gallery a session: /gallery?session=…");
+  if (example === undefined)
+    throw new Error("The server has no example; give the gallery a session: /gallery?session=…");
   return (await api.createSession({ score: await api.file(example.score) })).id;
 }

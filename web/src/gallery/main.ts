@@ -45,7 +45,13 @@ function element<T extends HTMLElement>(id: string, kind: new () => T): T {
   return found;
 }
 
-function addChoice(form: HTMLElement, name: string, options: readonly string[], value: string, pick: (value: string) => void): void {
+function addChoice(
+  form: HTMLElement,
+  name: string,
+  options: readonly string[],
+  value: string,
+  pick: (value: string) => void,
+): void {
   const label = document.createElement("label");
   const select = document.createElement("select");
   select.append(...options.map((option) => new Option(option, option, false, option === value)));
@@ -121,5 +127,6 @@ async function open(): Promise<Gallery> {
 
 open().then(
   (gallery) => (window.gallery = gallery),
-  (error: unknown) => (element("word", HTMLParagraphElement).textContent = error instanceof Error ? error.message : String(error)),
+  (error: unknown) =>
+    (element("word", HTMLParagraphElement).textContent = error instanceof Error ? error.message : String(error)),
 );

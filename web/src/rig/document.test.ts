@@ -36,6 +36,8 @@ describe("resolveRigLink", () => {
   });
 
   it("leaves an absolute link as it stands", () => {
-    expect(resolveRigLink("/files/full.glb", "/api/v1/rigs/trumpet", page)).toBe("http://localhost:8000/files/full.glb");
+    expect(resolveRigLink("/files/full.glb", "/api/v1/rigs/trumpet", page)).toBe(
+      "http://localhost:8000/files/full.glb",
+    );
   });
 });

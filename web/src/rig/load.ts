@@ -58,8 +58,18 @@ export async function loadRig(name: string, url: string, tier: Tier): Promise<Lo
   const model = await (await fetchOk(modelUrl, name)).arrayBuffer();
   const gltf = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).parseAsync(model, "");
 
-  const joints = await bindNodes(gltf, document.joints.map((joint) => joint.node), name, "joints");
-  const parts = await bindNodes(gltf, document.parts.map((part) => part.node), name, "parts");
+  const joints = await bindNodes(
+    gltf,
+    document.joints.map((joint) => joint.node),
+    name,
+    "joints",
+  );
+  const parts = await bindNodes(
+    gltf,
+    document.parts.map((part) => part.node),
+    name,
+    "parts",
+  );
   checkSkeleton(document, joints);
   gltf.scene.traverse((node) => {
     // A skin's bounds are those of its rest pose, which the player leaves.

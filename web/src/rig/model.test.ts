@@ -6,13 +6,15 @@ import { readRigDocument } from "./document";
 import type { LoadedRig } from "./load";
 import { RigModel } from "./model";
 
-const PARAMETERS = ["trumpet/valve/1", "slide/turn", "face/smile", "players/2/trumpet/valve/1", "trumpet/mute"].map((path, i) => ({
-  path,
-  type: "number" as const,
-  offset: 72 + 4 * i,
-  length: 1,
-  blend: true,
-}));
+const PARAMETERS = ["trumpet/valve/1", "slide/turn", "face/smile", "players/2/trumpet/valve/1", "trumpet/mute"].map(
+  (path, i) => ({
+    path,
+    type: "number" as const,
+    offset: 72 + 4 * i,
+    length: 1,
+    blend: true,
+  }),
+);
 const LAYOUT = { name: "player", rig: "figure", joints: ["root", "tip"], offset: 24, root_offset: 56 };
 
 function named(name: string, parent: Object3D): Object3D {

@@ -62,7 +62,9 @@ export class RigModel {
     const places = new Map(rig.document.joints.map((joint, i) => [joint.name, i]));
     const missing = layout.joints.filter((joint) => !places.has(joint));
     if (missing.length > 0) {
-      throw new LayoutError(`Skeleton ${layout.name} has joints that rig ${layout.rig} has not: ${missing.join(", ")}.`);
+      throw new LayoutError(
+        `Skeleton ${layout.name} has joints that rig ${layout.rig} has not: ${missing.join(", ")}.`,
+      );
     }
     this.jointNames = layout.joints;
     this.#nodes = layout.joints.flatMap((joint) => rig.joints[places.get(joint) ?? -1] ?? []);

@@ -14,7 +14,12 @@ function seen(name: string, point: Vector3): Vector3 {
   const preset = findPreset(name);
   if (preset === null) throw new Error(`no preset ${name}`);
   const camera = new PerspectiveCamera((preset.fov * 180) / Math.PI, SHOW_ASPECT, 0.05, 60);
-  aim(camera, { position: new Vector3(...preset.position), target: new Vector3(...preset.target), fov: preset.fov, roll: 0 });
+  aim(camera, {
+    position: new Vector3(...preset.position),
+    target: new Vector3(...preset.target),
+    fov: preset.fov,
+    roll: 0,
+  });
   camera.updateMatrixWorld();
   return point.clone().project(camera);
 }

@@ -16,5 +16,6 @@ const CHUNKS = [
 
 /** Change three.js's shaders, once, before the first of them is compiled. */
 export function sampleInside(): void {
-  for (const name of CHUNKS) ShaderChunk[name] = ShaderChunk[name].replace(/(centroid )?\bvarying\b/g, "centroid varying");
+  for (const name of CHUNKS)
+    ShaderChunk[name] = ShaderChunk[name].replace(/(centroid )?\bvarying\b/g, "centroid varying");
 }

@@ -32,7 +32,9 @@ export class LayoutError extends Error {
 export function floatIndex(offsetBytes: number): number {
   const index = (offsetBytes - HEADER_BYTES) / 4;
   if (!Number.isInteger(index) || index < 0) {
-    throw new LayoutError(`Offset ${offsetBytes} is not that of a float after the ${HEADER_BYTES} bytes of the header.`);
+    throw new LayoutError(
+      `Offset ${offsetBytes} is not that of a float after the ${HEADER_BYTES} bytes of the header.`,
+    );
   }
   return index;
 }

@@ -13,7 +13,11 @@ const WINDOWS: readonly [width: number, height: number][] = [
   [390, 844],
   [844, 390],
 ];
-const PANELS: readonly Insets[] = [NONE, { top: 56, right: 0, bottom: 190, left: 0 }, { top: 0, right: 320, bottom: 160, left: 0 }];
+const PANELS: readonly Insets[] = [
+  NONE,
+  { top: 56, right: 0, bottom: 190, left: 0 },
+  { top: 0, right: 320, bottom: 160, left: 0 },
+];
 
 /** Where the corners of the part that is kept of the show's frame fall in a window, pixels from its top left. */
 function frameCorners(fov: number, width: number, height: number, insets: Insets): Vector3[] {

@@ -1,6 +1,14 @@
 /** How the players look: lit as cloth and metal are or drawn in flat tones, and what the brass is finished with. */
 
-import { Color, type DataTexture, type Material, Mesh, MeshStandardMaterial, type Object3D, type PerspectiveCamera } from "three";
+import {
+  Color,
+  type DataTexture,
+  type Material,
+  Mesh,
+  MeshStandardMaterial,
+  type Object3D,
+  type PerspectiveCamera,
+} from "three";
 
 import { createOutline, createTones, drawSurface, outlineUniforms } from "./toon";
 

@@ -57,7 +57,10 @@ function measurePixel(now: () => number): number | null {
   const gl = canvas.getContext("webgl2", { antialias: false, powerPreference: "high-performance" });
   if (gl === null) return null;
   const program = gl.createProgram();
-  for (const [type, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]] as const) {
+  for (const [type, source] of [
+    [gl.VERTEX_SHADER, VERTEX],
+    [gl.FRAGMENT_SHADER, FRAGMENT],
+  ] as const) {
     const shader = compile(gl, type, source);
     if (shader !== null) gl.attachShader(program, shader);
   }
@@ -90,4 +93,3 @@ export function measureTier(handheld: boolean): Tier {
   const nanoseconds = measurePixel(() => performance.now());
   return nanoseconds === null ? "low" : tierOf(nanoseconds, handheld);
 }
-

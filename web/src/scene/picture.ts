@@ -65,7 +65,8 @@ export class Picture {
 
   constructor(renderer: WebGLRenderer, tier: TierSettings) {
     this.#renderer = renderer;
-    const wide = renderer.extensions.has("EXT_color_buffer_float") || renderer.extensions.has("EXT_color_buffer_half_float");
+    const wide =
+      renderer.extensions.has("EXT_color_buffer_float") || renderer.extensions.has("EXT_color_buffer_half_float");
     if (!tier.bloom || !wide) {
       this.#gathered = null;
       return;
@@ -81,7 +82,12 @@ export class Picture {
     this.#composite.defines = tier.depthOfField ? { FOCUS: "" } : {};
     for (let level = 0; level < LEVELS; level++) {
       this.#levels.push(
-        new WebGLRenderTarget(16, 16, { type: HalfFloatType, depthBuffer: false, minFilter: LinearFilter, magFilter: LinearFilter }),
+        new WebGLRenderTarget(16, 16, {
+          type: HalfFloatType,
+          depthBuffer: false,
+          minFilter: LinearFilter,
+          magFilter: LinearFilter,
+        }),
       );
     }
   }

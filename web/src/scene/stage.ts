@@ -135,9 +135,7 @@ export class Stage {
    */
   async load(hello: Hello, rigUrl: (name: string) => string): Promise<void> {
     const load = ++this.#loads;
-    const rigs = await Promise.all(
-      hello.skeletons.map(({ rig }) => loadRig(rig, rigUrl(rig), this.#tierName)),
-    );
+    const rigs = await Promise.all(hello.skeletons.map(({ rig }) => loadRig(rig, rigUrl(rig), this.#tierName)));
     if (load !== this.#loads || this.#disposed) return;
     const parameters = new ParameterIndex(hello.parameters);
     const models = rigs.flatMap((rig, i) => {

@@ -1,6 +1,15 @@
 /** How skin, cloth and metal of a model take the stage's light: by the names of their materials. */
 
-import { BackSide, Color, DoubleSide, Mesh, MeshPhysicalMaterial, MeshStandardMaterial, type Object3D, ShaderChunk } from "three";
+import {
+  BackSide,
+  Color,
+  DoubleSide,
+  Mesh,
+  MeshPhysicalMaterial,
+  MeshStandardMaterial,
+  type Object3D,
+  ShaderChunk,
+} from "three";
 
 import type { TierSettings } from "./tiers";
 
@@ -72,7 +81,8 @@ export function dressSurfaces(model: Object3D, tier: TierSettings): void {
     node.castShadow = node.receiveShadow = tier.shadowMapSize > 0;
     const { material } = node as Mesh;
     // Thin cloth would shade itself: its far side casts the shadow.
-    if ((material as MeshStandardMaterial).side === DoubleSide) (material as MeshStandardMaterial).shadowSide = BackSide;
+    if ((material as MeshStandardMaterial).side === DoubleSide)
+      (material as MeshStandardMaterial).shadowSide = BackSide;
     if (!tier.softSurfaces || !(material instanceof MeshStandardMaterial)) return;
     const dress = DRESSES.find(([name]) => name.test(material.name))?.[1];
     if (dress === undefined) return;

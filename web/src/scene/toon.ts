@@ -91,14 +91,20 @@ outgoingLight = banded;
 function drawMetal(material: MeshStandardMaterial): MeshStandardMaterial {
   const metal = material.clone();
   metal.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader.replace("#include <opaque_fragment>", `${BANDS}\n#include <opaque_fragment>`);
+    program.fragmentShader = program.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      `${BANDS}\n#include <opaque_fragment>`,
+    );
   };
   metal.customProgramCacheKey = () => "drawn metal";
   return metal;
 }
 
 /** The drawn counterpart of a surface. */
-export function drawSurface(material: MeshStandardMaterial, tones: DataTexture): MeshStandardMaterial | MeshToonMaterial {
+export function drawSurface(
+  material: MeshStandardMaterial,
+  tones: DataTexture,
+): MeshStandardMaterial | MeshToonMaterial {
   if (material.metalness > 0.5) return drawMetal(material);
   const { color, map, side, transparent, alphaTest, name, vertexColors } = material;
   const drawn = new MeshToonMaterial({ color, map, side, transparent, alphaTest, vertexColors, gradientMap: tones });
@@ -108,7 +114,10 @@ export function drawSurface(material: MeshStandardMaterial, tones: DataTexture):
   const tint = SHADES.find(([pattern]) => pattern.test(name))?.[1] ?? [1, 1, 1];
   const light = gather(tint) + (/^hair/i.test(name) ? HAIR_RING : "");
   drawn.onBeforeCompile = (program) => {
-    program.fragmentShader = program.fragmentShader.replace("#include <opaque_fragment>", `${light}\n#include <opaque_fragment>`);
+    program.fragmentShader = program.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      `${light}\n#include <opaque_fragment>`,
+    );
   };
   drawn.customProgramCacheKey = () => `drawn ${light}`;
   return drawn;

@@ -62,7 +62,9 @@ async function isShow(file: File): Promise<boolean> {
     const document: unknown = JSON.parse(await file.text());
     if (typeof document !== "object" || document === null || !("tracks" in document)) return false;
     const { tracks } = document;
-    const ofNotes = Array.isArray(tracks) && tracks.some((track: unknown) => typeof track === "object" && track !== null && "notes" in track);
+    const ofNotes =
+      Array.isArray(tracks) &&
+      tracks.some((track: unknown) => typeof track === "object" && track !== null && "notes" in track);
     return !ofNotes && !["notes", "parts", "header"].some((key) => key in document);
   } catch {
     return false;

@@ -32,7 +32,10 @@ describe("placeIn", () => {
   });
 
   it("agrees with a search one by one", () => {
-    const notes = Array.from({ length: 40 }, (_, number) => ({ onset_s: number * 0.7, duration_s: 0.1 + (number % 5) * 0.12 }));
+    const notes = Array.from({ length: 40 }, (_, number) => ({
+      onset_s: number * 0.7,
+      duration_s: 0.1 + (number % 5) * 0.12,
+    }));
     for (let time = 0.005; time < 30; time += 0.13) {
       const first = notes.findIndex(({ onset_s, duration_s }) => onset_s + duration_s > time);
       expect(placeIn(notes, time).first).toBe(first === -1 ? notes.length : first);

@@ -93,7 +93,10 @@ export class Reina {
   async openFiles(files: Iterable<File>): Promise<void> {
     const sorted = await sortFiles(files);
     if (sorted.unknown.length > 0) {
-      this.problem(`${sorted.unknown.join(", ")} cannot be used`, "Drop a MIDI or JSON score, and an audio file if you have one.");
+      this.problem(
+        `${sorted.unknown.join(", ")} cannot be used`,
+        "Drop a MIDI or JSON score, and an audio file if you have one.",
+      );
     }
     const { score, song, show } = sorted;
     if (score !== null) await this.#make(`Reading ${score.name}`, () => withoutNull(score, sorted));

@@ -1,4 +1,13 @@
-import { FrameQueue, ProblemError, songTimeAt, Stream, streamAddress, type QueuedFrame, type ReinaApi, type StreamState } from "../connection";
+import {
+  FrameQueue,
+  ProblemError,
+  songTimeAt,
+  Stream,
+  streamAddress,
+  type QueuedFrame,
+  type ReinaApi,
+  type StreamState,
+} from "../connection";
 import type {
   Hello,
   Score,

@@ -40,11 +40,20 @@ describe("shortcuts", () => {
     expect(shortcutOf(press(" "), true)?.action).toBe("toggle");
   });
 
-  it.each([SHORTCUTS, STAGE_SHORTCUTS])("gives every key press one meaning, and every action a hint", (...shortcuts) => {
-    const presses = shortcuts.flatMap(({ keys, shift }) => keys.map((key) => `${shift === true ? "Shift " : ""}${key}`));
-    expect(new Set(presses).size).toBe(presses.length);
-    for (const { action, says } of shortcuts) expect(hint(action)).toContain(says);
-    expect(hint("mute", "Sound off")).toBe("Sound off (M)");
-    expect([ariaKeys("toggle"), ariaKeys("barBack"), ariaKeys("faster")]).toEqual(["Space", "Shift+ArrowLeft", "Plus"]);
-  });
+  it.each([SHORTCUTS, STAGE_SHORTCUTS])(
+    "gives every key press one meaning, and every action a hint",
+    (...shortcuts) => {
+      const presses = shortcuts.flatMap(({ keys, shift }) =>
+        keys.map((key) => `${shift === true ? "Shift " : ""}${key}`),
+      );
+      expect(new Set(presses).size).toBe(presses.length);
+      for (const { action, says } of shortcuts) expect(hint(action)).toContain(says);
+      expect(hint("mute", "Sound off")).toBe("Sound off (M)");
+      expect([ariaKeys("toggle"), ariaKeys("barBack"), ariaKeys("faster")]).toEqual([
+        "Space",
+        "Shift+ArrowLeft",
+        "Plus",
+      ]);
+    },
+  );
 });

@@ -43,6 +43,7 @@ export interface Shortcut {
   readonly repeats?: boolean;
 }
 
+// prettier-ignore
 export const SHORTCUTS: readonly Shortcut[] = [
   { action: "toggle", keys: [" ", "k"], shown: "Space", says: "Play or pause", controls: true },
   { action: "back", keys: ["ArrowLeft"], shown: "←", says: "Two seconds back", controls: true, repeats: true },

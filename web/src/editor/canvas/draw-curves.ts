@@ -73,7 +73,13 @@ export function drawCurve(context: CanvasRenderingContext2D, place: CurvesPlace,
   });
 }
 
-function nameLine(context: CanvasRenderingContext2D, place: CurvesPlace, shown: CurvedTrack, component: number, name: string): void {
+function nameLine(
+  context: CanvasRenderingContext2D,
+  place: CurvesPlace,
+  shown: CurvedTrack,
+  component: number,
+  name: string,
+): void {
   const { curve } = shown;
   if (name === "" || curve === null) return;
   const values = curve.values[component] ?? [];
@@ -124,8 +130,18 @@ export function drawCurveKeys(
 }
 
 /** A handle, on its thread. Song times, seconds. */
-export function drawHandle(context: CanvasRenderingContext2D, place: CurvesPlace, shown: CurvedTrack, handle: Handle, at: Placed, hangsOn: Placed): void {
-  const point = (each: Placed): [number, number] => [(each.time - place.from) * place.scale, yOf(place, shown, each.value)];
+export function drawHandle(
+  context: CanvasRenderingContext2D,
+  place: CurvesPlace,
+  shown: CurvedTrack,
+  handle: Handle,
+  at: Placed,
+  hangsOn: Placed,
+): void {
+  const point = (each: Placed): [number, number] => [
+    (each.time - place.from) * place.scale,
+    yOf(place, shown, each.value),
+  ];
   const [x, y] = point(at);
   context.strokeStyle = INK.soft;
   context.lineWidth = 1;

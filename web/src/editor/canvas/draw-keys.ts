@@ -44,7 +44,12 @@ export function drawPlainKeys(context: CanvasRenderingContext2D, view: KeysView,
 }
 
 /** Draw a row's chosen keyframes, where `placing` takes them; null where they rest. */
-export function drawChosenKeys(context: CanvasRenderingContext2D, view: KeysView, row: KeyRow, placing: Placing | null): void {
+export function drawChosenKeys(
+  context: CanvasRenderingContext2D,
+  view: KeysView,
+  row: KeyRow,
+  placing: Placing | null,
+): void {
   if (row.chosen === null) return;
   const flags = chosenFlags(row.track, row.chosen);
   // What is moved may come from outside of the screen.
@@ -53,7 +58,17 @@ export function drawChosenKeys(context: CanvasRenderingContext2D, view: KeysView
   context.strokeStyle = INK.paper;
   context.lineWidth = 1.5;
   const size = row.small ? DIAMOND - 1.5 : DIAMOND + 1;
-  drawMarks(context, view, { ...row, isColor: false }, size, first, beyond, (index) => flags[index] === 1, placing, true);
+  drawMarks(
+    context,
+    view,
+    { ...row, isColor: false },
+    size,
+    first,
+    beyond,
+    (index) => flags[index] === 1,
+    placing,
+    true,
+  );
 }
 
 function drawMarks(

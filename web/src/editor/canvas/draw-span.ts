@@ -18,7 +18,10 @@ export function drawSpan(context: CanvasRenderingContext2D, from: number, to: nu
 }
 
 /** Draw the box that chooses keyframes. */
-export function drawBox(context: CanvasRenderingContext2D, box: { x0: number; y0: number; x1: number; y1: number }): void {
+export function drawBox(
+  context: CanvasRenderingContext2D,
+  box: { x0: number; y0: number; x1: number; y1: number },
+): void {
   const [x, y] = [Math.min(box.x0, box.x1), Math.min(box.y0, box.y1)];
   const [w, h] = [Math.abs(box.x1 - box.x0), Math.abs(box.y1 - box.y0)];
   context.fillStyle = INK.brassWash;

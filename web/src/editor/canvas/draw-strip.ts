@@ -5,7 +5,13 @@ import type { KeysView } from "./draw-keys";
 const THICK = 8;
 
 /** Draw what a colour's track gives over time, as the server has sampled it, along its row. */
-export function drawStrip(context: CanvasRenderingContext2D, view: KeysView, curve: SampledCurve, y: number, silent: boolean): void {
+export function drawStrip(
+  context: CanvasRenderingContext2D,
+  view: KeysView,
+  curve: SampledCurve,
+  y: number,
+  silent: boolean,
+): void {
   const [red = [], green = [], blue = []] = curve.values;
   const step = red.length > 1 ? (curve.to - curve.from) / (red.length - 1) : 0;
   if (step <= 0) return;

@@ -21,7 +21,8 @@ export function gridLines(score: Score, axis: TimeAxis, from: number, to: number
   const found: GridLine[] = [];
   const offset = firstBarNumber(score);
   const middle = (from + to) / 2;
-  const barPixels = axis.barLengthAt(axis.beatsAt(middle)) * (axis.secondsAt(axis.beatsAt(middle) + 1) - middle) * scale;
+  const barPixels =
+    axis.barLengthAt(axis.beatsAt(middle)) * (axis.secondsAt(axis.beatsAt(middle) + 1) - middle) * scale;
   const step = 2 ** Math.max(Math.ceil(Math.log2(NUMBER_GAP / Math.max(barPixels, 1e-6))), 0);
   for (let index = first; index < lines.length && found.length < MOST_LINES; index += 1) {
     const time = lines[index] ?? 0;

@@ -84,7 +84,9 @@ function short(value: number): number {
 }
 
 export function selectAll(editor: Editor): void {
-  editor.selection.set(editor.known.flatMap(({ parameter, keyframes }) => keyframes.map(({ key }) => [parameter, key] as const)));
+  editor.selection.set(
+    editor.known.flatMap(({ parameter, keyframes }) => keyframes.map(({ key }) => [parameter, key] as const)),
+  );
   editor.said = `${editor.selection.size} keyframes chosen`;
 }
 
@@ -114,7 +116,8 @@ export function pasteKeys(editor: Editor, at = editor.playhead, from = clipboard
   if (document === null || from === null) return;
   const source = from.tracks[0] === undefined ? null : editor.parameter(from.tracks[0].parameter);
   const target = editor.active === null ? null : editor.parameter(editor.active);
-  const onto = ontoActive && from.tracks.length === 1 && target !== null && target.type === source?.type ? target.path : null;
+  const onto =
+    ontoActive && from.tracks.length === 1 && target !== null && target.type === source?.type ? target.path : null;
   const { edits, keys } = pasted(editor.axis, editor.times, document, from, at, onto);
   editor.edit(counted(keys.length, "pasted"), edits);
   editor.selection.set(keys);

@@ -18,8 +18,22 @@ interface KeyHit {
 }
 
 type Held =
-  | { readonly kind: "key"; readonly hit: KeyHit; readonly begin: Press; readonly alone: boolean; moved: boolean; time: number; by: number }
-  | { readonly kind: "handle"; readonly shown: CurvedTrack; readonly handle: Handle; readonly begin: Press; edit: Edit | null };
+  | {
+      readonly kind: "key";
+      readonly hit: KeyHit;
+      readonly begin: Press;
+      readonly alone: boolean;
+      moved: boolean;
+      time: number;
+      by: number;
+    }
+  | {
+      readonly kind: "handle";
+      readonly shown: CurvedTrack;
+      readonly handle: Handle;
+      readonly begin: Press;
+      edit: Edit | null;
+    };
 
 const REACH = 10;
 const REACH_TOUCH = 20;
@@ -83,7 +97,8 @@ export class CurveGestures {
     this.#held = null;
     this.#editor.moving = null;
     if (held === null) return;
-    const edits = held.kind === "handle" ? (held.edit === null ? [] : [held.edit]) : held.moved ? this.#keyEdits(held) : [];
+    const edits =
+      held.kind === "handle" ? (held.edit === null ? [] : [held.edit]) : held.moved ? this.#keyEdits(held) : [];
     this.#view.release(edits.length > 0);
     if (held.kind === "key" && !held.moved && held.alone) {
       this.#editor.selection.set([[held.hit.shown.track.parameter, held.hit.key]]);
@@ -105,7 +120,10 @@ export class CurveGestures {
     const { moving, axis } = this.#editor;
     const time = moving === null ? at.time : placed(axis, moving, at.time);
     const held = this.#moves >= 0 ? this.#held : null;
-    const lifted = held?.kind === "key" && held.hit.shown.track.parameter === shown.track.parameter && held.hit.component === component;
+    const lifted =
+      held?.kind === "key" &&
+      held.hit.shown.track.parameter === shown.track.parameter &&
+      held.hit.component === component;
     return { time, value: at.value + (lifted ? held.by : 0) };
   }
 
@@ -115,7 +133,8 @@ export class CurveGestures {
     if (!shown.active || held?.kind === "key") return [];
     const chosen = this.#editor.selection.byTrack.get(shown.track.parameter);
     if (chosen === undefined) return [];
-    const { track } = held?.kind === "handle" && held.edit !== null ? { track: this.#draft(shown, [held.edit]) } : shown;
+    const { track } =
+      held?.kind === "handle" && held.edit !== null ? { track: this.#draft(shown, [held.edit]) } : shown;
     const unit = this.#editor.times.unitOf(track);
     const songTime = (time: number) => this.#editor.axis.toSongTime(unit, time);
     return handlesOf(track, shown.parameter, chosen).map((handle) => ({
@@ -170,14 +189,19 @@ export class CurveGestures {
     const { axis, chosen } = this.#editor;
     const retiming = movedBy(axis, hit.at.time, time);
     const { parameter } = hit.shown;
-    const keyframes = Object.fromEntries([...byTrack(chosen)].map(([track, keys]) => [track.parameter, keys.map(({ key }) => key)]));
+    const keyframes = Object.fromEntries(
+      [...byTrack(chosen)].map(([track, keys]) => [track.parameter, keys.map(({ key }) => key)]),
+    );
     const lifted = by === 0 ? [] : chosen.filter(({ track }) => track.parameter === parameter.path);
     const values = lifted.map(({ keyframe }): Edit => {
       const value = withComponent(parameter, keyframe.value, hit.component, by);
       return { edit: "change_keyframe", parameter: parameter.path, key: keyframe.key, changes: { value } };
     });
     if (retiming.by === 0) return values;
-    return [...values, { edit: "move_keyframes", keyframes, time: "beats", by: retiming.by, stretch: { about: 0, factor: 1 } }];
+    return [
+      ...values,
+      { edit: "move_keyframes", keyframes, time: "beats", by: retiming.by, stretch: { about: 0, factor: 1 } },
+    ];
   }
 
   #draft(shown: CurvedTrack, edits: readonly Edit[]) {

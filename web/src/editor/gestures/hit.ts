@@ -61,7 +61,9 @@ function hitSpan(editor: Editor, x: number, reach: number): Hit | null {
 function hitKeys(editor: Editor, row: Row, x: number, reach: number): Hit | null {
   const at = editor.window.timeAt(x);
   const within = reach / editor.window.scale;
-  const tracks = (row.kind === "track" ? [row.track] : row.tracks).filter(({ parameter }) => editor.parameter(parameter) !== null);
+  const tracks = (row.kind === "track" ? [row.track] : row.tracks).filter(
+    ({ parameter }) => editor.parameter(parameter) !== null,
+  );
   let best: number | null = null;
   for (const track of tracks) {
     const times = editor.times.of(track);
@@ -79,7 +81,9 @@ function keysAt(editor: Editor, track: ShowTrack, time: number): KeyName[] {
   const index = nearest(times, time);
   const found = times[index];
   const key = track.keyframes[index]?.key;
-  return found === undefined || key === undefined || Math.abs(found - time) > TOGETHER_S ? [] : [[track.parameter, key]];
+  return found === undefined || key === undefined || Math.abs(found - time) > TOGETHER_S
+    ? []
+    : [[track.parameter, key]];
 }
 
 /** The keys in a box: song times and content rows, in pixels from the first row's upper edge. */

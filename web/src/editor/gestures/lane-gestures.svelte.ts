@@ -27,10 +27,23 @@ export interface Box {
 
 type Gesture =
   | { readonly kind: "seek"; readonly seeking: Seeking }
-  | { readonly kind: "keys"; readonly anchor: number; readonly begin: Press; readonly alone: readonly KeyName[] | null; moved: boolean }
+  | {
+      readonly kind: "keys";
+      readonly anchor: number;
+      readonly begin: Press;
+      readonly alone: readonly KeyName[] | null;
+      moved: boolean;
+    }
   | { readonly kind: "stretch"; readonly held: number; readonly from: number }
   | { readonly kind: "marker"; readonly index: number; readonly begin: Press; moved: boolean }
-  | { readonly kind: "box"; readonly begin: Press; readonly from: number; readonly top: number; readonly hit: Hit; moved: boolean }
+  | {
+      readonly kind: "box";
+      readonly begin: Press;
+      readonly from: number;
+      readonly top: number;
+      readonly hit: Hit;
+      moved: boolean;
+    }
   | { readonly kind: "pan"; readonly begin: Press; readonly hit: Hit | null; last: Press; moved: boolean };
 
 /** From here on a press is a drag, pixels. */
@@ -107,14 +120,18 @@ export class LaneGestures {
         gesture.seeking.to(this.#editor.snap(window.timeAt(press.x), press.alt, 5));
         break;
       case "keys":
-        if (this.#hasMoved(gesture, press) && this.#editor.editable) this.#moveKeys(gesture.anchor, gesture.begin, press);
+        if (this.#hasMoved(gesture, press) && this.#editor.editable)
+          this.#moveKeys(gesture.anchor, gesture.begin, press);
         break;
       case "stretch":
         this.#editor.moving = this.#stretching(gesture, press);
         break;
       case "marker":
         if (this.#hasMoved(gesture, press) && this.#editor.editable) {
-          this.heldMarker = { index: gesture.index, time: this.#editor.snap(Math.max(window.timeAt(press.x), 0), press.alt) };
+          this.heldMarker = {
+            index: gesture.index,
+            time: this.#editor.snap(Math.max(window.timeAt(press.x), 0), press.alt),
+          };
         }
         break;
       case "box":
@@ -149,7 +166,8 @@ export class LaneGestures {
         break;
       case "marker":
         if (this.heldMarker !== null) moveMarker(this.#editor, gesture.index, this.heldMarker.time);
-        else if (this.#editor.view.canControl) void this.#editor.view.seek(this.#editor.markerTimes[gesture.index] ?? 0);
+        else if (this.#editor.view.canControl)
+          void this.#editor.view.seek(this.#editor.markerTimes[gesture.index] ?? 0);
         this.heldMarker = null;
         break;
       case "box":
@@ -173,9 +191,16 @@ export class LaneGestures {
   }
 
   /** The wheel: along the time with Shift or sideways, up and down the rows; with Ctrl, or by a pinch, it zooms. */
-  wheel(event: { deltaX: number; deltaY: number; ctrlKey: boolean; metaKey: boolean; shiftKey: boolean }, x: number, y: number): void {
+  wheel(
+    event: { deltaX: number; deltaY: number; ctrlKey: boolean; metaKey: boolean; shiftKey: boolean },
+    x: number,
+    y: number,
+  ): void {
     const { window } = this.#editor;
-    if (event.ctrlKey || event.metaKey) { window.zoom(Math.exp(-event.deltaY * 0.004), x); return; }
+    if (event.ctrlKey || event.metaKey) {
+      window.zoom(Math.exp(-event.deltaY * 0.004), x);
+      return;
+    }
     const alongTime = event.shiftKey || y < headHeight(this.#layout());
     if (event.deltaX !== 0) window.pan(event.deltaX);
     if (alongTime) window.pan(event.deltaY);
@@ -261,7 +286,12 @@ export class LaneGestures {
     const head = headHeight(this.#layout());
     if (press.y > this.#bottom - EDGE) this.#scroll(8);
     else if (press.y < head + EDGE) this.#scroll(-8);
-    this.box = { x0: window.xOf(gesture.from), y0: gesture.top + head - scrollTop, x1: press.x, y1: Math.max(press.y, head) };
+    this.box = {
+      x0: window.xOf(gesture.from),
+      y0: gesture.top + head - scrollTop,
+      x1: press.x,
+      y1: Math.max(press.y, head),
+    };
   }
 
   #chooseBox(gesture: Gesture & { kind: "box" }, press: Press): void {

@@ -23,7 +23,8 @@ export function componentsOf(parameter: ShowParameter, value: unknown): readonly
 
 /** A value as a show writes it, with some of its components moved; held within the parameter's range. */
 export function withComponent(parameter: ShowParameter, value: unknown, component: number, by: number): unknown {
-  const [low, high] = parameter.type === "color" ? [0, 1] : [parameter.minimum ?? -Infinity, parameter.maximum ?? Infinity];
+  const [low, high] =
+    parameter.type === "color" ? [0, 1] : [parameter.minimum ?? -Infinity, parameter.maximum ?? Infinity];
   const moved = componentsOf(parameter, value).map((each, index) =>
     index === component ? Number(Math.min(Math.max(each + by, low), high).toFixed(6)) : Number(each.toFixed(6)),
   );

@@ -21,12 +21,17 @@ describe("a curve's handles", () => {
     expect(start).toMatchObject({ kind: "start", key: "k2", time: 3, value: 10, at: { time: 2, value: 10 } });
     expect(end).toMatchObject({ kind: "end", key: "k2", time: 4, value: 22, at: { time: 6, value: 20 } });
     if (start === undefined) throw new Error("there is no handle");
-    expect(handleEdit(bent, number, start, 4, 15)).toMatchObject({ key: "k2", changes: { handles: [0.5, 0.5, 0.5, 1.2] } });
+    expect(handleEdit(bent, number, start, 4, 15)).toMatchObject({
+      key: "k2",
+      changes: { handles: [0.5, 0.5, 0.5, 1.2] },
+    });
     expect(handleEdit(bent, number, start, 99, 15)).toMatchObject({ changes: { handles: [1, 0.5, 0.5, 1.2] } });
   });
 
   it("of a Bézier hang on the component that goes furthest", () => {
-    expect(handlesOf(track("cubic_bezier", [0, 0, 0], [1, -5, 2]), vector, chosen).map(({ component }) => component)).toEqual([1, 1]);
+    expect(
+      handlesOf(track("cubic_bezier", [0, 0, 0], [1, -5, 2]), vector, chosen).map(({ component }) => component),
+    ).toEqual([1, 1]);
   });
 
   it("of a spline are its slopes, and are set by them", () => {

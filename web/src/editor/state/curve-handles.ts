@@ -25,7 +25,8 @@ export function handlesOf(track: ShowTrack, parameter: ShowParameter, chosen: Re
     const previous = track.keyframes[index - 1];
     if (previous === undefined || !(chosen.has(previous.key) || chosen.has(next.key))) return [];
     if (next.interpolation === "cubic_bezier") return bezierHandles(parameter, previous, next);
-    if (next.interpolation === "cubic_spline" && parameter.type !== "color") return slopeHandles(parameter, previous, next);
+    if (next.interpolation === "cubic_spline" && parameter.type !== "color")
+      return slopeHandles(parameter, previous, next);
     return [];
   });
 }
@@ -58,13 +59,26 @@ function slopeHandles(parameter: ShowParameter, previous: ShowKeyframe, next: Sh
         value: from + out * third,
         at: { time: previous.time, value: from },
       },
-      { kind: "in", key: next.key, component, time: next.time - third, value: to - into * third, at: { time: next.time, value: to } },
+      {
+        kind: "in",
+        key: next.key,
+        component,
+        time: next.time - third,
+        value: to - into * third,
+        at: { time: next.time, value: to },
+      },
     ];
   });
 }
 
 /** The edit that takes a handle to another place; null where it cannot go there. */
-export function handleEdit(track: ShowTrack, parameter: ShowParameter, handle: Handle, time: number, value: number): Edit | null {
+export function handleEdit(
+  track: ShowTrack,
+  parameter: ShowParameter,
+  handle: Handle,
+  time: number,
+  value: number,
+): Edit | null {
   const index = track.keyframes.findIndex(({ key }) => key === handle.key);
   const keyframe = track.keyframes[index];
   if (keyframe === undefined) return null;
@@ -91,12 +105,17 @@ export function handleEdit(track: ShowTrack, parameter: ShowParameter, handle: H
   const place = handle.kind === "start" ? 0 : 2;
   const handles = [...(keyframe.handles ?? USUAL)];
   handles[place] = tidy(Math.min(Math.max((time - previous.time) / (keyframe.time - previous.time), 0), 1));
-  if (Math.abs(to - from) > LEAST) handles[place + 1] = tidy(Math.min(Math.max((value - from) / (to - from), -100), 100));
+  if (Math.abs(to - from) > LEAST)
+    handles[place + 1] = tidy(Math.min(Math.max((value - from) / (to - from), -100), 100));
   return change({ handles });
 }
 
 /** All components of a Bézier keep one pace: its handles are shown on the one that goes furthest. */
-function steepest(parameter: ShowParameter, previous: ShowKeyframe, next: ShowKeyframe): { component: number; from: number; to: number } {
+function steepest(
+  parameter: ShowParameter,
+  previous: ShowKeyframe,
+  next: ShowKeyframe,
+): { component: number; from: number; to: number } {
   const [begins, ends] = [componentsOf(parameter, previous.value), componentsOf(parameter, next.value)];
   const ways = begins.map((from, index) => Math.abs((ends[index] ?? 0) - from));
   const component = Math.max(ways.indexOf(Math.max(...ways)), 0);

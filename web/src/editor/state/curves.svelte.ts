@@ -45,11 +45,20 @@ export class CurveReader {
   }
 
   /** The curve of a track as it would be; nothing is kept. */
-  async preview(track: ShowTrack, from: number, to: number, points: number, signal?: AbortSignal): Promise<SampledCurve | null> {
+  async preview(
+    track: ShowTrack,
+    from: number,
+    to: number,
+    points: number,
+    signal?: AbortSignal,
+  ): Promise<SampledCurve | null> {
     if (this.#token === null) return null;
     const address = this.#api.sessionPath(this.#session, `show/curves?${spanQuery(from, to, points).toString()}`);
     const asked = { json: { track }, token: this.#token, ...(signal === undefined ? {} : { signal }) };
-    return byPath((await (await this.#api.request("POST", address, asked)).json()) as ShowCurves).get(track.parameter) ?? null;
+    return (
+      byPath((await (await this.#api.request("POST", address, asked)).json()) as ShowCurves).get(track.parameter) ??
+      null
+    );
   }
 }
 

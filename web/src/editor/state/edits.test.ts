@@ -59,26 +59,53 @@ describe("edits, as the page shows them until the server has answered", () => {
   });
 
   it("stretch about one end, and make slopes flatter along", () => {
-    const sloped: ShowDocument = { ...document, tracks: [{ parameter: "a", keyframes: [key("k1", 0), key("k2", 1, { in_tangent: 2 })] }] };
-    const edit = { edit: "move_keyframes", keyframes: { a: ["k1", "k2"] }, time: "beats", by: 0, stretch: { about: 0, factor: 2 } } as const;
+    const sloped: ShowDocument = {
+      ...document,
+      tracks: [{ parameter: "a", keyframes: [key("k1", 0), key("k2", 1, { in_tangent: 2 })] }],
+    };
+    const edit = {
+      edit: "move_keyframes",
+      keyframes: { a: ["k1", "k2"] },
+      time: "beats",
+      by: 0,
+      stretch: { about: 0, factor: 2 },
+    } as const;
     const stretched = withEdits(sloped, [edit], axis);
     expect(times(stretched, "a")).toEqual(["k1 0", "k2 2"]);
     expect(stretched.tracks[0]?.keyframes[1]?.in_tangent).toBe(1);
   });
 
   it("drop an interpolation's options with it, and keep slopes", () => {
-    const bent = { ...document, tracks: [{ parameter: "a", keyframes: [key("k1", 0, { handles: [0, 0, 1, 1], out_tangent: 3 })] }] };
-    const edited = withEdits(bent, [{ edit: "change_keyframe", parameter: "a", key: "k1", changes: { interpolation: "quad_in" } }], axis);
+    const bent = {
+      ...document,
+      tracks: [{ parameter: "a", keyframes: [key("k1", 0, { handles: [0, 0, 1, 1], out_tangent: 3 })] }],
+    };
+    const edited = withEdits(
+      bent,
+      [{ edit: "change_keyframe", parameter: "a", key: "k1", changes: { interpolation: "quad_in" } }],
+      axis,
+    );
     expect(edited.tracks[0]?.keyframes[0]).toEqual(key("k1", 0, { interpolation: "quad_in", out_tangent: 3 }));
   });
 
   it("leave keyframes where they are in the music when a track counts anew", () => {
-    const edited = withEdits(document, [{ edit: "change_track", parameter: "a", changes: { time: "seconds", muted: null } }], axis);
+    const edited = withEdits(
+      document,
+      [{ edit: "change_track", parameter: "a", changes: { time: "seconds", muted: null } }],
+      axis,
+    );
     expect(times(edited, "a")).toEqual(["k1 0", "k2 2", "k3 4"]);
   });
 
   it("are overwritten by what the server answers", () => {
-    const answered = withTracks(document, [{ parameter: "b", keyframes: [] }, { parameter: "c", keyframes: [] }], ["a"]);
+    const answered = withTracks(
+      document,
+      [
+        { parameter: "b", keyframes: [] },
+        { parameter: "c", keyframes: [] },
+      ],
+      ["a"],
+    );
     expect(answered.tracks.map(({ parameter }) => parameter)).toEqual(["b", "c"]);
   });
 });

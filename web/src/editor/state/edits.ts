@@ -21,7 +21,10 @@ export type Edit =
   | { readonly edit: "put_track"; readonly track: ShowTrack }
   | { readonly edit: "change_track"; readonly parameter: string; readonly changes: Changes }
   | { readonly edit: "remove_track"; readonly parameter: string }
-  | { readonly edit: "change_show"; readonly changes: { readonly title?: string; readonly markers?: readonly ShowMarker[] } };
+  | {
+      readonly edit: "change_show";
+      readonly changes: { readonly title?: string; readonly markers?: readonly ShowMarker[] };
+    };
 
 /** What every keyframe has, whatever its interpolation: all else are options of the one it has. */
 const KEYFRAME_FIELDS = ["key", "time", "value", "interpolation", "in_tangent", "out_tangent"];
@@ -53,7 +56,8 @@ class Draft {
   make(edit: Edit): void {
     switch (edit.edit) {
       case "add_keyframe":
-        if (!this.#tracks.has(edit.parameter)) this.#tracks.set(edit.parameter, { parameter: edit.parameter, keyframes: [] });
+        if (!this.#tracks.has(edit.parameter))
+          this.#tracks.set(edit.parameter, { parameter: edit.parameter, keyframes: [] });
         this.#keysOf(edit.parameter).set(edit.keyframe.key, edit.keyframe);
         break;
       case "change_keyframe": {
@@ -67,10 +71,16 @@ class Draft {
         break;
       case "move_keyframes":
         for (const [path, keys] of Object.entries(edit.keyframes)) {
-          const moved = retimedKeyframes(this.#axis, this.#unitOf(path), [...this.#keysOf(path).values()], new Set(keys), {
-            ...edit.stretch,
-            by: edit.by,
-          });
+          const moved = retimedKeyframes(
+            this.#axis,
+            this.#unitOf(path),
+            [...this.#keysOf(path).values()],
+            new Set(keys),
+            {
+              ...edit.stretch,
+              by: edit.by,
+            },
+          );
           this.#keyed.set(path, new Map(moved.map((keyframe) => [keyframe.key, keyframe])));
         }
         break;

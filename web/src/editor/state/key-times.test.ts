@@ -4,7 +4,10 @@ import type { ShowTrack } from "./show-document";
 import { TimeAxis } from "./time-axis";
 
 const axis = new TimeAxis({ tempi: [{ onset_beats: 0, onset_s: 0, bpm: 60 }], bar_lines_s: [0, 4, 8] });
-const track: ShowTrack = { parameter: "a", keyframes: [0, 0.5, 2].map((time, index) => ({ key: `k${index}`, time, value: 0 })) };
+const track: ShowTrack = {
+  parameter: "a",
+  keyframes: [0, 0.5, 2].map((time, index) => ({ key: `k${index}`, time, value: 0 })),
+};
 
 describe("song times of keyframes", () => {
   it("follow the track's unit, or the show's", () => {

@@ -25,7 +25,12 @@ function retimed(axis: TimeAxis, unit: TimeUnit, keyframe: ShowKeyframe, retimin
   const stretched = slopes.flatMap((name) => {
     const slope = keyframe[name];
     if (slope === undefined) return [];
-    return [[name, typeof slope === "number" ? slope / retiming.factor : slope.map((part) => part / retiming.factor)] as const];
+    return [
+      [
+        name,
+        typeof slope === "number" ? slope / retiming.factor : slope.map((part) => part / retiming.factor),
+      ] as const,
+    ];
   });
   return { ...keyframe, time, ...Object.fromEntries(stretched) };
 }

@@ -3,8 +3,15 @@ import { groupOf, nameInGroup, rowsOf } from "./rows";
 
 it("rows are groups by the first word, with the tracks of open ones", () => {
   const track = (parameter: string) => ({ parameter, keyframes: [] });
-  const document = { version: 1, title: "", time: "bars" as const, tracks: ["camera/fov", "blocks/color", "camera/roll"].map(track) };
-  const named = rowsOf(document, new Set(["blocks"])).map((row) => (row.kind === "group" ? `[${row.name}]` : row.track.parameter));
+  const document = {
+    version: 1,
+    title: "",
+    time: "bars" as const,
+    tracks: ["camera/fov", "blocks/color", "camera/roll"].map(track),
+  };
+  const named = rowsOf(document, new Set(["blocks"])).map((row) =>
+    row.kind === "group" ? `[${row.name}]` : row.track.parameter,
+  );
   expect(named).toEqual(["[camera]", "camera/fov", "camera/roll", "[blocks]"]);
 });
 

@@ -15,7 +15,11 @@ const shown = (...keyframes: ReturnType<typeof key>[]): ShowDocument => ({
   time: "bars",
   tracks: [{ parameter: FOV, keyframes }],
 });
-const add = (name: string, time: number): Edit => ({ edit: "add_keyframe", parameter: FOV, keyframe: key(name, time, 1) });
+const add = (name: string, time: number): Edit => ({
+  edit: "add_keyframe",
+  parameter: FOV,
+  keyframe: key(name, time, 1),
+});
 
 /** A server with one show: it makes edits as the page expects them, refuses stale ones, and can be out of reach. */
 class Server {
@@ -37,12 +41,17 @@ class Server {
     this.undo += 1;
   }
 
-  readonly request = async (method: string, path: string, options: { json?: unknown; ifMatch?: string } = {}): Promise<Response> => {
+  readonly request = async (
+    method: string,
+    path: string,
+    options: { json?: unknown; ifMatch?: string } = {},
+  ): Promise<Response> => {
     await Promise.resolve();
     this.asked.push(`${method} ${path}`);
     const fail = (status: number) => new ProblemError({ status, title: `status ${status}`, detail: "", errors: [] });
     if (!this.reached) throw fail(0);
-    if (path === "show/history") return Response.json({ revision: this.revision, etag: this.etag, undo: this.undo, redo: 0 });
+    if (path === "show/history")
+      return Response.json({ revision: this.revision, etag: this.etag, undo: this.undo, redo: 0 });
     if (method === "GET") return Response.json(this.document, { headers: { ETag: this.etag } });
     if (options.ifMatch !== this.etag) throw fail(412);
     if (this.refuses !== null) throw fail(this.refuses);

@@ -43,7 +43,10 @@ export class ChainFigure implements Figure {
     this.#gizmos = chain.joints.map(() => new Gizmo(2));
     const size = 0.045 * chain.reach_m;
     this.handle = new Mesh(new SphereGeometry(size, 24, 16), new MeshBasicMaterial({ color: PAPER }));
-    this.#ring = new Mesh(new RingGeometry(1.5 * size, 1.85 * size, 40), new MeshBasicMaterial({ color: BRASS, side: 2 }));
+    this.#ring = new Mesh(
+      new RingGeometry(1.5 * size, 1.85 * size, 40),
+      new MeshBasicMaterial({ color: BRASS, side: 2 }),
+    );
     this.#gap = thickLine(RIBBON, 2, { dash: [0.02 * chain.reach_m, 0.014 * chain.reach_m] });
     this.#trail = thickLine(PAPER, 1.5, { opacity: 0.7 });
     this.#trail.visible = false;

@@ -164,7 +164,12 @@ export class Fan {
     this.object.add(this.#surface, this.#rim, this.#needle);
   }
 
-  set(origin: readonly number[], directions: readonly (readonly number[])[], present: readonly number[], radius: number): void {
+  set(
+    origin: readonly number[],
+    directions: readonly (readonly number[])[],
+    present: readonly number[],
+    radius: number,
+  ): void {
     const at = (direction: readonly number[]): number[] =>
       [0, 1, 2].map((i) => (origin[i] ?? 0) + (direction[i] ?? 0) * radius);
     const rim = directions.flatMap(at);

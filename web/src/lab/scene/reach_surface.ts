@@ -1,6 +1,15 @@
 /** The plane of a reach map: what is reached is tinted, what is not is hatched. */
 
-import { CanvasTexture, DoubleSide, Matrix4, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace } from "three";
+import {
+  CanvasTexture,
+  DoubleSide,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  NearestFilter,
+  PlaneGeometry,
+  SRGBColorSpace,
+} from "three";
 
 import type { ReachCells } from "../../generated/lab";
 import { DUSK, RIBBON } from "./palette";

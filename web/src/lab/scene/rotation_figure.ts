@@ -99,7 +99,13 @@ export class RotationFigure implements Figure {
   constructor() {
     const glass = new Mesh(
       new SphereGeometry(0.995, 64, 40),
-      new MeshStandardMaterial({ color: "#1d2434", roughness: 0.22, transparent: true, opacity: 0.34, depthWrite: false }),
+      new MeshStandardMaterial({
+        color: "#1d2434",
+        roughness: 0.22,
+        transparent: true,
+        opacity: 0.34,
+        depthWrite: false,
+      }),
     );
     this.object.add(glass, thinLines(graticule(), PAPER, 0.13), ...this.#ends.map((gizmo) => gizmo.object));
   }
@@ -109,7 +115,11 @@ export class RotationFigure implements Figure {
     const tips = this.#answer?.ways.flatMap((way) => way.tip) ?? [];
     const from = [0, 1, 2].map((i) => tips.reduce((sum, tip) => sum + (tip[i] ?? 0), 0) / Math.max(tips.length, 1));
     const level = Math.hypot(from[0] ?? 0, from[2] ?? 0);
-    return { centre: [0, 0, 0], radius: 1.28, from: level < 0.05 ? [0.9, 0.6, 1.6] : [from[0] ?? 0, 0.4 * level + 0.3 * (from[1] ?? 0), from[2] ?? 0] };
+    return {
+      centre: [0, 0, 0],
+      radius: 1.28,
+      from: level < 0.05 ? [0.9, 0.6, 1.6] : [from[0] ?? 0, 0.4 * level + 0.3 * (from[1] ?? 0), from[2] ?? 0],
+    };
   }
 
   /** Take over an answer of the server. */

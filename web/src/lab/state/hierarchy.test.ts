@@ -4,7 +4,9 @@ import { channelsInWords, hierarchy } from "./hierarchy";
 
 describe("hierarchy", () => {
   it("tells channels in the file's order", () => {
-    expect(channelsInWords(["Xposition", "Yposition", "Zposition", "Zrotation", "Xrotation", "Yrotation"])).toBe("pos XYZ · rot ZXY");
+    expect(channelsInWords(["Xposition", "Yposition", "Zposition", "Zrotation", "Xrotation", "Yrotation"])).toBe(
+      "pos XYZ · rot ZXY",
+    );
     expect(channelsInWords(["Yrotation"])).toBe("rot Y");
     expect(channelsInWords([])).toBe("");
   });

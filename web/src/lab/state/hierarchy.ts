@@ -18,7 +18,9 @@ export function channelsInWords(channels: readonly string[]): string {
       .join("");
   const position = letters("position");
   const rotation = letters("rotation");
-  return [position === "" ? "" : `pos ${position}`, rotation === "" ? "" : `rot ${rotation}`].filter((part) => part !== "").join(" · ");
+  return [position === "" ? "" : `pos ${position}`, rotation === "" ? "" : `rot ${rotation}`]
+    .filter((part) => part !== "")
+    .join(" · ");
 }
 
 /** A clip's joints, children under their parents in the file's order. End sites are left out. */

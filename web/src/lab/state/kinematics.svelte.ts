@@ -23,12 +23,24 @@ export interface SolverLook {
 }
 
 export const SOLVERS: Record<SolverName, SolverLook> = {
-  coupled_three_bone: { label: "Three bones, tip alone (κ)", says: "Closed form: the last joint bends with the one before it, θ3 = κ θ2." },
-  planar_three_bone: { label: "Three bones with φ", says: "Closed form: the last bone's direction φ is given. All angles are zero where there is no solution." },
-  two_bone: { label: "Two bones", says: "Closed form: elbow or knee is a hinge, and swings about the line to the target." },
+  coupled_three_bone: {
+    label: "Three bones, tip alone (κ)",
+    says: "Closed form: the last joint bends with the one before it, θ3 = κ θ2.",
+  },
+  planar_three_bone: {
+    label: "Three bones with φ",
+    says: "Closed form: the last bone's direction φ is given. All angles are zero where there is no solution.",
+  },
+  two_bone: {
+    label: "Two bones",
+    says: "Closed form: elbow or knee is a hinge, and swings about the line to the target.",
+  },
   ccd: { label: "CCD", says: "Round by round, each joint from the end on turns the end toward the target." },
   fabrik: { label: "FABRIK", says: "Round by round, points are pulled along lines, forward and back; joints follow." },
-  damped_least_squares: { label: "Damped least squares", says: "Round by round, a step by the Jacobian, damped while the end is far." },
+  damped_least_squares: {
+    label: "Damped least squares",
+    says: "Round by round, a step by the Jacobian, damped while the end is far.",
+  },
 };
 
 const ITERATIVE: readonly SolverName[] = ["ccd", "fabrik", "damped_least_squares"];
@@ -172,7 +184,9 @@ export class Kinematics {
     const { rig, name, hinges } = this.chain;
     const within = angles.map((angle, i) => {
       const hinge = hinges[i];
-      return hinge === undefined || !this.limits ? angle : Math.min(Math.max(angle, hinge.minimum_rad), hinge.maximum_rad);
+      return hinge === undefined || !this.limits
+        ? angle
+        : Math.min(Math.max(angle, hinge.minimum_rad), hinge.maximum_rad);
     });
     this.wanted = within;
     this.#forward.put({ rig, chain: name, angles_rad: within, limits: this.limits });

@@ -36,7 +36,12 @@ describe("createBlockGeometry", () => {
   it("is closed: every edge has two sides", () => {
     const edges = new Set<string>();
     for (const [a, b, c] of triangles(geometry)) {
-      for (const [from, to] of [[a, b], [b, c], [c, a]] as const) edges.add(`${from}-${to}`);
+      for (const [from, to] of [
+        [a, b],
+        [b, c],
+        [c, a],
+      ] as const)
+        edges.add(`${from}-${to}`);
     }
     for (const edge of edges) {
       const [from, to] = edge.split("-");

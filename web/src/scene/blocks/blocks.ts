@@ -14,14 +14,7 @@ import type { ScoreView } from "../score";
 import { createBlockGeometry, createCardGeometry, createLineGeometry } from "./block_geometry";
 import { LANE, createLaneUniforms } from "./lane";
 import { type Chunk, layOut } from "./layout";
-import {
-  BLOCK_FRAGMENT,
-  BLOCK_VERTEX,
-  HALO_FRAGMENT,
-  HALO_VERTEX,
-  LINE_FRAGMENT,
-  LINE_VERTEX,
-} from "./shaders";
+import { BLOCK_FRAGMENT, BLOCK_VERTEX, HALO_FRAGMENT, HALO_VERTEX, LINE_FRAGMENT, LINE_VERTEX } from "./shaders";
 import { STAFF_LINES } from "./staff";
 
 /** Longer than any piece, seconds: the staff has no end. */
@@ -35,7 +28,11 @@ interface DrawnChunk {
   readonly object: Group;
 }
 
-function withColumns(shape: InstancedBufferGeometry, name: string, columns: InstancedBufferAttribute): InstancedBufferGeometry {
+function withColumns(
+  shape: InstancedBufferGeometry,
+  name: string,
+  columns: InstancedBufferAttribute,
+): InstancedBufferGeometry {
   const geometry = shape.clone();
   geometry.setAttribute(name, columns);
   geometry.instanceCount = columns.count;

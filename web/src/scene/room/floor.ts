@@ -54,7 +54,12 @@ export function createFloor(light: RoomLight, mirror: FloorMirror | null, feet: 
   const geometry = new PlaneGeometry(2 * ROOM.halfWidth, depth).rotateX(-Math.PI / 2);
   geometry.translate(0, 0, (ROOM.front + ROOM.back) / 2);
   const material = createSurface(
-    { color: 0x6b4630, roughness: mirror === null ? 0.5 : 0.62, metalness: 0, envMapIntensity: mirror === null ? 0.45 : 0.7 },
+    {
+      color: 0x6b4630,
+      roughness: mirror === null ? 0.5 : 0.62,
+      metalness: 0,
+      envMapIntensity: mirror === null ? 0.45 : 0.7,
+    },
     light,
     {
       declarations: PLANKS + FOOT_SHADE + (mirror === null ? "" : REFLECTION),
@@ -67,7 +72,11 @@ export function createFloor(light: RoomLight, mirror: FloorMirror | null, feet: 
             light: `float grazing = 1.0 - saturate(dot(normal, geometryViewDir));
               float glint = (0.035 + 0.55 * pow(grazing, 4.0)) * (1.0 - plankSeam);
               outgoingLight += glint * reflectedRoom(vRoomPlace, 0.55 + 0.5 * plankTone);`,
-            uniforms: { ...feet.uniforms, mirrorImage: { value: mirror.texture }, mirrorMatrix: { value: mirror.matrix } },
+            uniforms: {
+              ...feet.uniforms,
+              mirrorImage: { value: mirror.texture },
+              mirrorMatrix: { value: mirror.matrix },
+            },
           }),
     },
   );

@@ -1,13 +1,6 @@
 /** Music stands and chairs: a row on the riser, and a few left about the room. */
 
-import {
-  BoxGeometry,
-  type BufferGeometry,
-  CylinderGeometry,
-  InstancedMesh,
-  type Material,
-  Matrix4,
-} from "three";
+import { BoxGeometry, type BufferGeometry, CylinderGeometry, InstancedMesh, type Material, Matrix4 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import { type Patch } from "./contact_shade";
@@ -83,7 +76,9 @@ function chairGeometry(): BufferGeometry {
 function place(geometry: BufferGeometry, material: Material, places: readonly Place[]): InstancedMesh {
   const mesh = new InstancedMesh(geometry, material, places.length);
   const matrix = new Matrix4();
-  places.forEach(([x, z, heading, y = 0], i) => mesh.setMatrixAt(i, matrix.makeRotationY(heading).setPosition(x, y, z)));
+  places.forEach(([x, z, heading, y = 0], i) =>
+    mesh.setMatrixAt(i, matrix.makeRotationY(heading).setPosition(x, y, z)),
+  );
   mesh.castShadow = true;
   mesh.receiveShadow = true;
   mesh.computeBoundingSphere();

@@ -13,7 +13,15 @@ const COPPER = 0x5f4532;
 const SKIN = 0xe3d8c1;
 const STEEL = 0x5d5f63;
 
-function box(width: number, height: number, depth: number, x: number, y: number, z: number, hex: number): BufferGeometry {
+function box(
+  width: number,
+  height: number,
+  depth: number,
+  x: number,
+  y: number,
+  z: number,
+  hex: number,
+): BufferGeometry {
   return painted(new BoxGeometry(width, height, depth).translate(x, y, z), hex);
 }
 
@@ -44,12 +52,19 @@ function kettledrum(diameter: number): BufferGeometry[] {
   });
   const legs = [0.6, 2.7, 4.8].map((turn) =>
     painted(
-      new CylinderGeometry(0.016, 0.02, 0.6, 8).translate(0, 0.3, 0).rotateX(0.12).translate(0, 0, r * 0.7).rotateY(turn),
+      new CylinderGeometry(0.016, 0.02, 0.6, 8)
+        .translate(0, 0.3, 0)
+        .rotateX(0.12)
+        .translate(0, 0, r * 0.7)
+        .rotateY(turn),
       STEEL,
     ),
   );
   const lugs = Array.from({ length: 8 }, (_, i) =>
-    painted(new CylinderGeometry(0.009, 0.009, 0.22, 6).translate(r + 0.012, 0.67, 0).rotateY((i * Math.PI) / 4), STEEL),
+    painted(
+      new CylinderGeometry(0.009, 0.009, 0.22, 6).translate(r + 0.012, 0.67, 0).rotateY((i * Math.PI) / 4),
+      STEEL,
+    ),
   );
   return [
     painted(new LatheGeometry(bowl, 36), COPPER),
@@ -66,9 +81,16 @@ function shelves(): BufferGeometry[] {
   const boards = [0.06, 0.6, 1.14, 1.68].map((y) => box(1.3, 0.035, 0.42, 0, y, 0.21, oak));
   const sides = [-0.65, 0.65].map((x) => box(0.035, 1.7, 0.42, x, 0.85, 0.21, oak));
   const cases = [
-    [-0.42, 0.2, 0.34, 0.26, 0x1d1d20], [-0.05, 0.19, 0.3, 0.22, 0x2c2019], [0.36, 0.24, 0.42, 0.34, 0x16181d],
-    [-0.36, 0.74, 0.5, 0.24, 0x25211f], [0.2, 0.72, 0.52, 0.2, 0x191b20], [0.52, 0.76, 0.14, 0.28, 0x4a1f1f],
-    [-0.3, 1.26, 0.6, 0.2, 0x1f1b19], [0.3, 1.28, 0.4, 0.24, 0x23262c], [-0.35, 1.8, 0.44, 0.2, 0x1b1b1d], [0.28, 1.79, 0.5, 0.18, 0x33251b],
+    [-0.42, 0.2, 0.34, 0.26, 0x1d1d20],
+    [-0.05, 0.19, 0.3, 0.22, 0x2c2019],
+    [0.36, 0.24, 0.42, 0.34, 0x16181d],
+    [-0.36, 0.74, 0.5, 0.24, 0x25211f],
+    [0.2, 0.72, 0.52, 0.2, 0x191b20],
+    [0.52, 0.76, 0.14, 0.28, 0x4a1f1f],
+    [-0.3, 1.26, 0.6, 0.2, 0x1f1b19],
+    [0.3, 1.28, 0.4, 0.24, 0x23262c],
+    [-0.35, 1.8, 0.44, 0.2, 0x1b1b1d],
+    [0.28, 1.79, 0.5, 0.18, 0x33251b],
   ] as const;
   return [...boards, ...sides, ...cases.map(([x, y, width, height, hex]) => box(width, height, 0.34, x, y, 0.22, hex))];
 }

@@ -26,6 +26,13 @@ export function noticeBoard(x: number, y: number): BufferGeometry[] {
     painted(new BoxGeometry(width, height, 0.002).rotateZ(turn).translate(x + dx, y + dy, ROOM.back + 0.02), hex),
   );
   // What the poster says, as far as it can be read from the stage.
-  const words = [0.2, 0.12, -0.16].map((dy, i) => onBackWall(i === 0 ? 0.34 : 0.24, i === 0 ? 0.07 : 0.025, 0.001, x + 0.02, y + 0.04 + dy, 0xe2c98a, 0.022));
-  return [onBackWall(WIDTH, HEIGHT, 0.015, x, y, CORK), ...frame(WIDTH, HEIGHT, 0.05, 0.03, x, y, DARK_WOOD), ...sheets, ...words];
+  const words = [0.2, 0.12, -0.16].map((dy, i) =>
+    onBackWall(i === 0 ? 0.34 : 0.24, i === 0 ? 0.07 : 0.025, 0.001, x + 0.02, y + 0.04 + dy, 0xe2c98a, 0.022),
+  );
+  return [
+    onBackWall(WIDTH, HEIGHT, 0.015, x, y, CORK),
+    ...frame(WIDTH, HEIGHT, 0.05, 0.03, x, y, DARK_WOOD),
+    ...sheets,
+    ...words,
+  ];
 }

@@ -11,12 +11,28 @@ export const CREAM = 0xe4dcc8;
 export const BRASS = 0x9c7a3a;
 
 /** A box with its middle at x, y and its back on the wall behind, metres. */
-export function onBackWall(width: number, height: number, depth: number, x: number, y: number, hex: number, out = 0): BufferGeometry {
+export function onBackWall(
+  width: number,
+  height: number,
+  depth: number,
+  x: number,
+  y: number,
+  hex: number,
+  out = 0,
+): BufferGeometry {
   return painted(new BoxGeometry(width, height, depth).translate(x, y, ROOM.back + out + depth / 2), hex);
 }
 
 /** A frame of four bars about an opening. */
-export function frame(width: number, height: number, bar: number, depth: number, x: number, y: number, hex: number): BufferGeometry[] {
+export function frame(
+  width: number,
+  height: number,
+  bar: number,
+  depth: number,
+  x: number,
+  y: number,
+  hex: number,
+): BufferGeometry[] {
   return [-1, 1].flatMap((side) => [
     onBackWall(bar, height + 2 * bar, depth, x + (side * (width + bar)) / 2, y, hex),
     onBackWall(width, bar, depth, x, y + (side * (height + bar)) / 2, hex),

@@ -37,13 +37,23 @@ const RADIANCE = {
 const EYE = new Vector3(0, 1.3, 0.4);
 
 function panel(width: number, height: number, color: Color): Mesh {
-  return new Mesh(new PlaneGeometry(width, height), new MeshBasicMaterial({ color, toneMapped: false, side: DoubleSide }));
+  return new Mesh(
+    new PlaneGeometry(width, height),
+    new MeshBasicMaterial({ color, toneMapped: false, side: DoubleSide }),
+  );
 }
 
 function box(): Mesh {
   const depth = ROOM.front - ROOM.back;
   const geometry = new BoxGeometry(2 * ROOM.halfWidth, ROOM.height, depth);
-  const sides = [RADIANCE.coolWall, RADIANCE.warmWall, RADIANCE.ceiling, RADIANCE.floor, RADIANCE.frontWall, RADIANCE.backWall];
+  const sides = [
+    RADIANCE.coolWall,
+    RADIANCE.warmWall,
+    RADIANCE.ceiling,
+    RADIANCE.floor,
+    RADIANCE.frontWall,
+    RADIANCE.backWall,
+  ];
   const materials = sides.map((color) => new MeshBasicMaterial({ color, toneMapped: false, side: BackSide }));
   const mesh = new Mesh(geometry, materials);
   mesh.position.set(0, ROOM.height / 2, (ROOM.front + ROOM.back) / 2);

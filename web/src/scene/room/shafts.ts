@@ -1,6 +1,15 @@
 /** Air in the sun: faint sheets of light from the windows into the room, as thick as the show's fog. */
 
-import { AdditiveBlending, BufferGeometry, type Color, DoubleSide, Float32BufferAttribute, Mesh, ShaderMaterial, type Vector3 } from "three";
+import {
+  AdditiveBlending,
+  BufferGeometry,
+  type Color,
+  DoubleSide,
+  Float32BufferAttribute,
+  Mesh,
+  ShaderMaterial,
+  type Vector3,
+} from "three";
 
 import { ROOM, WINDOWS } from "./plan";
 import { PLAYER_SHIFT } from "./window_light";

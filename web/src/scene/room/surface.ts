@@ -1,6 +1,12 @@
 /** Floor and walls: a standard material that takes the key through the windows and the other lights gently. */
 
-import { type Color, MeshStandardMaterial, type MeshStandardMaterialParameters, ShaderChunk, type Vector3 } from "three";
+import {
+  type Color,
+  MeshStandardMaterial,
+  type MeshStandardMaterialParameters,
+  ShaderChunk,
+  type Vector3,
+} from "three";
 
 import { ROOM } from "./plan";
 import { WINDOW_LIGHT } from "./window_light";
@@ -70,7 +76,11 @@ export function createSurface(
 ): MeshStandardMaterial {
   const material = new MeshStandardMaterial(parameters);
   material.onBeforeCompile = (program) => {
-    Object.assign(program.uniforms, { toKey: { value: light.toKey }, backWash: { value: light.washed } }, shader.uniforms);
+    Object.assign(
+      program.uniforms,
+      { toKey: { value: light.toKey }, backWash: { value: light.washed } },
+      shader.uniforms,
+    );
     program.vertexShader = program.vertexShader
       .replace("#include <common>", "#include <common>\nvarying vec3 vRoomPlace;")
       .replace("#include <project_vertex>", `#include <project_vertex>\n${PLACE}`);
@@ -79,7 +89,10 @@ export function createSurface(
       .replace("#include <color_fragment>", `#include <color_fragment>\n${shader.color ?? ""}`)
       .replace("#include <roughnessmap_fragment>", `#include <roughnessmap_fragment>\n${shader.roughness ?? ""}`)
       .replace("#include <lights_fragment_begin>", `keyShare = windowLight(vRoomPlace, toKey);\n${LIGHTS}`)
-      .replace("#include <opaque_fragment>", `outgoingLight += diffuseColor.rgb * washLight(vRoomPlace);\n${shader.light ?? ""}\n#include <opaque_fragment>`);
+      .replace(
+        "#include <opaque_fragment>",
+        `outgoingLight += diffuseColor.rgb * washLight(vRoomPlace);\n${shader.light ?? ""}\n#include <opaque_fragment>`,
+      );
   };
   const source = [shader.declarations, shader.color, shader.roughness, shader.light].join();
   material.customProgramCacheKey = () => source;

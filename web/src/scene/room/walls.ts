@@ -1,6 +1,16 @@
 /** Walls, panelling and tall windows. */
 
-import { BufferGeometry, type Color, Group, Mesh, PlaneGeometry, ShaderMaterial, UniformsLib, UniformsUtils, type Vector3 } from "three";
+import {
+  BufferGeometry,
+  type Color,
+  Group,
+  Mesh,
+  PlaneGeometry,
+  ShaderMaterial,
+  UniformsLib,
+  UniformsUtils,
+  type Vector3,
+} from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import { PANELLING, ROOM, WINDOWS } from "./plan";
