@@ -5,7 +5,7 @@ export const SAMPLE_MANIFEST: Manifest = {
   protocol: "reina.v1",
   fps: 60,
   frame_size: 96,
-  skeletons: [{ name: "player", rig: "trumpeter", joints: ["hips", "spine"], offset: 24, root_offset: 56 }],
+  skeletons: [{ name: "player", player: 0, rig: "trumpeter", joints: ["hips", "spine"], offset: 24, root_offset: 56 }],
   parameters: [
     { path: "lights/key/intensity", type: "number", offset: 72, length: 1, blend: true },
     { path: "camera/shot", type: "choice", offset: 76, length: 1, blend: false },

@@ -15,7 +15,7 @@ const PARAMETERS = ["trumpet/valve/1", "slide/turn", "face/smile", "players/2/tr
     blend: true,
   }),
 );
-const LAYOUT = { name: "player", rig: "figure", joints: ["root", "tip"], offset: 24, root_offset: 56 };
+const LAYOUT = { name: "player", player: 0, rig: "figure", joints: ["root", "tip"], offset: 24, root_offset: 56 };
 
 function named(name: string, parent: Object3D): Object3D {
   const node = new Object3D();

@@ -9,8 +9,8 @@ const MANIFEST: Manifest = {
   fps: 60,
   frame_size: 136,
   skeletons: [
-    { name: "player", rig: "trumpeter", joints: ["hips", "spine"], offset: 24, root_offset: 72 },
-    { name: "trumpet", rig: "trumpet", joints: ["trumpet"], offset: 56, root_offset: 84 },
+    { name: "player", player: 0, rig: "trumpeter", joints: ["hips", "spine"], offset: 24, root_offset: 72 },
+    { name: "trumpet", player: 0, rig: "trumpet", joints: ["trumpet"], offset: 56, root_offset: 84 },
   ],
   parameters: [
     { path: "camera/position", type: "vector", offset: 96, length: 3, blend: true },

@@ -15,6 +15,8 @@ function note(onset: number, duration: number, pitch = 70): WireNote {
     velocity: 0.8,
     valves: [],
     reason: "",
+    fingering: { type: "valves", valves: [] },
+    player: 0,
     in_played_part: true,
   };
 }
