@@ -13,3 +13,13 @@ def end_with_parent() -> None:
     while os.read(sys.stdin.fileno(), 1):
         pass
     os._exit(2)
+
+
+def bound_memory(most_bytes: int) -> None:
+    """Hold the process to so much address space, most of it libraries; what wants more fails."""
+    try:
+        import resource
+    except ImportError:  # not on Windows
+        return
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (most_bytes, hard))

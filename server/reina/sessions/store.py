@@ -11,24 +11,24 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
-from reina.music import read_score
 from reina.sessions.description import warned
 from reina.sessions.folders import SCORE, SHOW, SessionFolders, write_atomically
 from reina.sessions.kept_show import KeptShow
-from reina.sessions.production import PLAYER, Production, read_show
+from reina.sessions.production import PLAYER
+from reina.sessions.reader import Playing, Reader
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
-from reina.sessions.session import DECIDES_THE_SOUND, Session
+from reina.sessions.session import DECIDES_THE_SOUND, Session, note_messages
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.sound_decoder import SongDecoder
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Sequence
-    from contextlib import AbstractContextManager
     from pathlib import Path
 
-    from reina.keyframes import Show, ShowHistory
-    from reina.music import Score
-    from reina.sessions.production import Stage
+    from reina.keyframes import ShowHistory
+    from reina.sessions.note_messages import NoteMessages
+    from reina.sessions.production import Production, Stage
+    from reina.sessions.session_index import Entry
     from reina.sessions.sound import SongRenderer
 
 SONG_CACHE_BYTES = 2_000_000_000
@@ -89,7 +89,8 @@ class Draft:
 class SessionStore:
     """Makes, finds, keeps and ends sessions.
 
-    Reading and planning happen on threads; sessions themselves live on the event loop.
+    Reading, planning and writing happen on threads and in processes; sessions themselves live on the event
+    loop.
 
     Args:
         data_dir: Where sessions and rendered songs are kept.
@@ -99,6 +100,7 @@ class SessionStore:
         loaded: How many sessions are kept in memory.
         song_cache_bytes: How large the rendered songs may be together.
         decoder: Tells what uploaded songs are.
+        reader: Reads scores and shows.
     """
 
     def __init__(
@@ -111,8 +113,10 @@ class SessionStore:
         loaded: int = LOADED,
         song_cache_bytes: int = SONG_CACHE_BYTES,
         decoder: SongDecoder | None = None,
+        reader: Reader | None = None,
     ) -> None:
         self.stage = stage
+        self.reader = reader or Reader(stage)
         self.decoder = decoder or SongDecoder()
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
@@ -122,15 +126,21 @@ class SessionStore:
         self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
         self._loading: dict[str, asyncio.Task[Session | None]] = {}
+        self._putting_away: dict[str, asyncio.Task[None]] = {}
 
     @property
     def loaded(self) -> int:
         """How many sessions are in memory."""
         return len(self._sessions)
 
-    def staging(self) -> AbstractContextManager[Path]:
+    @asynccontextmanager
+    async def staging(self) -> AsyncGenerator[Path]:
         """A new folder for a draft's files; what is not made a session of is removed at the end."""
-        return self._folders.staging()
+        folder = await asyncio.to_thread(self._folders.stage)
+        try:
+            yield folder
+        finally:
+            await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
 
     async def create(self, draft: Draft) -> tuple[Session, str]:
         """Make a session.
@@ -142,9 +152,16 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
-        score = await asyncio.to_thread(_read_draft, draft)
+        production = await self._plan(draft.folder / draft.score, draft, part=draft.part)
         song = None if draft.song is None else await self._keep_song(draft.folder / draft.song)
-        return self._admit(*await asyncio.to_thread(self._make, draft, score, song, hash_token(token))), token
+        if draft.show is not None:
+            show_file = draft.folder / draft.show
+            show = await self.reader.show(await asyncio.to_thread(show_file.read_bytes))
+            await asyncio.to_thread(show_file.unlink)
+            production = await asyncio.to_thread(production.with_show, show)
+        return self._admit(
+            *await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
+        ), token
 
     async def get(self, session_id: str) -> Session | None:
         """A session, loaded if need be; None where there is none."""
@@ -165,10 +182,9 @@ class SessionStore:
         self._sessions.move_to_end(session_id)
         return session
 
-    async def public(self) -> list[SessionRecord]:
-        """The records of the sessions that are listed, newest first."""
-        records = await asyncio.to_thread(self._folders.records)
-        return [record for record in records if record.public]
+    def listed(self, limit: int, after: str | None = None) -> tuple[list[Entry], str | None]:
+        """Some of the sessions that are listed, newest first; see `SessionIndex.page`."""
+        return self._folders.index.page(limit, after)
 
     async def change(
         self,
@@ -213,16 +229,14 @@ class SessionStore:
             if any(
                 getattr(record, field) != getattr(session.record, field) for field in DECIDES_WHAT_IS_PLAYED
             ):
-                production, kept = await asyncio.to_thread(
-                    self._plan_other, session, record, names_part=part is not None
-                )
+                production, kept = await self._plan_other(session, record, names_part=part is not None)
                 before, after = session.production.score.title, production.score.title
                 titled = {"title": after} if title is None and record.title == before else {}
                 joined = production.played.joined_parts
                 record = record.model_copy(update={"part": production.part, "joined_parts": joined, **titled})
-                session.change_part(record, production)
+                await session.change_part(record, production)
                 if kept is not session.kept_show:
-                    session.change_show(production, kept)
+                    await session.change_show(production, kept)
                     await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
@@ -240,7 +254,7 @@ class SessionStore:
             if kept is not session.kept_show:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
                 # Seen first, then kept: the answer waits for both.
-                session.change_show(production, kept)
+                await session.change_show(production, kept)
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
         return kept
 
@@ -252,8 +266,8 @@ class SessionStore:
         """
         async with self._edit(session):
             del self._sessions[session.id]
-            doomed = self._folders.take_out(session.id)
             session.close()
+            doomed = await asyncio.to_thread(self._folders.take_out, session.id)
         await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
         if session.record.song is None and session.song.path not in self._songs_in_use():
             await asyncio.to_thread(self._renderer.discard, session.song.path)
@@ -271,8 +285,11 @@ class SessionStore:
         for session in list(self._sessions.values()):
             self._put_away(session)
         await self._renderer.aclose()
-        if self._pruning:
-            await asyncio.wait(self._pruning)
+        await self.reader.aclose()
+        for tasks in (self._pruning, self._putting_away.values()):
+            if tasks:
+                await asyncio.wait(tasks)
+        await asyncio.to_thread(self._folders.write_index)
 
     async def _keep_song(self, uploaded: Path) -> SongRecord:
         """Have a song decoded, and give it the name that its format has; its peaks stand beside it."""
@@ -287,19 +304,14 @@ class SessionStore:
         )
 
     def _make(
-        self, draft: Draft, score: Score, song: SongRecord | None, token_sha256: str
-    ) -> tuple[SessionRecord, Production, KeptShow]:
-        show = None
-        if draft.show is not None:
-            show = read_show((draft.folder / draft.show).read_bytes(), self.stage.registry)
-            (draft.folder / draft.show).unlink()
-        production = self._plan(score, show, draft, part=draft.part)
+        self, draft: Draft, production: Production, song: SongRecord | None, token_sha256: str
+    ) -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
         (draft.folder / draft.score).rename(draft.folder / SCORE)
         kept = KeptShow.begin(production.show)
         _write_show(draft.folder, kept)
         record = SessionRecord(
             id=new_id(),
-            title=draft.title or score.title,
+            title=draft.title or production.score.title,
             public=draft.public,
             created_at=created_now(),
             token_sha256=token_sha256,
@@ -315,7 +327,7 @@ class SessionStore:
             song=song,
         )
         self._folders.adopt(draft.folder, record)
-        return record, production, kept
+        return record, production, kept, note_messages(production)
 
     @asynccontextmanager
     async def _edit(self, session: Session) -> AsyncGenerator[None]:
@@ -330,8 +342,11 @@ class SessionStore:
             yield
 
     async def _load(self, session_id: str) -> Session | None:
+        # What was kept of it last is what is read.
+        if session_id in self._putting_away:
+            await asyncio.wait([self._putting_away[session_id]])
         try:
-            read = await asyncio.to_thread(self._read, session_id)
+            read = await self._read(session_id)
         except FileNotFoundError:
             if session_id in self._folders:
                 raise
@@ -339,23 +354,21 @@ class SessionStore:
         # Ended while it was read: it must not come back.
         return self._admit(*read) if session_id in self._folders else None
 
-    def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow]:
-        record = self._folders.record(session_id)
-        score = self._score(record)
-        show = read_show((self._folders.folder(session_id) / SHOW).read_bytes(), self.stage.registry)
-        return record, self._plan(score, show, record, part=record.part), KeptShow.begin(show)
+    async def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+        folder = self._folders.folder(session_id)
+        record = await asyncio.to_thread(self._folders.record, session_id)
+        show = await self.reader.show(await asyncio.to_thread((folder / SHOW).read_bytes))
+        planned = await self._plan(folder / SCORE, record, part=record.part)
 
-    def _score(self, record: SessionRecord) -> Score:
-        data = (self._folders.folder(record.id) / SCORE).read_bytes()
-        return read_score(data, filename=record.score_filename, sequence=record.sequence)
+        def prepared() -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+            production = planned.with_show(show)
+            return record, production, KeptShow.begin(show), note_messages(production)
 
-    def _plan(
-        self, score: Score, show: Show | None, wanted: Draft | SessionRecord, *, part: int | None
-    ) -> Production:
-        return Production.plan(
-            self.stage,
-            score,
-            show,
+        return await asyncio.to_thread(prepared)
+
+    async def _plan(self, score: Path, wanted: Draft | SessionRecord, *, part: int | None) -> Production:
+        """Read a score and plan what is wanted of it, with the show that is written for it."""
+        playing = Playing(
             part=part,
             transposition=wanted.transposition,
             written=wanted.written,
@@ -363,23 +376,26 @@ class SessionStore:
             joined_parts=wanted.joined_parts,
             player=wanted.player,
         )
+        return await self.reader.production(
+            score, filename=wanted.score_filename, sequence=wanted.sequence, playing=playing
+        )
 
-    def _plan_other(
+    async def _plan_other(
         self, session: Session, record: SessionRecord, *, names_part: bool
     ) -> tuple[Production, KeptShow]:
         """Plan what `record` asks for in place of what the session plays."""
         before, kept = session.production, session.kept_show
-        if record.sequence == session.record.sequence:
-            return self._plan(before.score, before.show, record, part=record.part), kept
-        score = self._score(record)
-        another = score.sequence != before.score.sequence
-        show = None if another and before.has_default_show else before.show
+        another = record.sequence not in (None, before.score.sequence)
         part = None if another and not names_part else record.part
-        production = self._plan(score, show, record, part=part)
-        return production, kept.then(lambda history: history.then(production.show)) if show is None else kept
+        planned = await self._plan(self._folders.folder(record.id) / SCORE, record, part=part)
+        if another and await asyncio.to_thread(lambda: before.has_default_show):
+            return planned, await asyncio.to_thread(kept.then, lambda history: history.then(planned.show))
+        return await asyncio.to_thread(planned.with_show, before.show), kept
 
-    def _admit(self, record: SessionRecord, production: Production, kept: KeptShow) -> Session:
-        session = Session(record, production, kept, self._song, now=self._now)
+    def _admit(
+        self, record: SessionRecord, production: Production, kept: KeptShow, notes: NoteMessages
+    ) -> Session:
+        session = Session(record, production, kept, notes, self._song, now=self._now)
         self._sessions[session.id] = session
         self._make_room()
         return session
@@ -410,20 +426,17 @@ class SessionStore:
     def _put_away(self, session: Session) -> None:
         del self._sessions[session.id]
         record = session.record.model_copy(update={"song_time_s": session.clock.state().song_time_s})
-        if record != session.record:
-            self._folders.write_record(record)
         session.close()
+        if record != session.record:
+            writing = asyncio.create_task(asyncio.to_thread(self._folders.write_record, record))
+            self._putting_away[session.id] = writing
+            writing.add_done_callback(lambda _: self._putting_away.pop(session.id, None))
 
 
 def _names_another_part(session: Session, part: int | None, sequence: int | None) -> bool:
     """Whether another part than is played is asked for, or another sequence, whose parts are others."""
     another_sequence = sequence not in (None, session.production.score.sequence)
     return another_sequence or part not in (None, session.record.part)
-
-
-def _read_draft(draft: Draft) -> Score:
-    data = (draft.folder / draft.score).read_bytes()
-    return read_score(data, filename=draft.score_filename, sequence=draft.sequence)
 
 
 def _write_show(folder: Path, kept: KeptShow) -> None:

@@ -40,7 +40,7 @@ class Desk:
         self.store = SessionStore(data_dir, stage, SongRenderer(data_dir), now=self.now, loaded=loaded)
 
     async def create(self, score: bytes, **options: Any) -> Session:
-        with self.store.staging() as folder:
+        async with self.store.staging() as folder:
             (folder / "score").write_bytes(score)
             (folder / "song").write_bytes(song(0.1))
             draft = Draft(folder=folder, score="score", song="song", **options)
