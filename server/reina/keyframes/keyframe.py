@@ -55,11 +55,3 @@ class Keyframe(Generic[T]):
     def fraction(self, previous: "Keyframe[T]", t: NDArray[np.float64]) -> NDArray[np.float64]:
         """How much of the time from `previous` is over: 0 at its time, 1 at this key's; the shape of `t`."""
         return (t - previous.time) / (self.time - previous.time)
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Take over what another process has read (pickle).
-
-        In Python on purpose: between one keyframe and the next another thread can have its turn, where a show
-        of 100,000 would else hold all of them up.
-        """
-        self.__dict__.update(state)

@@ -53,7 +53,11 @@ def receive(file: BinaryIO, shared: Sequence[object] = ()) -> Any:
     """
     (count,) = _COUNT.unpack(_exactly(file, _COUNT.size))
     head = _exactly(file, count * _SIZE.size)
-    body, *buffers = [_piece(file, size, readonly) for size, readonly in _SIZE.iter_unpack(head)]
+    (length, _), *sizes = _SIZE.iter_unpack(head)
+    body = file.read(length)
+    if len(body) < length:
+        raise EOFError("the other process is gone")
+    buffers = [_piece(file, size, readonly) for size, readonly in sizes]
     return _Unpickler(io.BytesIO(body), shared, buffers).load()
 
 
