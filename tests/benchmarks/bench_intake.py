@@ -42,7 +42,7 @@ def main() -> int:
     print(heading(__file__))
     score, show, batch, recording = large_score(240_000), large_show(330_000), large_batch(60_000), large_song(190)
     stranger = b"[" + b"0," * 4_000_000 + b"0]"
-    with tempfile.TemporaryDirectory() as folder, serve(Path(folder), source=options.source) as server:
+    with tempfile.TemporaryDirectory() as folder, serve(Path(folder), "--no-page", source=options.source) as server:
         with httpx.Client(base_url=server.address, timeout=300) as client:
             watched = upload(client, scale(600), song=("s.wav", song()))
             other = upload(client, scale(16), song=("s.wav", song()))

@@ -49,7 +49,7 @@ async def get_show(
     text = session.kept_show.text
     if if_none_match is not None and named(if_none_match, text.etag, strongly=False):
         return not_modified(text.etag)
-    return validated(await asyncio.to_thread(text.of_tracks, parameter), text.etag)
+    return validated(await asyncio.to_thread(lambda: text.of_tracks(parameter).encode()), text.etag)
 
 
 @router.put(
@@ -66,7 +66,7 @@ async def put_show(session: Controlled, store: Store, request: Request, if_match
     """Another show in its place. Tracks of parameters that nobody knows are kept, without effect."""
     show = await store.reader.show(await request.body())
     kept = await ShowChange(session, store, if_match).edit(lambda _: show)
-    return validated(await asyncio.to_thread(kept.text.of_tracks), kept.text.etag)
+    return validated(await asyncio.to_thread(lambda: kept.text.of_tracks().encode()), kept.text.etag)
 
 
 @router.get("/sessions/{session_id}/show/history")

@@ -105,7 +105,7 @@ class NoteTable:
         return self.note(int(self._production.played.line.note_index[number]))
 
 
-def score_text(production: Production, title: str, part: int | None = None) -> str:
+def score_text(production: Production, title: str, part: int | None = None) -> bytes:
     """The whole score as JSON, or the notes of one part of it alone.
 
     Written note by note: as one, a long score would hold the interpreter's lock for most of a second.
@@ -142,6 +142,7 @@ def score_text(production: Production, title: str, part: int | None = None) -> s
         notes=[],
         warnings=warned((*score.warnings, *production.played.warnings)),
     )
-    notes = ",".join([table.note(int(index)).model_dump_json() for index in indices])
+    notes = [table.note(int(index)).model_dump_json().encode() for index in indices]
     # No text within the head can hold this: quotation marks are escaped there.
-    return head.model_dump_json().replace('"notes":[]', f'"notes":[{notes}]', 1)
+    before, after = head.model_dump_json().encode().split(b'"notes":[]')
+    return b"".join([before, b'"notes":[', b",".join(notes), b"]", after])

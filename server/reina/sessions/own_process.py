@@ -7,6 +7,14 @@ NICENESS = 5
 """They yield to the server, whose frames are due."""
 
 
+def yield_to_server() -> None:
+    """Let the server have the processor when it wants it, also where it was given real-time priority."""
+    if hasattr(os, "sched_setscheduler"):
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
+
+
 def end_with_parent() -> None:
     """Wait until standard input is closed, which tells that the server is gone, and end the process then."""
     # Past Python's buffer, whose lock a waiting reader would still hold when the process ends.

@@ -14,7 +14,7 @@ import traceback
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from reina.errors import InputError
-from reina.sessions.own_process import NICENESS, bound_memory
+from reina.sessions.own_process import bound_memory, yield_to_server
 from reina.sessions.parcel import receive, send
 
 if TYPE_CHECKING:
@@ -27,8 +27,7 @@ MOST_MEMORY_BYTES = 4_000_000_000
 def main() -> int:
     """Work until the process is ended."""
     asked, told = sys.stdin.buffer, _take_output()
-    if hasattr(os, "nice"):
-        os.nice(NICENESS)
+    yield_to_server()
     bound_memory(MOST_MEMORY_BYTES)
     shared: tuple[object, ...] = receive(asked)
     work: queue.SimpleQueue[tuple[Callable[..., Any], tuple[Any, ...]]] = queue.SimpleQueue()
