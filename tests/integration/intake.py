@@ -67,7 +67,9 @@ def large_song(megabytes: int) -> bytes:
     """A recording: silence, in a WAV file."""
     head = song(0.1)[:44]
     data = megabytes * 1_000_000
-    return head[:4] + (36 + data).to_bytes(4, "little") + head[8:40] + data.to_bytes(4, "little") + bytes(data)
+    return (
+        head[:4] + (36 + data).to_bytes(4, "little") + head[8:40] + data.to_bytes(4, "little") + bytes(data)
+    )
 
 
 @dataclass

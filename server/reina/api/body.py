@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from fastapi import Request
 from fastapi.routing import APIRoute
+from starlette.routing import compile_path
 
 from reina.api.access import admit
 from reina.api.problems import ProblemError
@@ -51,6 +52,7 @@ BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/lab/bvh/rewritten"): CLIP,
 }
 """By method and address; every other body is `SMALL`."""
+_PATTERNS = [(method, compile_path(path)[0], limit) for (method, path), limit in BODY_LIMITS.items()]
 AT_ONCE = 64_000
 """Bytes of JSON that are parsed without a thread, within a millisecond."""
 
@@ -64,22 +66,25 @@ class BoundedRoute(APIRoute):
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """As of every route, behind these checks."""
         handle = super().get_route_handler()
-        writing = self.methods - READING
-        if not writing:
+        if not self.methods - READING:
             return handle
-        path = self.path.removeprefix(API)
-        limit = next(
-            (BODY_LIMITS[method, path] for method in writing if (method, path) in BODY_LIMITS), SMALL
-        )
 
         async def bounded(request: Request) -> Response:
             await admit(request, self.dependant)
-            checked = BoundedRequest(request, limit)
+            checked = BoundedRequest(request, _limit_of(request))
             if self.body_field is not None:
                 await checked.body()
             return await handle(checked)
 
         return bounded
+
+
+def _limit_of(request: Request) -> BodyLimit:
+    path = request.scope["path"].removeprefix(API)
+    return next(
+        (limit for method, pattern, limit in _PATTERNS if method == request.method and pattern.match(path)),
+        SMALL,
+    )
 
 
 class BoundedRequest(Request):

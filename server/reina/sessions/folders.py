@@ -82,7 +82,10 @@ class SessionFolders:
 
     def write_index(self) -> None:
         """Keep the index for the next start."""
-        write_atomically(self._index_file, self.index.text().encode())
+        if len(self.index):
+            write_atomically(self._index_file, self.index.text().encode())
+        else:
+            self._index_file.unlink(missing_ok=True)
 
     def take_out(self, session_id: str) -> Path:
         """Take a session out of the sessions, at once; what is returned is still to be removed."""

@@ -61,6 +61,9 @@ class SessionIndex:
         self._listed: list[str] = []
         self._changing = threading.Lock()
 
+    def __len__(self) -> int:
+        return len(self._entries)
+
     def fill(
         self, folders: Iterable[Path], record_file: str, read: Callable[[str], SessionRecord], file: Path
     ) -> None:
