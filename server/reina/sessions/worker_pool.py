@@ -27,9 +27,8 @@ T = TypeVar("T")
 
 PROGRAM = (sys.executable, "-m", "reina.sessions.worker")
 MOST_AT_ONCE = 2
-TIMEOUT_S = 120.0
-"""Some ten times what the largest score or show takes on a core that nobody else uses."""
-CLOSING_S = 5.0
+TIMEOUT_S = 300.0
+"""Thirty times what the largest score or show takes on a core that nobody else uses; others may use it."""
 
 log = logging.getLogger(__name__)
 
