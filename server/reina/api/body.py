@@ -66,7 +66,7 @@ class BoundedRoute(APIRoute):
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """As of every route, behind these checks."""
         handle = super().get_route_handler()
-        if not self.methods - READING:
+        if not (self.methods or set[str]()) - READING:
             return handle
 
         async def bounded(request: Request) -> Response:

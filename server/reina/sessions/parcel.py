@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 import pickle
 import struct
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -88,6 +88,6 @@ def _piece(file: BinaryIO, size: int, readonly: bool) -> memoryview:
 
 def _exactly(file: BinaryIO, size: int) -> bytearray:
     data = bytearray(size)
-    if file.readinto(data) < size:  # pyright: ignore
+    if cast("io.BufferedIOBase", file).readinto(data) < size:
         raise EOFError("the other process is gone")
     return data

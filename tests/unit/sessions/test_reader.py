@@ -18,6 +18,7 @@ from reina.sessions import reader as module
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.production import Stage
 from reina.sessions.reader import LONG_BYTES, Reader
+from reina.sessions.worker_pool import WorkerPool
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -38,12 +39,12 @@ def in_process(
     """Run with a reader that reads everything on a thread, and one that reads everything in a process."""
 
     async def run() -> None:
-        here, there = Reader(stage), Reader(stage)
-        monkeypatch.setattr(here, "_pool", None)
+        pool = WorkerPool((stage, stage.registry))
+        here, there = Reader(stage), Reader(stage, pool)
         monkeypatch.setattr(module, "LONG_BYTES", 10**9)
 
         async def elsewhere(size: int, function: Any, *arguments: Any) -> Any:
-            return await there._pool.run(function, *arguments)
+            return await pool.run(function, *arguments)
 
         monkeypatch.setattr(there, "_read", elsewhere)
         try:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import operator
 import os
 import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
 import numpy as np
 import pytest
@@ -20,6 +21,8 @@ from reina.sessions.worker_pool import PROGRAM, WorkerPool
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
+
+    from numpy.typing import NDArray
 
 SERVER = Path(__file__).parents[3] / "server"
 
@@ -51,11 +54,11 @@ def test_arrays_come_back_as_they_were() -> None:
     async def scenario(pool: WorkerPool) -> None:
         sent = np.arange(12.0).reshape(3, 4)
         sent.flags.writeable = False
-        got = await pool.run(np.asfortranarray, sent)
+        got: NDArray[np.float64] = await pool.run(np.asfortranarray, sent)
         assert got.tolist() == sent.tolist()
         assert got.flags.f_contiguous
         assert got.flags.writeable
-        assert not (await pool.run(np.atleast_2d, sent)).flags.writeable
+        assert not (await pool.run(operator.itemgetter(0), [sent])).flags.writeable
 
     with_pool(scenario)
 
@@ -132,8 +135,9 @@ def test_a_worker_ends_when_its_server_is_gone() -> None:
 
     assert process.stdin is not None
     assert process.stdout is not None
-    send(process.stdin, ())
-    send(process.stdin, (time.sleep, (60,)))
+    asked = cast("BinaryIO", process.stdin)
+    send(asked, ())
+    send(asked, (time.sleep, (60,)))
     process.stdin.close()
     assert process.wait(20) == 2
     process.stdout.close()
