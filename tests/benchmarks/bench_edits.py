@@ -25,7 +25,7 @@ from reina.api.app import create_app
 from reina.api.settings import Settings
 from reina.keyframes import Parameter
 from reina.keyframes.interpolation import interpolations
-from reina.sessions.production import Stage
+from reina.sessions.stage import Stage
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable

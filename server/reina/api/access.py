@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
+from fastapi.dependencies.models import Dependant
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
 from reina.api.problems import ProblemError
@@ -75,3 +76,21 @@ async def _controlled(
 
 Controlled = Annotated[Session, Depends(_controlled)]
 """The session of the path, for who has its control token."""
+
+
+async def admit(request: Request, dependant: Dependant) -> None:
+    """Refuse whoever a route's session is not there for, before anything of the request's body is read.
+
+    Args:
+        request: What was asked.
+        dependant: What the route depends on: on a session that may be watched or controlled, or on none.
+
+    Raises:
+        ProblemError: As the route itself would.
+    """
+    needed = {dependency.call for dependency in dependant.dependencies}
+    if not needed & {_watched, _controlled}:
+        return
+    session = await _watched(request.path_params["session_id"], _store(request))
+    if _controlled in needed:
+        await _controlled(session, await _bearer(request))

@@ -29,12 +29,12 @@ from reina.api import (
     stream,
     tracks,
 )
-from reina.api.body_limit import BodyLimit
 from reina.api.compression import Compression
 from reina.api.description import describe
 from reina.api.guard import Guard
 from reina.api.retrieval import Retrieval
 from reina.api.settings import Settings
+from reina.api.unread_body import UnreadBody
 from reina.protocol.links import API
 from reina.sessions.sound import SongRenderer
 from reina.sessions.stage import Stage
@@ -111,7 +111,7 @@ def create_app(
     problems.install(app)
     describe(app)
     app.add_middleware(Compression)
-    app.add_middleware(BodyLimit)
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
+    app.add_middleware(UnreadBody)
     return app

@@ -101,7 +101,7 @@ def _later(date: str, other: str) -> bool | None:
     return None if first is None or second is None else first[:6] > second[:6]
 
 
-def validated(text: str, etag: str) -> Response:
+def validated(text: str | bytes, etag: str) -> Response:
     """JSON with its validator."""
     headers = {"ETag": etag, "Cache-Control": "no-cache"}
     return Response(text, media_type="application/json", headers=headers)

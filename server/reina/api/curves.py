@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Depends, Query, Response
 
 from reina.api.access import Controlled, Watched
+from reina.api.body import BoundedRoute
 from reina.api.conditions import IfNoneMatch, named, not_modified, validated
 from reina.api.frames import LATEST_S
 from reina.api.problems import ProblemError
@@ -22,7 +23,7 @@ from reina.sessions.show_curves import (
     music_time,
 )
 
-router = APIRouter(tags=["show"])
+router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
 MOST_PARAMETERS = 64
 MOST_POINTS = 2000

@@ -7,6 +7,7 @@ import numpy as np
 from fastapi import APIRouter, Request
 
 from reina.api.access import ServerSettings
+from reina.api.body import BoundedRoute
 from reina.api.lab_work import compute
 from reina.api.problems import ProblemError
 from reina.api.rigs import DESCRIPTION, rig_description
@@ -35,7 +36,7 @@ from reina.protocol.lab import (
 from reina.sessions.stage import FIRST_PLAYER
 from reina.skeleton import load_rig
 
-router = APIRouter()
+router = APIRouter(route_class=BoundedRoute)
 
 
 @router.get("/chains")

@@ -12,6 +12,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import PlainTextResponse, Response, StreamingResponse
 
 from reina.api.access import ServerSettings
+from reina.api.body import BoundedRoute
 from reina.api.lab_work import compute
 from reina.api.problems import ProblemError
 from reina.lab import clip_points
@@ -20,12 +21,8 @@ from reina.protocol.links import rig_href
 from reina.protocol.resources import Fault
 from reina.skeleton import BvhError, MotionClip, PositionMeaning, bvh_head, bvh_rows, read_bvh
 
-router = APIRouter()
+router = APIRouter(route_class=BoundedRoute)
 
-MEGABYTE = 1_000_000
-MOST_BYTES = 20 * MEGABYTE
-READ_ON = 32 * MEGABYTE
-"""How much of a file that is too large is still read, so that its sender comes to hear why."""
 CLIPS = "*/clips/*.bvh"
 VALUES_A_PIECE = 50_000
 """Numbers of a rewritten file that are written at a time."""
@@ -59,7 +56,7 @@ async def list_clips(request: Request, settings: ServerSettings) -> LabClipList:
 @router.post("/bvh", response_model=ParsedClip, openapi_extra=BODY)
 async def read_clip(request: Request, positions: Positions = "replace") -> Response:
     """Read a BVH file: its joints, and where everything is in the world; long clips are thinned."""
-    data = await _body(request)
+    data = await request.body()
     # Megabytes: written as JSON in the thread too, where no viewer waits for it.
     text = await compute(request, lambda: _parsed(_read(data, positions)).model_dump_json())
     return Response(text, media_type="application/json")
@@ -72,7 +69,7 @@ async def rewrite_clip(request: Request, positions: Positions = "replace") -> St
     Joints with position channels have the OFFSET 0 in it, so that it is the same motion for programs that
     add the two as for those that do not.
     """
-    data = await _body(request)
+    data = await request.body()
     clip = await compute(request, lambda: _read(data, positions).without_still_positions())
     return StreamingResponse(
         _written(clip, request.app.state.computing),
@@ -90,26 +87,6 @@ async def _written(clip: MotionClip, computing: asyncio.Semaphore) -> AsyncItera
         async with computing:
             text = await asyncio.to_thread(bvh_rows, piece)
         yield text
-
-
-async def _body(request: Request) -> bytes:
-    data = bytearray()
-    refused = 0
-    async for chunk in request.stream():
-        if len(data) <= MOST_BYTES:
-            data += chunk
-        else:
-            refused += len(chunk)
-            if refused > READ_ON:
-                break
-    if len(data) > MOST_BYTES:
-        raise ProblemError(
-            413,
-            "clip-too-large",
-            "Content Too Large",
-            f"a motion file may have {MOST_BYTES // MEGABYTE} MB; this one is larger",
-        )
-    return bytes(data)
 
 
 def _read(data: bytes, positions: PositionMeaning) -> MotionClip:

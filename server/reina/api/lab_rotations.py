@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from fastapi import APIRouter, Request
 
+from reina.api.body import BoundedRoute
 from reina.api.lab_work import compute
 from reina.lab import Comparison, LabError, Orientation, Way, compare_interpolations
 from reina.protocol.lab import (
@@ -21,7 +22,7 @@ from reina.rotations import log, to_euler
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
 
-router = APIRouter()
+router = APIRouter(route_class=BoundedRoute)
 
 
 @router.post("/interpolations")

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from starlette.routing import BaseRoute
 
 MEDIA_TYPE = "application/problem+json"
+MOST_FAULTS = 20
+"""So many are told of one request; whoever mends those hears of the rest."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 """What an address may answer to of itself."""
 
@@ -61,7 +63,7 @@ class ProblemError(Exception):
         self.status = status
         faults = [
             Fault(detail=_sendable(fault.detail), location=_sendable(fault.location or "") or None)
-            for fault in errors
+            for fault in errors[:MOST_FAULTS]
         ]
         self.problem = Problem(
             type=f"urn:reina:problem:{kind}",
@@ -115,11 +117,12 @@ def _location(parts: Sequence[str | int]) -> str:
 
 def problem_of_validation(error: RequestValidationError | ValidationError) -> ProblemError:
     """The problem of fields that do not fit."""
-    faults: list[Fault] = []
-    for fault in error.errors():
-        found: dict[str, Any] = dict(fault)
-        faults.append(Fault(detail=str(found["msg"]), location=_location(found["loc"])))
-    detail = "; ".join(f"{fault.location}: {fault.detail}" for fault in faults)
+    found: Sequence[Mapping[str, Any]] = error.errors()
+    faults = [Fault(detail=str(fault["msg"]), location=_location(fault["loc"])) for fault in found]
+    told = [f"{fault.location}: {fault.detail}" for fault in faults[:MOST_FAULTS]]
+    if len(faults) > MOST_FAULTS:
+        told.append(f"and {len(faults) - MOST_FAULTS} more")
+    detail = "; ".join(told)
     return ProblemError(422, "request-invalid", "The request does not fit", detail, errors=faults)
 
 

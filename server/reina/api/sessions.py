@@ -8,16 +8,20 @@ from fastapi import APIRouter, Body, Query, Request, Response
 from pydantic import ValidationError
 
 from reina.api.access import Controlled, Store, Watched
+from reina.api.body import BoundedRoute
 from reina.api.cast import cast_of_fields
 from reina.api.problems import ProblemError, problem_of_validation
 from reina.api.upload import FILE_LIMITS, MEGABYTE, Upload, receive_upload
 from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
-from reina.sessions.description import score_resource
+from reina.sessions.description import score_text
 from reina.sessions.store import Draft
 
-router = APIRouter(tags=["sessions"])
+router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
+
+LISTED = 100
+MOST_LISTED = 1000
 
 _FORM: dict[str, Any] = {
     "requestBody": {
@@ -114,11 +118,12 @@ async def create_session(request: Request, response: Response, store: Store) -> 
 
     The answer holds the control token, which is told this once: keep it.
     """
-    with store.staging() as folder:
+    async with store.staging() as folder:
         upload = await receive_upload(request, folder)
         session, token = await store.create(_draft(folder, upload))
     response.headers["Location"] = session_links(session.id).self
-    return resources.CreatedSession(**dict(session.resource()), control_token=token)
+    resource = await asyncio.to_thread(session.resource)
+    return resources.CreatedSession(**dict(resource), control_token=token)
 
 
 def _draft(folder: Path, upload: Upload) -> Draft:
@@ -143,25 +148,30 @@ def _draft(folder: Path, upload: Upload) -> Draft:
 
 
 @router.get("/sessions")
-async def list_sessions(store: Store) -> resources.SessionList:
-    """The public sessions, newest first."""
+async def list_sessions(
+    store: Store,
+    limit: Annotated[int, Query(ge=1, le=MOST_LISTED, description="How many at most.")] = LISTED,
+    after: Annotated[
+        str | None, Query(max_length=100, description="The `next` of the page before; leave it out at first.")
+    ] = None,
+) -> resources.SessionList:
+    """The public sessions, newest first, page by page."""
+    entries, following = store.listed(limit, after)
     return resources.SessionList(
         sessions=[
             resources.SessionSummary(
-                id=record.id,
-                title=record.title,
-                created_at=record.created_at,
-                links=session_links(record.id),
+                id=entry.id, title=entry.title, created_at=entry.created_at, links=session_links(entry.id)
             )
-            for record in await store.public()
-        ]
+            for entry in entries
+        ],
+        next=following,
     )
 
 
 @router.get("/sessions/{session_id}")
 async def get_session(session: Watched) -> resources.Session:
     """One session."""
-    return session.resource()
+    return await asyncio.to_thread(session.resource)
 
 
 @router.patch("/sessions/{session_id}")
@@ -176,7 +186,7 @@ async def change_session(
     if "joined_parts" in wanted:
         wanted["joined_parts"] = tuple(wanted["joined_parts"])
     await store.change(session, **named, recast=lambda cast: cast.changed(**wanted))
-    return session.resource()
+    return await asyncio.to_thread(session.resource)
 
 
 @router.delete("/sessions/{session_id}", status_code=204)
@@ -198,9 +208,7 @@ async def get_score(
             404, "unknown-part", "There is no such part", f"the score's parts are 0 to {known}, not {part}"
         )
     # A long score takes a while to write out; that must not hold up the streams.
-    body = await asyncio.to_thread(
-        lambda: score_resource(production, session.record.title, part).model_dump_json()
-    )
+    body = await asyncio.to_thread(score_text, production, session.record.title, part)
     return Response(body, media_type="application/json")
 
 
@@ -215,4 +223,4 @@ async def control_transport(
     session: Controlled, command: Annotated[TransportCommand, Body(openapi_examples=_COMMANDS)]
 ) -> TransportState:
     """Play, pause, seek, or change rate or loop; every viewer follows at once."""
-    return session.control(command)
+    return await session.follow(command)

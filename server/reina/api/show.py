@@ -6,14 +6,13 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 
 from reina.api.access import Controlled, Store, Watched
-from reina.api.body import read_show_body
+from reina.api.body import BoundedRoute
 from reina.api.conditions import IfMatch, IfNoneMatch, named, not_modified, validated
 from reina.api.show_change import ShowChange
 from reina.protocol.messages import ShowState
 from reina.protocol.resources import ShowWarnings
-from reina.sessions.production import read_show
 
-router = APIRouter(tags=["show"])
+router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
 Document = dict[str, Any]
 
@@ -50,7 +49,7 @@ async def get_show(
     text = session.kept_show.text
     if if_none_match is not None and named(if_none_match, text.etag, strongly=False):
         return not_modified(text.etag)
-    return validated(await asyncio.to_thread(text.of_tracks, parameter), text.etag)
+    return validated(await asyncio.to_thread(lambda: text.of_tracks(parameter).encode()), text.etag)
 
 
 @router.put(
@@ -65,9 +64,9 @@ async def get_show(
 )
 async def put_show(session: Controlled, store: Store, request: Request, if_match: IfMatch = None) -> Response:
     """Another show in its place. Tracks of parameters that nobody knows are kept, without effect."""
-    show = read_show(await read_show_body(request), session.production.registry)
+    show = await store.reader.show(await request.body(), session.production.registry)
     kept = await ShowChange(session, store, if_match).edit(lambda _: show)
-    return validated(kept.text.text, kept.text.etag)
+    return validated(await asyncio.to_thread(lambda: kept.text.of_tracks().encode()), kept.text.etag)
 
 
 @router.get("/sessions/{session_id}/show/history")

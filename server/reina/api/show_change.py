@@ -60,7 +60,7 @@ class ShowChange:
 
         return await self._store.change_show(self._session, conditional_step)
 
-    def outcome(self, after: KeptShow, *, briefly: bool) -> str:
+    def outcome(self, after: KeptShow, *, briefly: bool) -> bytes:
         """What the change came to: `ShowEdited` as JSON, put together of what is written already.
 
         Args:
@@ -77,4 +77,4 @@ class ShowChange:
             "removed": json_text([path for path in old if path not in new]),
         }
         told = ", ".join(f'"{name}": {text}' for name, text in parts.items())
-        return f"{after.state.model_dump_json()[:-1]}, {told}}}"
+        return f"{after.state.model_dump_json()[:-1]}, {told}}}".encode()

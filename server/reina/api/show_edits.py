@@ -1,13 +1,12 @@
 """Several edits of a show at once, and the way back."""
 
 import asyncio
-import json
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
 from reina.api.access import Controlled, Store
-from reina.api.body import read_show_body
+from reina.api.body import BoundedRoute
 from reina.api.conditions import IfMatch, Prefer, wants_minimal
 from reina.api.problems import ProblemError
 from reina.api.show_change import ShowChange
@@ -16,7 +15,7 @@ from reina.keyframes.time_map import TIME_UNITS
 from reina.protocol.resources import ShowEdited
 from reina.sessions.kept_show import KeptShow
 
-router = APIRouter(tags=["show"])
+router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
 EXAMPLE: list[dict[str, Any]] = [
     {
@@ -107,7 +106,7 @@ async def edit_show(
     Only their outcome has to be a show, so that keyframes may change places.
     """
     try:
-        edits: object = json.loads(await read_show_body(request))
+        edits: object = await request.json()
     except (ValueError, RecursionError) as error:
         raise ShowError(f"the edits are no JSON: {error}") from error
 

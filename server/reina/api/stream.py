@@ -77,6 +77,7 @@ async def stream(
         return
     await socket.accept(subprotocol=SUBPROTOCOL)
     viewer = Viewer(WebSocketConnection(socket), frames_per_message=size)
+    await session.ready()
     session.join(viewer)
     sending = asyncio.create_task(viewer.run())
     receiving = asyncio.create_task(_receive(socket, viewer, now))

@@ -4,9 +4,10 @@ import json
 from typing import Annotated, Any
 from urllib.parse import quote
 
-from fastapi import APIRouter, Body, Path, Response
+from fastapi import APIRouter, Body, Path, Request, Response
 
 from reina.api.access import Controlled, Store, Watched
+from reina.api.body import BoundedRoute
 from reina.api.conditions import IfMatch, validated
 from reina.api.problems import ProblemError
 from reina.api.show_change import ShowChange
@@ -16,14 +17,13 @@ from reina.keyframes import (
     Parameter,
     ParameterRegistry,
     Show,
-    ShowError,
     Track,
     keyframe_document,
-    with_edits,
 )
+from reina.keyframes.show_writer import keyframe_text
 from reina.protocol.links import session_links
 
-router = APIRouter(tags=["show"])
+router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
 Document = dict[str, Any]
 TrackPath = Annotated[
@@ -34,33 +34,26 @@ NewKeyframe = Annotated[
     Document, Body(examples=[{"key": "k3", "time": 1.5, "value": 0.8, "interpolation": "quad_in"}])
 ]
 Changes = Annotated[Document, Body(examples=[{"time": 2.25, "value": 1.1}])]
-TrackDocument = Annotated[
-    Document,
-    Body(
-        examples=[
-            {
-                "time": "beats",
-                "after": "loop",
-                "keyframes": [
-                    {"key": "k1", "time": 0, "value": 1.0},
-                    {"key": "k2", "time": 4, "value": 2.0, "interpolation": "linear"},
-                ],
-            }
-        ]
-    ),
-]
+TRACK_EXAMPLE: Document = {
+    "time": "beats",
+    "after": "loop",
+    "keyframes": [
+        {"key": "k1", "time": 0, "value": 1.0},
+        {"key": "k2", "time": 4, "value": 2.0, "interpolation": "linear"},
+    ],
+}
 
 KEYFRAMES = "/sessions/{session_id}/show/tracks/{path:path}/keyframes"
 TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
 
 
 @router.get(KEYFRAMES, response_model=Document)
-async def list_keyframes(session: Watched, path: TrackPath) -> Response:
+def list_keyframes(session: Watched, path: TrackPath) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
     known_parameter(session.production.registry, path)
     kept = session.kept_show
-    keyframes = [keyframe_document(keyframe) for keyframe in _keyframes(kept.show, path)]
-    return validated(json.dumps({"keyframes": keyframes}), kept.text.track_etag(path))
+    keyframes = ", ".join([keyframe_text(keyframe) for keyframe in _keyframes(kept.show, path)])
+    return validated(f'{{"keyframes": [{keyframes}]}}', kept.text.track_etag(path))
 
 
 @router.post(KEYFRAMES, status_code=201)
@@ -149,30 +142,23 @@ async def get_track(session: Watched, path: TrackPath) -> Response:
     return validated(written.text, written.etag)
 
 
-@router.put(TRACK, response_model=Document)
+@router.put(
+    TRACK,
+    response_model=Document,
+    openapi_extra={
+        "requestBody": {
+            "required": True,
+            "content": {"application/json": {"schema": {"type": "object"}, "example": TRACK_EXAMPLE}},
+        }
+    },
+)
 async def put_track(
-    session: Controlled,
-    path: TrackPath,
-    fields: TrackDocument,
-    store: Store,
-    if_match: IfMatch = None,
+    session: Controlled, path: TrackPath, store: Store, request: Request, if_match: IfMatch = None
 ) -> Response:
     """Another track of the parameter in the place of its present one, if there is any."""
-    registry = session.production.registry
-    known_parameter(registry, path)
-    if fields.get("parameter", path) != path:
-        raise ProblemError(
-            422,
-            "parameter-fixed",
-            "The show cannot be used",
-            f"this is the track of {path}, and the body names {fields['parameter']!r}",
-        )
-    track = {**fields, "parameter": path}
-    if not track.get("keyframes") and "events" not in track:
-        raise ShowError("a track has one keyframe at least, or answers events; DELETE removes it", track=path)
-    kept = await ShowChange(session, store, if_match, path).edit(
-        lambda show: with_edits(show, [{"edit": "put_track", "track": track}], registry)
-    )
+    parameter = known_parameter(session.production.registry, path)
+    track = await store.reader.track(await request.body(), parameter, session.kept_show.show.time)
+    kept = await ShowChange(session, store, if_match, path).edit(lambda show: show.with_new_track(track))
     written = kept.text.tracks[path]
     return validated(written.text, written.etag)
 

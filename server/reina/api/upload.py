@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -34,8 +35,10 @@ FIELD_LIMITS = {
     "cast": 20_000,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS
-READ_ON = 32 * MEGABYTE
-"""How much of an upload that is refused is still read, so that its sender comes to hear why."""
+MOST_BYTES = sum(LIMITS.values()) + MEGABYTE
+"""Of a whole form, with what stands between its parts."""
+AT_ONCE = MEGABYTE
+"""Bytes of a form that are written at a time."""
 
 
 @dataclass
@@ -71,41 +74,26 @@ async def receive_upload(request: Request, folder: Path) -> Upload:
             "Unsupported Media Type",
             "send a multipart/form-data form with the file `score`, and `song` and `show` if there are any",
         )
-    declared = request.headers.get("content-length", "")
-    most = sum(LIMITS.values()) + MEGABYTE
-    if declared.isdigit() and int(declared) > most:
-        raise ProblemError(
-            413,
-            "upload-too-large",
-            "Content Too Large",
-            f"all files together may have {most} bytes, not {declared}",
-        )
     writer = _PartWriter(folder)
-    problem: ProblemError | None = None
-    refused = 0
     try:
         parser = MultipartParser(boundary, writer.callbacks())
     except FormParserError as error:
         raise _malformed(str(error)) from error
     try:
+        pending = bytearray()
         async for chunk in request.stream():
-            if problem:
-                refused += len(chunk)
-                if refused > READ_ON:
-                    break
-                continue
-            try:
-                parser.write(chunk)
-            except ProblemError as error:
-                problem = error
-            except FormParserError as error:
-                problem = _malformed(str(error))
+            pending += chunk
+            if len(pending) >= AT_ONCE:
+                # A disk can keep a write waiting for as long as it likes.
+                await asyncio.to_thread(parser.write, bytes(pending))
+                pending.clear()
+        await asyncio.to_thread(parser.write, bytes(pending))
+    except FormParserError as error:
+        raise _malformed(str(error)) from error
     finally:
-        writer.close()
-    if problem is None and not writer.complete:
-        problem = _malformed("it ends before its last boundary")
-    if problem:
-        raise problem
+        await asyncio.to_thread(writer.close)
+    if not writer.complete:
+        raise _malformed("it ends before its last boundary")
     return writer.upload
 
 

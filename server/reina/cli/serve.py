@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import gc
 import logging
 import os
 import signal
@@ -32,6 +33,11 @@ CLOSING_S = 3
 """How long streams and downloads that are under way may take to end."""
 LARGEST_MESSAGE = 64 * 1024
 """Bytes of one message from a viewer, who has little to say."""
+SWITCH_S = 0.0005
+"""How long a thread that computes may keep the event loop waiting at a time; Python's own choice is ten times
+it, and the loop waits anew after every frame that it sends."""
+SELDOM = 1000
+"""Collections of the middle generation for one of all objects, in which everything stands still."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -82,6 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
+    share_interpreter()
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
@@ -101,6 +108,16 @@ def run(arguments: argparse.Namespace) -> int:
     )
     server.run(sockets)
     return 0 if server.started else 1
+
+
+def share_interpreter() -> None:
+    """Let the event loop have the interpreter's lock, and keep it from being held up by the collector."""
+    sys.setswitchinterval(SWITCH_S)
+    gc.collect()
+    # What is loaded by now stays: nothing of it is ever looked through again.
+    gc.freeze()
+    young, middle, _ = gc.get_threshold()
+    gc.set_threshold(young, middle, SELDOM)
 
 
 def _settings(arguments: argparse.Namespace) -> Settings:

@@ -116,7 +116,10 @@ def _variant(
         "__module__": __name__,
         "documentation": documentation,
     }
-    return cast("type[EasedKeyframe[Any]]", type(class_name, (base,), members))
+    made = cast("type[EasedKeyframe[Any]]", type(class_name, (base,), members))
+    # Found by its name, so that shows can be sent from one process to another (pickle).
+    globals()[class_name] = made
+    return made
 
 
 _CURVES = {

@@ -20,7 +20,7 @@ EaseIn = Callable[[FloatArray, FloatArray], FloatArray]
 _EXPO_START = 2.0**-10
 
 
-def _expo(u: FloatArray) -> FloatArray:
+def _envelope(u: FloatArray) -> FloatArray:
     return (np.exp2(10.0 * (u - 1.0)) - _EXPO_START) / (1.0 - _EXPO_START)
 
 
@@ -45,22 +45,59 @@ def _elastic(u: FloatArray, options: FloatArray) -> FloatArray:
     amplitude, period = np.maximum(options[:, 0], 1.0), options[:, 1]
     # The swing's phase is chosen so that it stands at exactly 1 at the end.
     shift = period / (2.0 * np.pi) * np.arcsin(1.0 / amplitude)
-    return -amplitude * _expo(u) * np.sin((u - 1.0 - shift) * (2.0 * np.pi) / period)
+    return -amplitude * _envelope(u) * np.sin((u - 1.0 - shift) * (2.0 * np.pi) / period)
+
+
+def _linear(u: FloatArray, _: FloatArray) -> FloatArray:
+    return u
+
+
+def _sine(u: FloatArray, _: FloatArray) -> FloatArray:
+    return 1.0 - np.cos(u * (np.pi / 2.0))
+
+
+def _quad(u: FloatArray, _: FloatArray) -> FloatArray:
+    return u * u
+
+
+def _cubic(u: FloatArray, _: FloatArray) -> FloatArray:
+    return u * u * u
+
+
+def _quart(u: FloatArray, _: FloatArray) -> FloatArray:
+    return (u * u) * (u * u)
+
+
+def _quint(u: FloatArray, _: FloatArray) -> FloatArray:
+    return (u * u) * (u * u) * u
+
+
+def _expo(u: FloatArray, _: FloatArray) -> FloatArray:
+    return _envelope(u)
+
+
+def _circ(u: FloatArray, _: FloatArray) -> FloatArray:
+    return 1.0 - np.sqrt(np.maximum(1.0 - u * u, 0.0))
+
+
+def _bounce(u: FloatArray, _: FloatArray) -> FloatArray:
+    return 1.0 - _bounce_out(1.0 - u)
 
 
 EASE_IN: dict[str, EaseIn] = {
-    "linear": lambda u, _: u,
-    "sine": lambda u, _: 1.0 - np.cos(u * (np.pi / 2.0)),
-    "quad": lambda u, _: u * u,
-    "cubic": lambda u, _: u * u * u,
-    "quart": lambda u, _: (u * u) * (u * u),
-    "quint": lambda u, _: (u * u) * (u * u) * u,
-    "expo": lambda u, _: _expo(u),
-    "circ": lambda u, _: 1.0 - np.sqrt(np.maximum(1.0 - u * u, 0.0)),
+    "linear": _linear,
+    "sine": _sine,
+    "quad": _quad,
+    "cubic": _cubic,
+    "quart": _quart,
+    "quint": _quint,
+    "expo": _expo,
+    "circ": _circ,
     "back": _back,
-    "bounce": lambda u, _: 1.0 - _bounce_out(1.0 - u),
+    "bounce": _bounce,
     "elastic": _elastic,
 }
+"""Each has a name of its own module, so that planned shows can be sent between processes (pickle)."""
 
 
 @dataclass(frozen=True)

@@ -224,6 +224,18 @@ class Show:
                 return replace(self, tracks=tuple(tracks))
         return replace(self, tracks=(*tracks, track))
 
+    def with_new_track(self, track: Track) -> "Show":
+        """`with_track` of a track that may be large, or be the very one that is there.
+
+        Raises:
+            ShowError: The show would be too large.
+        """
+        if any(other == track for other in self.tracks):
+            return self
+        show = self.with_track(track)
+        check_size(show)
+        return show
+
     def without_track(self, path: str) -> "Show":
         """The show without the track of a parameter.
 

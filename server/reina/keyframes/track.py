@@ -1,5 +1,6 @@
 """A track: the keyframes of one parameter, and what it does where there are none."""
 
+import pickle
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,6 +14,9 @@ from reina.keyframes.time_map import TimeUnit
 
 NEAREST = 1e-9
 """Keys that are nearer than this stand at one time: a slope between them would be beyond all measure."""
+
+PIECE = 500
+"""Keyframes that are sent to another process at a time."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +69,20 @@ class Track:
                 )
             seen.add(keyframe.key)
         object.__setattr__(self, "keyframes", ordered)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is sent to another process (pickle): the keyframes in pieces.
+
+        As one, the memory of which of 100,000 have been met would be let go of in one step, in which no other
+        thread had its turn.
+        """
+        keyframes = [self.keyframes[at : at + PIECE] for at in range(0, len(self.keyframes), PIECE)]
+        return {**self.__dict__, "keyframes": [pickle.dumps(piece) for piece in keyframes]}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take over what `__getstate__` gave in one of the server's own processes."""
+        keyframes = [keyframe for piece in state["keyframes"] for keyframe in pickle.loads(piece)]  # noqa: S301
+        self.__dict__.update(state, keyframes=tuple(keyframes))
 
     def keyframe(self, key: str) -> Keyframe[Any]:
         """The keyframe of a key.

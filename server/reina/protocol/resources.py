@@ -138,9 +138,11 @@ class SessionSummary(WireModel):
 
 
 class SessionList(WireModel):
-    """The public sessions, newest first."""
+    """Public sessions, newest first."""
 
     sessions: list[SessionSummary]
+    next: str | None
+    """What the next page is asked for with, as `after`; null when there are no more."""
 
 
 class SessionChange(WireModel):

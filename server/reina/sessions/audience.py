@@ -8,7 +8,7 @@ import logging
 from typing import TYPE_CHECKING
 
 from reina.protocol.messages import StreamError
-from reina.sessions.broadcast import Broadcast
+from reina.sessions.broadcast import LEAD_S, Broadcast
 from reina.sessions.description import transport_message
 from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 LAST_FRAME_S = 1 / 60
 """How often it is looked whether the music has ended, once its last frame is sent."""
+
+AHEAD_S = 0.5
+"""How long before they are sent frames are evaluated."""
 
 _log = logging.getLogger(__name__)
 
@@ -50,7 +53,8 @@ class Audience:
         *,
         now: Callable[[], float],
     ) -> None:
-        self._frames = frames
+        self.frames = frames
+        """What is sent."""
         self._clock = clock
         self._notes = notes
         self._now = now
@@ -93,9 +97,9 @@ class Audience:
         """Let a viewer go; the last one stops the ticker."""
         self._viewers.discard(viewer)
         if not self._viewers:
-            self._frames.forget()
+            self.frames.forget()
             # Who comes next begins at the present, not where the last one left off.
-            self._broadcast = Broadcast(self._frames, self._state, resumed=True)
+            self._broadcast = Broadcast(self.frames, self._state, resumed=True)
             if self._ticking:
                 self._ticking.cancel()
                 self._ticking = None
@@ -117,7 +121,7 @@ class Audience:
             frames: Where the bytes come from now on; the same as before when None.
             notes: What is told of notes now on; the same as before when None.
         """
-        self._frames = frames or self._frames
+        self.frames = frames or self.frames
         now = self._now()
         if self._viewers:
             # What came before the change is told before it.
@@ -125,9 +129,13 @@ class Audience:
             if notes is not None:
                 self._post(self._notes.end())
         self._notes = notes or self._notes
-        self._begin(self._clock.state(now), Broadcast(self._frames, self._clock.state(now)))
+        self._begin(self._clock.state(now), Broadcast(self.frames, self._clock.state(now)))
         self._send_due(now)
         self._woken.set()
+
+    def song_time_s(self, later_s: float = 0.0) -> float:
+        """What will be heard so much later, as the clock runs at present."""
+        return float(self._clock.state().song_times_at(self._now() + later_s))
 
     def tick(self, now: float) -> bool:
         """Send what is due by `now`; returns whether more will be due without the clock being changed."""
@@ -140,7 +148,7 @@ class Audience:
         """Take note of the music's end, which the clock comes to by itself."""
         state = self._clock.state(now)
         if self._state.playing and not state.playing:
-            self._begin(state, Broadcast(self._frames, state, resumed=True))
+            self._begin(state, Broadcast(self.frames, state, resumed=True))
 
     def _begin(self, state: ClockState, broadcast: Broadcast) -> None:
         self._state = state
@@ -178,7 +186,7 @@ class Audience:
                 await self._woken.wait()
                 continue
             await asyncio.sleep(0)  # the viewers' outboxes first
-            self._broadcast.prepare()
+            self.frames.prefetch(self.song_time_s(LEAD_S + AHEAD_S))
             # The schedule's own times are the deadlines: a turn that was late delays none after it.
             next_time = self._broadcast.next_time()
             now = self._now()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from reina.sessions.frames import FRAMES_PER_BLOCK
 from reina.sessions.schedule import FrameSchedule
 
 if TYPE_CHECKING:
@@ -80,12 +79,6 @@ class Broadcast:
         """Server time at which `until` has something to give again; None when this epoch has no more."""
         times = [schedule.next.due_time_s for schedule in self._schedules.values() if schedule.next]
         return min(times) - LEAD_S if times else None
-
-    def prepare(self) -> None:
-        """Evaluate the block that is needed next, while there is time."""
-        for schedule in self._schedules.values():
-            if schedule.next:
-                self._frames.block((schedule.next.index + FRAMES_PER_BLOCK // 2) // FRAMES_PER_BLOCK)
 
     def _messages(self, schedule: FrameSchedule, size: int, horizon_s: float) -> list[bytes]:
         messages: list[bytes] = []

@@ -158,14 +158,17 @@ class NoteTable:
         )
 
 
-def score_resource(production: Production, title: str, part: int | None = None) -> resources.Score:
-    """The whole score, or the notes of one part of it alone."""
+def score_text(production: Production, title: str, part: int | None = None) -> bytes:
+    """The whole score as JSON, or the notes of one part of it alone.
+
+    Written note by note: as one, a long score would hold the interpreter's lock for most of a second.
+    """
     score = production.score
     table = NoteTable(production)
     indices = range(len(score.notes)) if part is None else score.note_indices(part)
     tempo_map, metre_map = score.tempo_map, score.metre_map
     bar_lines = metre_map.bar_lines(score.duration_beats + 1e-9)
-    return resources.Score(
+    head = resources.Score(
         title=title,
         duration_s=score.duration_s,
         sequence=score.sequence,
@@ -185,6 +188,10 @@ def score_resource(production: Production, title: str, part: int | None = None) 
             for signature in metre_map.signatures
         ],
         bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
-        notes=[table.note(int(index)) for index in indices],
+        notes=[],
         warnings=warned(production.warnings),
     )
+    notes = [table.note(int(index)).model_dump_json().encode() for index in indices]
+    # No text within the head can hold this: quotation marks are escaped there.
+    before, after = head.model_dump_json().encode().split(b'"notes":[]')
+    return b"".join([before, b'"notes":[', b",".join(notes), b"]", after])

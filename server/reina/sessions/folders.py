@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import secrets
 import shutil
 from contextlib import contextmanager
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from reina.sessions.atomic_write import write_atomically
 from reina.sessions.record import SESSION_ID, SessionRecord
+from reina.sessions.session_index import INDEX, Entry, SessionIndex
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 RECORD = "session.json"
 SCORE = "score"
 SHOW = "show.json"
-_log = logging.getLogger(__name__)
 
 
 class SessionFolders:
@@ -36,16 +35,25 @@ class SessionFolders:
         shutil.rmtree(self._staging, ignore_errors=True)
         for folder in (self._sessions, self._staging, self.songs):
             folder.mkdir(parents=True, exist_ok=True)
+        self.index = SessionIndex()
+        """Of all sessions, to list them by."""
+        self._index_file = data_dir / INDEX
+        self.index.fill(self._sessions.iterdir(), RECORD, self.record, self._index_file)
 
     def __contains__(self, session_id: str) -> bool:
         # The pattern has no dots and slashes: an id never leads out of the folder.
         return bool(SESSION_ID.fullmatch(session_id)) and (self._sessions / session_id).is_dir()
 
+    def stage(self) -> Path:
+        """A new folder to make a session in."""
+        folder = self._staging / secrets.token_hex(16)
+        folder.mkdir()
+        return folder
+
     @contextmanager
     def staging(self) -> Generator[Path]:
         """A new folder to make a session in; what is still there at the end was not wanted and is removed."""
-        folder = self._staging / secrets.token_hex(16)
-        folder.mkdir()
+        folder = self.stage()
         try:
             yield folder
         finally:
@@ -56,6 +64,7 @@ class SessionFolders:
         write_atomically(staged / RECORD, record.model_dump_json(indent=2).encode())
         folder = self.folder(record.id)
         staged.rename(folder)
+        self._note(record)
         return folder
 
     def folder(self, session_id: str) -> Path:
@@ -69,20 +78,22 @@ class SessionFolders:
     def write_record(self, record: SessionRecord) -> None:
         """Replace a session's record."""
         write_atomically(self.folder(record.id) / RECORD, record.model_dump_json(indent=2).encode())
+        self._note(record)
 
-    def records(self) -> list[SessionRecord]:
-        """The records of all sessions, newest first."""
-        records: list[SessionRecord] = []
-        for folder in self._sessions.iterdir():
-            try:
-                records.append(self.record(folder.name))
-            except (OSError, ValueError) as error:
-                # One that was just ended, or was damaged from outside; the others are still to be listed.
-                _log.warning("session %s cannot be read: %s", folder.name, error)
-        return sorted(records, key=lambda record: record.created_at, reverse=True)
+    def write_index(self) -> None:
+        """Keep the index for the next start."""
+        if len(self.index):
+            write_atomically(self._index_file, self.index.text().encode())
+        else:
+            self._index_file.unlink(missing_ok=True)
 
     def take_out(self, session_id: str) -> Path:
         """Take a session out of the sessions, at once; what is returned is still to be removed."""
+        self.index.remove(session_id)
         doomed = self._staging / f"{session_id}-{secrets.token_hex(4)}"
         self.folder(session_id).rename(doomed)
         return doomed
+
+    def _note(self, record: SessionRecord) -> None:
+        modified_ns = (self.folder(record.id) / RECORD).stat().st_mtime_ns
+        self.index.put(Entry.of(record, modified_ns))

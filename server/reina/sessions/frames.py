@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
+import math
+import threading
 from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +16,7 @@ from reina.protocol import FrameFlag, encode_block, join, stamp
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from concurrent.futures import Future
 
     from reina.performance import Performance
     from reina.protocol import Frames, Manifest
@@ -18,6 +24,8 @@ if TYPE_CHECKING:
 
 FRAMES_PER_BLOCK = 60
 BLOCKS_KEPT = 8
+_EVALUATING = ThreadPoolExecutor(1, thread_name_prefix="frames")
+"""Blocks are evaluated ahead here: on the event loop, which sends them, and would else have to wait."""
 
 
 class EncodedFrames:
@@ -25,6 +33,8 @@ class EncodedFrames:
 
     Frames are always evaluated by whole aligned blocks: floating point differs in the last bit between a
     block and a row of it, and a frame's bytes are to be the same however it was reached.
+
+    May be used by several threads.
     """
 
     def __init__(self, performance: Performance, manifest: Manifest, *, kept: int = BLOCKS_KEPT) -> None:
@@ -32,19 +42,40 @@ class EncodedFrames:
         self._performance = performance
         self._kept = kept
         self._blocks: OrderedDict[int, Frames] = OrderedDict()
+        self._evaluating = threading.Lock()
+        self._ahead: Future[Frames] | None = None
+
+    async def ready(self, *song_times_s: float) -> None:
+        """Have the blocks around some song times evaluated on a thread."""
+        loop = asyncio.get_running_loop()
+        for number in dict.fromkeys(map(self._number, song_times_s)):
+            if number not in self._blocks:
+                await loop.run_in_executor(_EVALUATING, self.block, number)
+
+    def prefetch(self, song_time_s: float) -> None:
+        """Begin to evaluate the block of a song time on a thread, unless one is being evaluated."""
+        number = self._number(song_time_s)
+        if number not in self._blocks and (self._ahead is None or self._ahead.done()):
+            self._ahead = _EVALUATING.submit(self.block, number)
+
+    def _number(self, song_time_s: float) -> int:
+        return max(0, math.floor(song_time_s * self.manifest.fps + 0.5)) // FRAMES_PER_BLOCK
 
     def block(self, number: int) -> Frames:
         """(60,) frames 60·number ... 60·number + 59, not to be written to."""
-        frames = self._blocks.get(number)
-        if frames is None:
-            frames = encode_block(self.manifest, self._performance.evaluate(number))
-            frames.flags.writeable = False
-            self._blocks[number] = frames
-            while len(self._blocks) > self._kept:
-                self._blocks.popitem(last=False)
-        else:
-            self._blocks.move_to_end(number)
-        return frames
+        frames = self._kept_block(number)
+        if frames is not None:
+            # Not even for a moment does whoever sends wait for whoever evaluates ahead.
+            return frames
+        with self._evaluating:
+            frames = self._kept_block(number)
+            if frames is None:
+                frames = encode_block(self.manifest, self._performance.evaluate(number))
+                frames.flags.writeable = False
+                self._blocks[number] = frames
+                while len(self._blocks) > self._kept:
+                    self._blocks.popitem(last=False)
+            return frames
 
     def span(self, first: int, last: int) -> Frames:
         """(last - first + 1,) frames first ... last, a copy."""
@@ -72,6 +103,13 @@ class EncodedFrames:
     def forget(self) -> None:
         """Drop every block: what an idle session need not keep."""
         self._blocks.clear()
+
+    def _kept_block(self, number: int) -> Frames | None:
+        frames = self._blocks.get(number)
+        if frames is not None:
+            with contextlib.suppress(KeyError):  # another thread has just let go of it
+                self._blocks.move_to_end(number)
+        return frames
 
     def _row(self, index: int) -> Frames:
         number, row = divmod(index, FRAMES_PER_BLOCK)

@@ -7,9 +7,27 @@ NICENESS = 5
 """They yield to the server, whose frames are due."""
 
 
+def yield_to_server() -> None:
+    """Let the server have the processor when it wants it, also where it was given real-time priority."""
+    if hasattr(os, "sched_setscheduler"):
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
+
+
 def end_with_parent() -> None:
     """Wait until standard input is closed, which tells that the server is gone, and end the process then."""
     # Past Python's buffer, whose lock a waiting reader would still hold when the process ends.
     while os.read(sys.stdin.fileno(), 1):
         pass
     os._exit(2)
+
+
+def bound_memory(most_bytes: int) -> None:
+    """Hold the process to so much address space, most of it libraries; what wants more fails."""
+    try:
+        import resource
+    except ImportError:  # not on Windows
+        return
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (most_bytes, hard))

@@ -38,17 +38,22 @@ if TYPE_CHECKING:
     from reina.sessions.record import SessionRecord
     from reina.sessions.viewer import Viewer
 
+FIRST_S = 0.3
+"""Seconds of frames that are evaluated before a change: what is sent at once, and a margin."""
+
 
 class Session:
     """One session that is loaded.
 
     Every change is made within one turn of the event loop and begins a new epoch at once. What takes time,
-    such as planning another part or show, is done before, on a thread, and handed in as a `Production`.
+    such as planning another part or show, or evaluating the frames that come first, is done before, on a
+    thread.
 
     Args:
         record: What is kept of it.
         production: What it plays.
         kept_show: The show that it plays, with its history.
+        notes: `note_messages` of the production.
         song: Makes its sound; called when the rest is ready, and whenever the sound is another.
         now: Server time, seconds; never goes back.
     """
@@ -58,6 +63,7 @@ class Session:
         record: SessionRecord,
         production: Production,
         kept_show: KeptShow,
+        notes: NoteMessages,
         song: Callable[[Session], Song],
         *,
         now: Callable[[], float],
@@ -67,11 +73,12 @@ class Session:
         self.kept_show = kept_show
         self.editing = asyncio.Lock()
         """Held while an edit is planned, so that edits do not overtake one another."""
+        self._controlling = asyncio.Lock()
         self.clock = MusicClock(now, self._duration_s())
         if 0 < record.song_time_s < self.clock.duration_s:
             self.clock.seek(record.song_time_s)
         frames = EncodedFrames(production.performance, production.manifest)
-        self.audience = Audience(frames, self.clock, _note_messages(production), now=now)
+        self.audience = Audience(frames, self.clock, notes, now=now)
         self._make_song = song
         self.song = song(self)
 
@@ -159,6 +166,16 @@ class Session:
 
     # Its audience
 
+    async def ready(self, song_time_s: float | None = None, frames: EncodedFrames | None = None) -> None:
+        """Have the frames evaluated on a thread that are sent first when somebody joins or something changes.
+
+        Args:
+            song_time_s: From there on; from the present on when None.
+            frames: Those that will be sent; those that are sent now when None.
+        """
+        first_s = self.audience.song_time_s() if song_time_s is None else song_time_s
+        await (frames or self.audience.frames).ready(first_s, first_s + FIRST_S * self.clock.state().rate)
+
     def join(self, viewer: Viewer) -> None:
         """Let somebody watch."""
         self.audience.join(viewer, lambda state: self.hello(state).model_dump_json())
@@ -168,6 +185,18 @@ class Session:
         self.audience.leave(viewer)
 
     # What changes it
+
+    async def follow(self, command: TransportCommand) -> TransportState:
+        """`control`, once the frames that it leads to are there; commands are followed in their order.
+
+        Raises:
+            ClockError: The command does not fit the song.
+        """
+        async with self._controlling:
+            if len(self.audience):
+                goes_to = command.song_time_s if isinstance(command, Seek) else None
+                await self.ready(goes_to if goes_to is None else min(goes_to, self.clock.duration_s))
+            return self.control(command)
 
     def control(self, command: TransportCommand) -> TransportState:
         """Play, pause, seek, change rate or loop.
@@ -191,26 +220,29 @@ class Session:
         self.audience.restart()
         return self.transport()
 
-    def change_show(self, production: Production, kept_show: KeptShow) -> None:
+    async def change_show(self, production: Production, kept_show: KeptShow) -> None:
         """Play the same with another show.
 
         Args:
             production: The same but for the show.
             kept_show: The other show, with its history.
         """
-        paths = changed_paths(self.kept_show.show, kept_show.show)
+        paths = await asyncio.to_thread(changed_paths, self.kept_show.show, kept_show.show)
+        frames = await self._frames_of(production)
         path = paths[0] if paths is not None and len(paths) == 1 else None
         self.kept_show = kept_show
-        self._replace(production)
+        self._replace(production, frames)
         self.audience.announce(ShowChanged(path=path, paths=paths, **dict(kept_show.state)))
 
-    def change_cast(self, record: SessionRecord, production: Production) -> None:
+    async def change_cast(self, record: SessionRecord, production: Production) -> None:
         """Let others play, or other parts, or the same elsewhere; a song that was rendered is made anew.
 
         Another sequence is another piece: it begins at its beginning. Of other players `hello` tells again
         what the frames hold.
         """
         another_piece = production.score.sequence != self.production.score.sequence
+        notes = await asyncio.to_thread(note_messages, production)
+        frames = await self._frames_of(production, 0.0 if another_piece else None)
         another_layout = production.manifest != self.production.manifest
         another_sound = another_piece or production.cast.sound != self.production.cast.sound
         self.record = record
@@ -221,7 +253,7 @@ class Session:
             self.clock.set_duration(self._duration_s())
         if another_layout:
             self.audience.announce(self.hello())
-        self._replace(production, notes=_note_messages(production))
+        self._replace(production, frames, notes)
         if record.song is None and another_sound:
             self.renew_song()
         self.audience.announce(
@@ -246,17 +278,26 @@ class Session:
         elif self.song.error is not None:
             self.audience.announce(StreamError(title="There is no sound", detail=self.song.error))
 
-    def _replace(self, production: Production, *, notes: NoteMessages | None = None) -> None:
+    async def _frames_of(self, production: Production, song_time_s: float | None = None) -> EncodedFrames:
+        frames = EncodedFrames(production.performance, production.manifest)
+        if len(self.audience):
+            await self.ready(song_time_s, frames)
+        return frames
+
+    def _replace(
+        self, production: Production, frames: EncodedFrames, notes: NoteMessages | None = None
+    ) -> None:
         self.production = production
         self.clock.touch()
-        self.audience.restart(EncodedFrames(production.performance, production.manifest), notes)
+        self.audience.restart(frames, notes)
 
     def _duration_s(self) -> float:
         uploaded = self.record.song.duration_s if self.record.song else None
         return max(self.production.score.duration_s + TAIL_S, uploaded or 0.0)
 
 
-def _note_messages(production: Production) -> NoteMessages:
+def note_messages(production: Production) -> NoteMessages:
+    """What is told of the played notes; of a long score this takes a while."""
     lines = [performer.played.line for performer in production.performers]
     notes = np.concatenate([line.note_index for line in lines])
     onset_s = np.concatenate([line.onset_s for line in lines])

@@ -17,7 +17,7 @@ from pathlib import Path
 import midirenderer
 import numpy as np
 
-from reina.sessions.own_process import NICENESS, end_with_parent
+from reina.sessions.own_process import end_with_parent, yield_to_server
 from reina.sessions.sound_events import CONTROL_DTYPE, NOTE_DTYPE, SoundPlan
 from reina.sessions.sound_mix import CHANNELS, FULL_SCALE, Mix, Samples
 from reina.sessions.sound_passages import BLOCK, Passage, cut_into_passages, write_passage
@@ -80,8 +80,7 @@ def main() -> int:
     """Read the plan and render it."""
     soundfont, out = Path(sys.argv[1]), Path(sys.argv[2])
     note_count, control_count = int(sys.argv[3]), int(sys.argv[4])
-    if hasattr(os, "nice"):
-        os.nice(NICENESS)
+    yield_to_server()
     stdin = sys.stdin.buffer
     plan = SoundPlan(
         notes=np.frombuffer(stdin.read(note_count * NOTE_DTYPE.itemsize), dtype=NOTE_DTYPE),

@@ -16,7 +16,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from reina.errors import InputError
-from reina.sessions.own_process import NICENESS, end_with_parent
+from reina.sessions.own_process import bound_memory, end_with_parent, yield_to_server
 from reina.sessions.sound_peaks import write_peaks
 from reina.sessions.sound_probe import probe_recording
 
@@ -27,9 +27,8 @@ MOST_MEMORY_BYTES = 1_500_000_000
 def main() -> int:
     """Probe, and tell."""
     song, peaks_file = Path(sys.argv[1]), Path(sys.argv[2])
-    if hasattr(os, "nice"):
-        os.nice(NICENESS)
-    _bound_memory()
+    yield_to_server()
+    bound_memory(MOST_MEMORY_BYTES)
     threading.Thread(target=end_with_parent, daemon=True).start()
     _silence_libraries()
     try:
@@ -48,15 +47,6 @@ def main() -> int:
 def _tell(message: dict[str, object]) -> None:
     sys.stdout.write(json.dumps(message) + "\n")
     sys.stdout.flush()
-
-
-def _bound_memory() -> None:
-    try:
-        import resource
-    except ImportError:  # not on Windows
-        return
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY_BYTES, hard))
 
 
 def _silence_libraries() -> None:

@@ -32,11 +32,13 @@ class Stage:
     Attributes:
         rigs: Players and instruments by name.
         holds: How who holds what: (player, instrument) -> the hold.
+        kinds: The instruments by name.
         parameters: What a show can move beside the players.
     """
 
     rigs: Mapping[str, Rig]
     holds: Mapping[tuple[str, str], Hold]
+    kinds: Mapping[str, Instrument]
     parameters: tuple[Parameter, ...] = tuple(stage_registry())
 
     @classmethod
@@ -56,12 +58,13 @@ class Stage:
                 holds[player, name] = load_hold(rigs_dir / player, instrument.rig)
         instruments = {INSTRUMENTS[name].rig for _, name in holds}
         rigs = {name: load_rig(rigs_dir / name) for name in {player for player, _ in holds} | instruments}
-        return cls(rigs=rigs, holds=holds)
+        kinds = {instrument: INSTRUMENTS[instrument] for _, instrument in holds}
+        return cls(rigs=rigs, holds=holds, kinds=kinds)
 
     @property
     def instruments(self) -> tuple[str, ...]:
         """What somebody can play."""
-        return tuple(dict.fromkeys(instrument for _, instrument in self.holds))
+        return tuple(self.kinds)
 
     def players(self, instrument: str) -> tuple[str, ...]:
         """Who can play an instrument, by name."""
@@ -90,7 +93,7 @@ class Stage:
                 f"there is no player {casting.player!r} of the {casting.instrument}; there are {known}",
                 where=f"{place}player",
             )
-        return INSTRUMENTS[casting.instrument]
+        return self.kinds[casting.instrument]
 
     def performer(
         self,
@@ -111,7 +114,7 @@ class Stage:
             played: The part as it is played.
             registry: The show's parameters.
         """
-        instrument = INSTRUMENTS[casting.instrument]
+        instrument = self.kinds[casting.instrument]
         return Performer(
             score=score,
             played=played,

@@ -12,24 +12,24 @@ from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.instruments import Cast
-from reina.music import read_score
 from reina.sessions.atomic_write import write_atomically
 from reina.sessions.description import warned
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
 from reina.sessions.kept_show import KeptShow
-from reina.sessions.production import Production, read_show
+from reina.sessions.reader import Reader
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
-from reina.sessions.session import Session
+from reina.sessions.session import Session, note_messages
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.sound_decoder import SongDecoder
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
-    from contextlib import AbstractContextManager
     from pathlib import Path
 
     from reina.keyframes import ShowHistory
-    from reina.music import Score
+    from reina.sessions.note_messages import NoteMessages
+    from reina.sessions.production import Production
+    from reina.sessions.session_index import Entry
     from reina.sessions.sound import SongRenderer
     from reina.sessions.stage import Stage
 
@@ -76,7 +76,8 @@ class Draft:
 class SessionStore:
     """Makes, finds, keeps and ends sessions.
 
-    Reading and planning happen on threads; sessions themselves live on the event loop.
+    Reading, planning and writing happen on threads and in processes; sessions themselves live on the event
+    loop.
 
     Args:
         data_dir: Where sessions and rendered songs are kept.
@@ -86,6 +87,7 @@ class SessionStore:
         loaded: How many sessions are kept in memory.
         song_cache_bytes: How large the rendered songs may be together.
         decoder: Tells what uploaded songs are.
+        reader: Reads scores and shows.
     """
 
     def __init__(
@@ -98,8 +100,10 @@ class SessionStore:
         loaded: int = LOADED,
         song_cache_bytes: int = SONG_CACHE_BYTES,
         decoder: SongDecoder | None = None,
+        reader: Reader | None = None,
     ) -> None:
         self.stage = stage
+        self.reader = reader or Reader(stage)
         self.decoder = decoder or SongDecoder()
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
@@ -109,15 +113,21 @@ class SessionStore:
         self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
         self._loading: dict[str, asyncio.Task[Session | None]] = {}
+        self._putting_away: dict[str, asyncio.Task[None]] = {}
 
     @property
     def loaded(self) -> int:
         """How many sessions are in memory."""
         return len(self._sessions)
 
-    def staging(self) -> AbstractContextManager[Path]:
+    @asynccontextmanager
+    async def staging(self) -> AsyncGenerator[Path]:
         """A new folder for a draft's files; what is not made a session of is removed at the end."""
-        return self._folders.staging()
+        folder = await asyncio.to_thread(self._folders.stage)
+        try:
+            yield folder
+        finally:
+            await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
 
     async def create(self, draft: Draft) -> tuple[Session, str]:
         """Make a session.
@@ -129,9 +139,16 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
-        score = await asyncio.to_thread(_read_draft, draft)
+        production = await self._plan(draft.folder / draft.score, draft.score_filename, draft.cast)
         song = None if draft.song is None else await self._keep_song(draft.folder / draft.song)
-        return self._admit(*await asyncio.to_thread(self._make, draft, score, song, hash_token(token))), token
+        if draft.show is not None:
+            show_file = draft.folder / draft.show
+            show = await self.reader.show(await asyncio.to_thread(show_file.read_bytes), production.registry)
+            await asyncio.to_thread(show_file.unlink)
+            production = await asyncio.to_thread(production.with_show, show)
+        return self._admit(
+            *await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
+        ), token
 
     async def get(self, session_id: str) -> Session | None:
         """A session, loaded if need be; None where there is none."""
@@ -152,10 +169,9 @@ class SessionStore:
         self._sessions.move_to_end(session_id)
         return session
 
-    async def public(self) -> list[SessionRecord]:
-        """The records of the sessions that are listed, newest first."""
-        records = await asyncio.to_thread(self._folders.records)
-        return [record for record in records if record.public]
+    def listed(self, limit: int, after: str | None = None) -> tuple[list[Entry], str | None]:
+        """Some of the sessions that are listed, newest first; see `SessionIndex.page`."""
+        return self._folders.index.page(limit, after)
 
     async def change(
         self,
@@ -184,13 +200,13 @@ class SessionStore:
             record, kept = session.record.model_copy(update=changes), session.kept_show
             wanted = recast(record.cast) if recast else record.cast
             if wanted != record.cast:
-                production, kept = await asyncio.to_thread(self._plan_other, session, wanted)
+                production, kept = await self._plan_other(session, wanted)
                 before, after = session.production.score.title, production.score.title
                 titled = {"title": after} if title is None and record.title == before else {}
                 record = record.model_copy(update={"cast": production.cast, **titled})
-                session.change_cast(record, production)
+                await session.change_cast(record, production)
                 if kept is not session.kept_show:
-                    session.change_show(production, kept)
+                    await session.change_show(production, kept)
                     await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
@@ -208,7 +224,7 @@ class SessionStore:
             if kept is not session.kept_show:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
                 # Seen first, then kept: the answer waits for both.
-                session.change_show(production, kept)
+                await session.change_show(production, kept)
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
         return kept
 
@@ -220,8 +236,8 @@ class SessionStore:
         """
         async with self._edit(session):
             del self._sessions[session.id]
-            doomed = self._folders.take_out(session.id)
             session.close()
+            doomed = await asyncio.to_thread(self._folders.take_out, session.id)
         await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
         if session.record.song is None and session.song.path not in self._songs_in_use():
             await asyncio.to_thread(self._renderer.discard, session.song.path)
@@ -239,8 +255,11 @@ class SessionStore:
         for session in list(self._sessions.values()):
             self._put_away(session)
         await self._renderer.aclose()
-        if self._pruning:
-            await asyncio.wait(self._pruning)
+        await self.reader.aclose()
+        for tasks in (self._pruning, self._putting_away.values()):
+            if tasks:
+                await asyncio.wait(tasks)
+        await asyncio.to_thread(self._folders.write_index)
 
     async def _keep_song(self, uploaded: Path) -> SongRecord:
         """Have a song decoded, and give it the name that its format has; its peaks stand beside it."""
@@ -255,20 +274,14 @@ class SessionStore:
         )
 
     def _make(
-        self, draft: Draft, score: Score, song: SongRecord | None, token_sha256: str
-    ) -> tuple[SessionRecord, Production, KeptShow]:
-        show = None
-        if draft.show is not None:
-            registry = self.stage.registry(len(draft.cast.castings))
-            show = read_show((draft.folder / draft.show).read_bytes(), registry)
-            (draft.folder / draft.show).unlink()
-        production = Production.plan(self.stage, score, show, draft.cast)
+        self, draft: Draft, production: Production, song: SongRecord | None, token_sha256: str
+    ) -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
         (draft.folder / draft.score).rename(draft.folder / SCORE)
         kept = KeptShow.begin(production.show)
         _write_show(draft.folder, kept)
         record = SessionRecord(
             id=new_id(),
-            title=draft.title or score.title,
+            title=draft.title or production.score.title,
             public=draft.public,
             created_at=created_now(),
             token_sha256=token_sha256,
@@ -277,7 +290,7 @@ class SessionStore:
             song=song,
         )
         self._folders.adopt(draft.folder, record)
-        return record, production, kept
+        return record, production, kept, note_messages(production)
 
     @asynccontextmanager
     async def _edit(self, session: Session) -> AsyncGenerator[None]:
@@ -292,8 +305,11 @@ class SessionStore:
             yield
 
     async def _load(self, session_id: str) -> Session | None:
+        # What was kept of it last is what is read.
+        if session_id in self._putting_away:
+            await asyncio.wait([self._putting_away[session_id]])
         try:
-            read = await asyncio.to_thread(self._read, session_id)
+            read = await self._read(session_id)
         except FileNotFoundError:
             if session_id in self._folders:
                 raise
@@ -301,32 +317,38 @@ class SessionStore:
         # Ended while it was read: it must not come back.
         return self._admit(*read) if session_id in self._folders else None
 
-    def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow]:
-        record = self._folders.record(session_id)
-        score = self._score(record, record.cast.sequence)
-        registry = self.stage.registry(len(record.cast.castings))
-        show = read_show((self._folders.folder(session_id) / SHOW).read_bytes(), registry)
-        return record, Production.plan(self.stage, score, show, record.cast), KeptShow.begin(show)
+    async def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+        folder = self._folders.folder(session_id)
+        record = await asyncio.to_thread(self._folders.record, session_id)
+        planned = await self._plan(folder / SCORE, record.score_filename, record.cast)
+        show = await self.reader.show(await asyncio.to_thread((folder / SHOW).read_bytes), planned.registry)
 
-    def _score(self, record: SessionRecord, sequence: int | None) -> Score:
-        data = (self._folders.folder(record.id) / SCORE).read_bytes()
-        return read_score(data, filename=record.score_filename, sequence=sequence)
+        def prepared() -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+            production = planned.with_show(show)
+            return record, production, KeptShow.begin(show), note_messages(production)
 
-    def _plan_other(self, session: Session, wanted: Cast) -> tuple[Production, KeptShow]:
+        return await asyncio.to_thread(prepared)
+
+    async def _plan(self, score: Path, filename: str | None, cast: Cast) -> Production:
+        """Read a score and plan how a cast plays it, with the show that is written for it."""
+        return await self.reader.production(score, filename=filename, cast=cast)
+
+    async def _plan_other(self, session: Session, wanted: Cast) -> tuple[Production, KeptShow]:
         """Plan another cast in place of the session's."""
         before, kept = session.production, session.kept_show
-        score, show = before.score, before.show
-        if wanted.sequence != session.record.cast.sequence:
-            score = self._score(session.record, wanted.sequence)
-            if score.sequence != before.score.sequence and before.has_default_show:
-                show = None
-        production = Production.plan(self.stage, score, show, wanted)
-        if production.show is not kept.show:
-            kept = kept.then(lambda history: history.then(production.show))
-        return production, kept
+        path = self._folders.folder(session.id) / SCORE
+        planned = await self._plan(path, session.record.score_filename, wanted)
+        another = planned.score.sequence != before.score.sequence
+        if not another or not await asyncio.to_thread(lambda: before.has_default_show):
+            planned = await asyncio.to_thread(planned.with_show, before.show)
+        if planned.show is not kept.show:
+            kept = await asyncio.to_thread(kept.then, lambda history: history.then(planned.show))
+        return planned, kept
 
-    def _admit(self, record: SessionRecord, production: Production, kept: KeptShow) -> Session:
-        session = Session(record, production, kept, self._song, now=self._now)
+    def _admit(
+        self, record: SessionRecord, production: Production, kept: KeptShow, notes: NoteMessages
+    ) -> Session:
+        session = Session(record, production, kept, notes, self._song, now=self._now)
         self._sessions[session.id] = session
         self._make_room()
         return session
@@ -357,14 +379,11 @@ class SessionStore:
     def _put_away(self, session: Session) -> None:
         del self._sessions[session.id]
         record = session.record.model_copy(update={"song_time_s": session.clock.state().song_time_s})
-        if record != session.record:
-            self._folders.write_record(record)
         session.close()
-
-
-def _read_draft(draft: Draft) -> Score:
-    data = (draft.folder / draft.score).read_bytes()
-    return read_score(data, filename=draft.score_filename, sequence=draft.cast.sequence)
+        if record != session.record:
+            writing = asyncio.create_task(asyncio.to_thread(self._folders.write_record, record))
+            self._putting_away[session.id] = writing
+            writing.add_done_callback(lambda _: self._putting_away.pop(session.id, None))
 
 
 def _write_show(folder: Path, kept: KeptShow) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
@@ -67,11 +68,13 @@ class NumberedPerformance:
     cuts: frozenset[int] = frozenset()
     evaluated: list[int] = field(default_factory=list[int])
     broken: bool = False
+    threads: list[str] = field(default_factory=list[str])
 
     def evaluate(self, block: int) -> Block:
         if self.broken:
             raise RuntimeError("this performance is broken")
         self.evaluated.append(block)
+        self.threads.append(threading.current_thread().name)
         index = 60 * block + np.arange(60)
         joints = sum(len(skeleton.joints) for skeleton in self.layout.skeletons)
         parameters = np.zeros((60, 7), np.float32)

@@ -92,14 +92,3 @@ def test_the_next_time_is_a_lead_before_the_next_frame() -> None:
     broadcast = Broadcast(encoded(), state())
     broadcast.until(1000.0, {1})
     assert broadcast.next_time() == pytest.approx(1000.0 + 7 * FRAME - LEAD_S)
-
-
-def test_the_block_ahead_is_prepared() -> None:
-    performance = NumberedPerformance()
-    broadcast = Broadcast(encoded(performance), state())
-    broadcast.until(1000.0, {1})
-    broadcast.prepare()
-    assert performance.evaluated == [0]
-    broadcast.until(1000.4, {1})
-    broadcast.prepare()
-    assert performance.evaluated == [0, 1]

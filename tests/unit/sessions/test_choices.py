@@ -41,7 +41,7 @@ def a_store(data_dir: Path, stage: Stage) -> SessionStore:
 
 
 async def create(store: SessionStore, score: bytes, **options: Any) -> Session:
-    with store.staging() as folder:
+    async with store.staging() as folder:
         (folder / "score").write_bytes(score)
         (folder / "song").write_bytes(song(0.1))
         if "show" in options:
@@ -230,7 +230,7 @@ def test_what_cannot_be_chosen_changes_nothing(tmp_path: Path, stage: Stage) -> 
 def test_a_song_has_one_address_for_what_sounds_the_same(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
-        with store.staging() as folder:
+        async with store.staging() as folder:
             (folder / "score").write_bytes(duet())
             session, _ = await store.create(
                 Draft(folder=folder, score="score", **draft_fields({"written": True}))

@@ -83,14 +83,6 @@ def test_no_id_leads_out_of_the_folder(tmp_path: Path, session_id: str) -> None:
     assert session_id not in SessionFolders(tmp_path)
 
 
-def test_records_come_newest_first(tmp_path: Path) -> None:
-    folders = SessionFolders(tmp_path)
-    for title, created_at in (("old", "2026-01-01T00:00:00+00:00"), ("new", "2026-02-01T00:00:00+00:00")):
-        with folders.staging() as staged:
-            folders.adopt(staged, record(title=title, created_at=created_at))
-    assert [kept.title for kept in folders.records()] == ["new", "old"]
-
-
 def test_ids_and_tokens_are_random_and_tokens_are_not_kept() -> None:
     ids = {new_id() for _ in range(100)}
     assert len(ids) == 100

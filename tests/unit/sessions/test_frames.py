@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import asyncio
+
 import numpy as np
 import pytest
 from tests.unit.sessions.fakes import NumberedPerformance, encoded, read
@@ -14,6 +16,24 @@ def test_a_block_is_evaluated_once() -> None:
     for index in (0, 59, 60, 5, 61):
         frames.message([DueFrame(index, 1.0)], epoch=1, playing=True)
     assert performance.evaluated == [0, 1]
+
+
+def test_blocks_are_made_ready_on_a_thread_of_their_own() -> None:
+    performance = NumberedPerformance()
+    frames = encoded(performance)
+
+    async def scenario() -> None:
+        await frames.ready(0.0, 0.5, 1.0)
+        frames.prefetch(2.0)
+        frames.prefetch(2.5)
+
+    asyncio.run(scenario())
+    assert performance.evaluated[:2] == [0, 1]
+    # Whoever needs one that is being evaluated waits for it, and it is evaluated once.
+    got = frames.block(2)
+    assert performance.evaluated == [0, 1, 2]
+    assert all(name.startswith("frames") for name in performance.threads[:2])
+    assert got.tobytes() == encoded().block(2).tobytes()
 
 
 def test_only_the_last_used_blocks_are_kept() -> None:

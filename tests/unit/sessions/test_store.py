@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import shutil
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.keyframes import Show
 from reina.protocol.transport import Pause, Play, Seek
+from reina.sessions.folders import SessionFolders
 from reina.sessions.sound import SongRenderer
 from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionEndedError, SessionStore
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
     from typing import Any
 
+    from reina.sessions.record import SessionRecord
     from reina.sessions.session import Session
 
 RIGS = Path(__file__).parents[3] / "rigs"
@@ -40,7 +43,7 @@ class Desk:
         self.store = SessionStore(data_dir, stage, SongRenderer(data_dir), now=self.now, loaded=loaded)
 
     async def create(self, score: bytes, **options: Any) -> Session:
-        with self.store.staging() as folder:
+        async with self.store.staging() as folder:
             (folder / "score").write_bytes(score)
             (folder / "song").write_bytes(song(0.1))
             draft = Draft(folder=folder, score="score", song="song", **draft_fields(options))
@@ -98,6 +101,31 @@ def test_a_session_that_plays_is_not_put_away(tmp_path: Path, stage: Stage) -> N
         await desk.create(scale(4))
         assert desk.store.loaded == 1
         assert await desk.get(playing.id) is not playing
+
+    run(scenario)
+
+
+def test_a_session_that_is_just_put_away_comes_back_as_it_was(
+    tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    writing = threading.Event()
+    write = SessionFolders.write_record
+
+    def slowly(folders: SessionFolders, record: SessionRecord) -> None:
+        writing.wait(5)
+        write(folders, record)
+
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, loaded=1)
+        first = await desk.create(scale(8))
+        first.control(Seek(action="seek", song_time_s=0.75))
+        monkeypatch.setattr(SessionFolders, "write_record", slowly)
+        await desk.create(scale(4))
+        asking = asyncio.create_task(desk.get(first.id))
+        await asyncio.sleep(0.05)
+        assert not asking.done(), "it waits for the record"
+        writing.set()
+        assert (await asking).transport().song_time_s == 0.75
 
     run(scenario)
 
@@ -192,6 +220,8 @@ def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage
         whole = await desk.create(scale(4), public=True)
         damaged = await desk.create(scale(4), public=True)
         (tmp_path / "sessions" / damaged.id / "session.json").write_text("{")
-        assert {record.id for record in await desk.store.public()} == {whole.id}
+        entries, following = Desk(tmp_path, stage).store.listed(10)
+        assert [entry.id for entry in entries] == [whole.id]
+        assert following is None
 
     run(scenario)

@@ -75,7 +75,7 @@ class Desk:
         self.store = SessionStore(data_dir, stage, self.renderer, now=HandClock(), **options)
 
     async def create(self, score: bytes, *, with_song: bool = False, **options: Any) -> Session:
-        with self.store.staging() as folder:
+        async with self.store.staging() as folder:
             (folder / "score").write_bytes(score)
             if with_song:
                 (folder / "song").write_bytes(song(0.1))

@@ -321,9 +321,11 @@ export interface CreatedSession extends Session {
   control_token: string
 }
 
-/** The public sessions, newest first. */
+/** Public sessions, newest first. */
 export interface SessionList {
   sessions: SessionSummary[]
+  /** What the next page is asked for with, as after; null when there are no more. */
+  next: string | null
 }
 
 /** The score, as far as it is drawn and played. */

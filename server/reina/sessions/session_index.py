@@ -1,0 +1,141 @@
+"""Which sessions there are, in memory and in a file: listing them reads no record."""
+
+from __future__ import annotations
+
+import json
+import logging
+import threading
+from bisect import bisect_left, insort
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+    from pathlib import Path
+
+    from reina.sessions.record import SessionRecord
+
+INDEX = "sessions.json"
+VERSION = 1
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What is kept of a session in the index.
+
+    Attributes:
+        id: Its id.
+        title: Its title.
+        public: Whether it is listed.
+        created_at: ISO 8601, UTC.
+        modified_ns: When its record was written; another time on disk means that it has to be read again.
+    """
+
+    id: str
+    title: str
+    public: bool
+    created_at: str
+    modified_ns: int
+
+    @classmethod
+    def of(cls, record: SessionRecord, modified_ns: int) -> Entry:
+        """The entry of a record."""
+        return cls(record.id, record.title, record.public, record.created_at, modified_ns)
+
+    @property
+    def place(self) -> str:
+        """Where it stands in the list: by the time of its creation, then by its id; fit for an address."""
+        return f"{self.created_at.removesuffix('+00:00')}Z_{self.id}"
+
+
+class SessionIndex:
+    """All sessions, and those that are listed in the order of their creation. For several threads.
+
+    The file only saves reading every record at the start: it is written then and when the server ends, and
+    whatever has changed since, as after a crash, is seen by its time and read again.
+    """
+
+    def __init__(self) -> None:
+        self._entries: dict[str, Entry] = {}
+        self._listed: list[str] = []
+        self._changing = threading.Lock()
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def fill(
+        self, folders: Iterable[Path], record_file: str, read: Callable[[str], SessionRecord], file: Path
+    ) -> None:
+        """Take stock.
+
+        Args:
+            folders: One a session, by its id.
+            record_file: The name of the record in each.
+            read: Reads a record by its session's id.
+            file: The index as it was kept.
+        """
+        known = _kept(file)
+        for folder in folders:
+            try:
+                modified_ns = (folder / record_file).stat().st_mtime_ns
+                entry = known.get(folder.name)
+                if entry is None or entry.modified_ns != modified_ns:
+                    entry = Entry.of(read(folder.name), modified_ns)
+            except (OSError, ValueError) as error:
+                # Damaged from outside; the others are still to be found.
+                _log.warning("session %s cannot be read: %s", folder.name, error)
+                continue
+            self._entries[entry.id] = entry
+        self._listed = sorted(entry.place for entry in self._entries.values() if entry.public)
+
+    def text(self) -> str:
+        """What the file holds."""
+        with self._changing:
+            return json.dumps({"version": VERSION, "sessions": [asdict(e) for e in self._entries.values()]})
+
+    def put(self, entry: Entry) -> None:
+        """Take a session in, or what has changed of it."""
+        with self._changing:
+            self._unlist(entry.id)
+            self._entries[entry.id] = entry
+            if entry.public:
+                insort(self._listed, entry.place)
+
+    def remove(self, session_id: str) -> None:
+        """Forget a session."""
+        with self._changing:
+            self._unlist(session_id)
+            self._entries.pop(session_id, None)
+
+    def page(self, limit: int, after: str | None) -> tuple[list[Entry], str | None]:
+        """Some of the sessions that are listed, the newest first.
+
+        Args:
+            limit: How many at most.
+            after: What the page before gave; None for the first page.
+
+        Returns:
+            The sessions, and what the next page is asked for with; None when there are no more.
+        """
+        with self._changing:
+            end = len(self._listed) if after is None else bisect_left(self._listed, after)
+            start = max(0, end - limit)
+            places = self._listed[start:end][::-1]
+            entries = [self._entries[place.partition("_")[2]] for place in places]
+        return entries, places[-1] if start and places else None
+
+    def _unlist(self, session_id: str) -> None:
+        entry = self._entries.get(session_id)
+        if entry is not None and entry.public:
+            del self._listed[bisect_left(self._listed, entry.place)]
+
+
+def _kept(file: Path) -> Mapping[str, Entry]:
+    try:
+        document: dict[str, Any] = json.loads(file.read_bytes())
+        if document["version"] != VERSION:
+            return {}
+        return {entry["id"]: Entry(**entry) for entry in document["sessions"]}
+    except (OSError, ValueError, TypeError, KeyError):
+        return {}
