@@ -100,7 +100,7 @@ def test_the_duet_is_for_two_trumpets_that_enter_apart():
         assert played.warnings == ()
         assert played.fingering.playable.all()
         # In easy range, and with a rest to breathe in every four bars and a half.
-        assert 57 <= played.line.sounding_pitch.min()
+        assert played.line.sounding_pitch.min() >= 57
         assert played.line.sounding_pitch.max() <= 83
         rests = np.flatnonzero(played.line.onset_s[1:] - played.line.end_s[:-1] > 0.15)
         begins, ends = played.line.onset_s[np.r_[0, rests + 1]], played.line.end_s[np.r_[rests, -1]]
