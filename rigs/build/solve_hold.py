@@ -50,34 +50,29 @@ def place_instrument(player: Rig, instrument: Rig, stance: Stance) -> tuple[Arra
     return rotation, place + head @ offset - rotation @ instrument.contact("mouthpiece")[1]
 
 
-def search(hand: RightHand | LeftHand, start: Array, label: str, starts: int) -> Array:
+def search(hands: Sequence[RightHand] | Sequence[LeftHand], start: Array, label: str, starts: int) -> Array:
     """The best of several least-squares searches from scattered starts; the same every run.
 
-    One that wrings the wrist only counts where no other does better.
+    Each is for the first hand, and followed from each hand to the next. One that ends with a wrung wrist only
+    counts where no other does better.
     """
     rng = np.random.default_rng(3)
     best = None
     for attempt in range(starts):
         spread = np.r_[np.full(3, 0.006), np.full(3, 0.12), 0.2, 0.02, 0.02, np.full(len(start) - 9, 0.12)]
-        guess = start + (rng.normal(0, 1, len(start)) * spread if attempt else 0)
-        found = least_squares(
-            hand.residuals, guess, method="trf", x_scale=np.maximum(spread, 0.02), max_nfev=120
-        )
-        _, flexion, deviation = np.abs(hand.grip.reach(found.x)[2].wrist * DEG)
+        x = start + (rng.normal(0, 1, len(start)) * spread if attempt else 0)
+        cost = np.inf
+        for hand in hands:
+            scale = np.maximum(spread, 0.02)
+            found = least_squares(hand.residuals, x, method="trf", x_scale=scale, max_nfev=120)
+            x, cost = np.asarray(found.x), float(found.cost)
+        _, flexion, deviation = np.abs(hands[-1].grip.reach(x)[2].wrist * DEG)
         wrung = bool(flexion > WRIST_DEG or deviation > WRIST_DEG)
-        print(f"{label} start {attempt}: cost {found.cost:.3f}{', wrist wrung' if wrung else ''}")
-        if best is None or (wrung, found.cost) < best[:2]:
-            best = wrung, found.cost, found.x
+        print(f"{label} start {attempt}: cost {cost:.3f}{', wrist wrung' if wrung else ''}")
+        if best is None or (wrung, cost) < best[:2]:
+            best = wrung, cost, x
     assert best is not None
-    return np.asarray(best[2])
-
-
-def approach(hands: Sequence[RightHand] | Sequence[LeftHand], start: Array, label: str, starts: int) -> Array:
-    """The best of several searches for the first hand, followed from each to the next."""
-    x = search(hands[0], start, label, starts)
-    for hand in hands[1:]:
-        x = search(hand, x, label, 1)
-    return x
+    return best[2]
 
 
 def solve_right(grips: Sequence[Grip], instrument: Rig, starts: int) -> Pose:
@@ -85,7 +80,7 @@ def solve_right(grips: Sequence[Grip], instrument: Rig, starts: int) -> Pose:
     buttons = np.array([b["position"] for b in instrument.content["buttons"]])
     thumb, hook = instrument.contact("thumb_right")[1], instrument.contact("hook")[1]
     hands = [RightHand(grip, buttons, thumb, hook) for grip in grips]
-    x = approach(hands, right_hand.START, "right", starts)
+    x = search(hands, right_hand.START, "right", starts)
     hand, grip = hands[-1], grips[-1]
     rotation, position, arm = grip.reach(x)
     angles, lacking = hand.fingers(rotation, position)
@@ -110,7 +105,7 @@ def solve_left(grips: Sequence[Grip], instrument: Rig, starts: int) -> Pose:
     casing = instrument.contact("grip_left")[1][0]
     slide = np.array([-0.004, -0.034, 0.040])
     hands = [LeftHand(grip, ring, saddle, slide, third[2], casing) for grip in grips]
-    x = approach(hands, left_hand.START, "left", starts)
+    x = search(hands, left_hand.START, "left", starts)
     hand, grip = hands[-1], grips[-1]
     arm = grip.reach(x)[2]
     print("left hand", np.round(x, 4).tolist())
