@@ -35,6 +35,8 @@ STEP_M = 0.015
 """How much nearer a short horn comes between one search and the next."""
 WRIST_DEG = 16.0
 """A wrist that is bent by more is wrung."""
+FOREARM_M = 0.0
+"""How deep a forearm may lie in the instrument."""
 STARTS = 6
 """Searches from scattered starts; the best counts."""
 
@@ -53,8 +55,8 @@ def place_instrument(player: Rig, instrument: Rig, stance: Stance) -> tuple[Arra
 def search(hands: Sequence[RightHand] | Sequence[LeftHand], start: Array, label: str, starts: int) -> Array:
     """The best of several least-squares searches from scattered starts; the same every run.
 
-    Each is for the first hand, and followed from each hand to the next. One that ends with a wrung wrist only
-    counts where no other does better.
+    Each is for the first hand, and followed from each hand to the next. One that ends with a wrung wrist or
+    the forearm in the instrument only counts where no other does better.
     """
     rng = np.random.default_rng(3)
     best = None
@@ -66,11 +68,16 @@ def search(hands: Sequence[RightHand] | Sequence[LeftHand], start: Array, label:
             scale = np.maximum(spread, 0.02)
             found = least_squares(hand.residuals, x, method="trf", x_scale=scale, max_nfev=120)
             x, cost = np.asarray(found.x), float(found.cost)
-        _, flexion, deviation = np.abs(hands[-1].grip.reach(x)[2].wrist * DEG)
-        wrung = bool(flexion > WRIST_DEG or deviation > WRIST_DEG)
-        print(f"{label} start {attempt}: cost {cost:.3f}{', wrist wrung' if wrung else ''}")
-        if best is None or (wrung, cost) < best[:2]:
-            best = wrung, cost, x
+        grip = hands[-1].grip
+        _, flexion, deviation = np.abs(grip.reach(x)[2].wrist * DEG)
+        depth = grip.forearm_depth(x)
+        unnatural = bool(max(flexion, deviation) > WRIST_DEG or depth > FOREARM_M)
+        print(
+            f"{label} start {attempt}: cost {cost:.3f}, wrist {flexion:.1f} and {deviation:.1f} degrees,",
+            f"forearm {1000 * depth:.1f} mm in metal",
+        )
+        if best is None or (unnatural, cost) < best[:2]:
+            best = unnatural, cost, x
     assert best is not None
     return best[2]
 

@@ -21,7 +21,8 @@ KNURLS = 28
 def bell_path(horn: Horn) -> np.ndarray:
     """The bell's axis from valve 1 through the bow to its end."""
     bell = horn.bell
-    bow = [bezier(*bell.bow[k : k + 4], bell.bow_points) for k in range(0, len(bell.bow) - 1, 3)]
+    at = bell.bow
+    bow = [bezier(at[k], at[k + 1], at[k + 2], at[k + 3], bell.bow_points) for k in range(0, len(at) - 1, 3)]
     return joined_path(
         line([0.004, m.Y_LOW, m.VALVE_Z[0] - 0.009], bell.bow[0], 20),
         *bow,

@@ -54,6 +54,7 @@ class Grip:
         self.shoulder = world[f"{self.side}UpperArm"][1]
         self.fingers = [Finger.of(self.rig, f"{self.side}{name}") for name in FINGERS]
         self.thumb = Thumb.of(self.rig, self.side)
+        self.forearm = [c for c in self.rig.content["capsules"] if c["joint"] == f"{self.side}LowerArm"]
         self.palm = [c for c in self.rig.content["capsules"] if c["joint"] == f"{self.side}Hand"]
 
     def reach(self, x: Array) -> tuple[Array, Array, ArmPose]:
@@ -78,6 +79,15 @@ class Grip:
             beyond(flexion, -30, 12.5)[None] / 0.6,
             beyond(deviation, -11, 11)[None] / 0.4,
         ]
+
+    def forearm_depth(self, x: Array) -> float:
+        """How deep the forearm lies inside the instrument, metres; negative where it is clear of it."""
+        turn, place = self.instrument
+        arm = self.reach(x)[2]
+        wrist = place + turn @ x[:3]
+        radius = max(float(c["radius"]) for c in self.forearm)
+        points, radii = along_bones(np.array([arm.elbow, wrist]), np.array([radius]), 12)
+        return float((radii - self.obstacles.clearance((points - place) @ turn)).max())
 
     def palm_spheres(self) -> tuple[Array, Array]:
         """Spheres that stand for the palm, in the hand's frame."""
