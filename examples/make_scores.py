@@ -230,6 +230,69 @@ def prince_of_denmarks_march(path: Path) -> None:
     )
 
 
+DUET_SECONDS = {
+    # The second enters late in the refrain, answers the first's call in B, and has the tune first in C.
+    "A": """r:4 | r:4 | r:4 | r:1 E4:1 E4:1 E4:1' |
+            F#4:1 A4:1 C#5:2 | A4:1.5 B4:.5 A4:1 A4:1 | B4:.5 C#5:.5 B4:1 C#5:1.5 A4:.5 | F#4:3 r:1 |""",
+    "B": """D5:2 B4:1.5 A4:.25 B4:.25 | C#5:1.5 D5:.5 C#5:1 E5:1 | D5:1 r:3 | F#5:1 D5:1 A4:1 F#4:1' |
+            D5:2 B4:1.5 A4:.25 B4:.25 | C#5:1.5 D5:.5 C#5:1 E5:1 |
+            D5:1.5 F#4:.5 F#4:.5 G4:.5 A4:.5 B4:.5 | C#5:3 r:1 |""",
+    "C": """A4:1 F#4:.5 G4:.5 A4:1 D5:1 | F#4:1 D4:.5 E4:.5 F#4:2 | F#4:1 F#4:.5 G4:.5 A4:1 F#4:1 |
+            E4:1.5 D4:.5 C#4:2' |
+            E5:1 C#5:.5 D5:.5 E5:1 F#5:1 | C#5:1 A4:.5 B4:.5 C#5:1 A4:1 |
+            A4:1 B4:.5 A4:.5 G#4:1.5 E4:.5 | E4:1 C#4:.5 C#4:.5 E4:1 r:1 |""",
+    "end": """F#4:1 A4:1 C#5:2 | A4:1.5 B4:.5 A4:1 A4:1 | B4:1 A4:1 A4:1 B4:1 | C#5:1 E4:1 E4:1 E4:1' |
+              F#4:1 A4:1 C#5:2 | A4:1.5 B4:.5 A4:1 A4:1 | B4:.5 C#5:.5 B4:1 C#5:1.5 A4:.5 |
+              F#4:3 r:1 |""",
+}
+DUET_FIRST_C = """
+r:4 | A4:1 F#4:.5 G4:.5 A4:1 D5:1 | A4:1 D5:.5 E5:.5 F#5:1 D5:1 | C#5:1.5 B4:.5 A4:2' |
+r:4 | E5:1 C#5:.5 D5:.5 E5:1 F#5:1 | E5:1 D5:.5 C#5:.5 B4:1.5~ A4:.5 | A4:3 r:1 |"""
+DUET_BASS = {
+    "A": """D3:2 A2:2 | D3:2 D3:1 C#3:1 | B2:1 C#3:1 D3:1 B2:1 | A2:2 A2:1 C#3:1 |
+            D3:2 A2:2 | D3:2 D3:1 C#3:1 | B2:1 G2:1 A2:2 | D3:1 A2:1 D2:2 |""",
+    "B": """D3:2 E3:2 | A2:1 C#3:1 E3:1 A2:1 | D3:2 F#3:2 | D3:2 D2:2 |
+            D3:2 E3:2 | A2:1 C#3:1 E3:1 A2:1 | D3:2 B2:1 F#2:1 | A2:1 E3:1 A2:2 |""",
+    "C": """D3:2 F#3:2 | D3:4 | D3:2 D3:2 | A3:2 A2:2 |
+            A2:2 C#3:1 D3:1 | A2:2 A2:1 D3:1 | C#3:1 A2:1 E3:2 | A2:2 A2:1 C#3:1 |""",
+}
+
+
+def trumpet_duet(path: Path) -> None:
+    """Clarke's march for two trumpets and continuo; the second trumpet's part is our own.
+
+    They go in thirds and sixths, and apart where one calls and the other answers.
+    """
+    firsts = {"A": MARCH_A, "B": MARCH_B, "C": DUET_FIRST_C}
+    sections = [("A", "A", 90), ("B", "B", 98), ("C", "C", 82), ("A", "end", 104)]
+    first: list[Note] = []
+    second: list[Note] = []
+    organ: list[Note] = []
+    bass: list[Note] = []
+    at = 0.0
+    for section, ending, velocity in sections:
+        notes, end = tune(firsts[section], start=at, velocity=velocity)
+        first += notes
+        second += tune(DUET_SECONDS[ending], start=at, velocity=velocity - 6)[0]
+        organ += chords(MARCH_CHORDS[section], ORGAN, start=at, velocity=velocity - 40)
+        bass += tune(DUET_BASS[section], start=at, velocity=velocity - 34, hold=0.85)[0]
+        at = end
+    title = conductor(
+        "Prince of Denmark's March for two trumpets",
+        (0.0, metre(4, 4)),
+        (0.0, tempo(120)),
+        *rallentando(at - 8, at - 4, 120, 92),
+    )
+    save(
+        path,
+        title,
+        track("Trumpet 1", 0, 56, first, 52),
+        track("Trumpet 2", 1, 56, second, 76),
+        track("Organ", 2, 19, organ, 50),
+        track("Basses", 3, 43, bass, 80),
+    )
+
+
 TAPS = """
 G4:.75 G4:.25 | C5:3 G4:.75 C5:.25 | E5:3 G4:.5 C5:.5 | E5:1 G4:.5 C5:.5 E5:1 G4:.5 C5:.5 |
 E5:3 C5:.75 E5:.25 |
@@ -414,6 +477,7 @@ def write_json(path: Path, document: dict[str, Any]) -> None:
 
 SCORES = {
     "prince-of-denmarks-march.mid": prince_of_denmarks_march,
+    "trumpet-duet.mid": trumpet_duet,
     "taps.mid": taps,
     "carnival-of-venice.mid": carnival_of_venice,
     "chromatic-scale.mid": chromatic_scale,

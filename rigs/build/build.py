@@ -1,8 +1,7 @@
 """Build the rigs: fetch the source, make the models, reduce and compress them, validate them, write rig.json.
 
-`python rigs/build/build.py` writes a rig for each file of figures/, and the trumpet; the same
-input gives the same bytes. How
-the player holds the instrument is committed data and solved apart, by solve_hold.py.
+`python rigs/build/build.py` writes a rig for each file of figures/ and of instruments/; the same input gives
+the same bytes. How a player holds an instrument is committed data and solved apart, by solve_hold.py.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ from pathlib import Path
 
 from body.figure_file import figure_files
 from body.player import build_player
-from brass.instrument import NAME as INSTRUMENT
 from brass.instrument import build_instrument
+from brass.measures import horns
 from common.rig_file import write_json
 from common.source import default_cache, fetch
 
@@ -60,13 +59,15 @@ def main() -> None:
     raw = HERE / ".work"
     shutil.rmtree(raw, ignore_errors=True)
     raw.mkdir()
-    figures = figure_files()
-    triangles = {figure.name: PLAYER_TRIANGLES for figure in figures} | {INSTRUMENT: INSTRUMENT_TRIANGLES}
+    figures, instruments = figure_files(), horns()
+    triangles = {figure.name: PLAYER_TRIANGLES for figure in figures}
+    triangles |= {horn.name: INSTRUMENT_TRIANGLES for horn in instruments}
     for rig in triangles:
         (arguments.rigs / rig).mkdir(parents=True, exist_ok=True)
     for figure in figures:
         build_player(data, raw, arguments.rigs / figure.name, figure)
-    build_instrument(raw, arguments.rigs / INSTRUMENT)
+    for horn in instruments:
+        build_instrument(raw, arguments.rigs / horn.name, horn)
     models = pack(raw, arguments.rigs, triangles)
     write_json(
         arguments.rigs / "validation.json", {"validator": "gltf-validator 2.0.0-dev.3.10", "models": models}

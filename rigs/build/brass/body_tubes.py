@@ -1,4 +1,4 @@
-"""The fixed part of the trumpet: bell, leadpipe, casings, braces, hook, and the slides' outer legs."""
+"""The fixed part of a horn: bell, leadpipe, casings, braces, hook, and the slides' outer legs."""
 
 from __future__ import annotations
 
@@ -9,78 +9,52 @@ import numpy as np
 from brass import measures as m
 from brass.paths import arc_length, at_lengths, bezier, joined_path, line
 from brass.turning import Workpiece
+from brass.wraps import WRAPS
 
 if TYPE_CHECKING:
+    from brass.measures import Horn
     from brass.metals import Metals
 
 KNURLS = 28
 
 
-def bell_path() -> np.ndarray:
+def bell_path(horn: Horn) -> np.ndarray:
     """The bell's axis from valve 1 through the bow to its end."""
-    low, bow = m.Y_LOW, m.Z_BELL_BOW
+    bell = horn.bell
+    at = bell.bow
+    bow = [bezier(at[k], at[k + 1], at[k + 2], at[k + 3], bell.bow_points) for k in range(0, len(at) - 1, 3)]
     return joined_path(
-        line([0.004, low, m.VALVE_Z[0] - 0.009], [0.012, low, bow], 20),
-        bezier(
-            [0.012, low, bow],
-            [0.017, low, bow - 0.085],
-            [m.X_BELL, m.Y_TOP, bow - 0.085],
-            [m.X_BELL, m.Y_TOP, bow],
-            60,
-        ),
-        line([m.X_BELL, m.Y_TOP, bow], [m.X_BELL, m.Y_TOP, m.Z_BELL_END], 10),
+        line([0.004, m.Y_LOW, m.VALVE_Z[0] - 0.009], bell.bow[0], 20),
+        *bow,
+        line(bell.bow[-1], [bell.x, bell.y, bell.end], 10),
     )
 
 
-def build_body(detail: float, metals: Metals) -> Workpiece:
+def build_body(detail: float, metals: Metals, horn: Horn) -> Workpiece:
     """All that does not move."""
     body = Workpiece(detail)
-    _bell(body, metals)
-    _leadpipe(body, metals)
+    _bell(body, metals, horn)
+    WRAPS[horn.wrap].fixed(body, metals, horn)
     for z in m.VALVE_Z:
         _casing(body, metals, z)
     for first, second, y in ((0, 1, -0.030), (0, 1, -0.002), (1, 2, -0.014), (1, 2, 0.020)):
         body.sweep(metals.brass, line([0, y, m.VALVE_Z[first]], [0, y, m.VALVE_Z[second]]), m.TUBE * 0.96)
-    _braces(body, metals)
+    _braces(body, metals, horn)
     _hook(body, metals)
     _outer_legs(body, metals)
     return body
 
 
-def _bell(body: Workpiece, metals: Metals) -> None:
-    path = bell_path()
+def _bell(body: Workpiece, metals: Metals, horn: Horn) -> None:
+    path = bell_path(horn)
     total, count = arc_length(path)[-1], body.facets(150, 60)
     share = 1 - (1 - np.linspace(0, 1, count)) ** 1.9  # denser toward the flare
     path = at_lengths(path, share * total)
-    radius = np.array([m.bell_radius(total * (1 - s)) for s in share])
+    radius = np.array([horn.bell_radius(total * (1 - s)) for s in share])
     body.sweep(metals.brass, path, radius, 36)
     inside = int(count * 0.6)
     body.sweep(metals.brass, path[inside:][::-1], (radius[inside:] - 0.0007)[::-1], 36)
-    body.ring(metals.brass, path[-1], [0, 0, 1], m.BELL_RADIUS - 0.0002, 0.0013, 72, 10)
-
-
-def _leadpipe(body: Workpiece, metals: Metals) -> None:
-    x, y = m.X_LEADPIPE, m.Y_TOP
-    body.sweep(
-        metals.brass, line([x, y, m.Z_RECEIVER + 0.03], [x, y, 0.118], 6), np.linspace(0.0052, m.TUBE, 6)
-    )
-    receiver = [
-        (0, 0.0056),
-        (0, 0.0074),
-        (0.004, 0.0076),
-        (0.005, 0.0070),
-        (0.030, 0.0066),
-        (0.0345, 0.0072),
-        (0.036, 0.0072),
-        (0.0365, 0.0056),
-    ]
-    body.lathe(metals.brass, [x, y, m.Z_RECEIVER], [0, 0, 1], receiver, 36)
-    body.sweep(
-        metals.brass, line([m.X_RETURN, m.Y_LOW, 0.118], [0, m.Y_LOW, m.VALVE_Z[2] + 0.008], 4), m.TUBE
-    )
-    for leg_x, leg_y in ((x, y), (m.X_RETURN, m.Y_LOW)):
-        body.ferrule(metals.silver, [leg_x, leg_y, 0.110], [leg_x, leg_y, 0.122], m.TUBE + 0.0010)
-        body.sweep(metals.silver, line([leg_x, leg_y, 0.12], [leg_x, leg_y, 0.135]), m.TUBE + 0.0001)
+    body.ring(metals.brass, path[-1], [0, 0, 1], horn.bell.radius - 0.0002, horn.bell.rim, 72, 10)
 
 
 def _casing(body: Workpiece, metals: Metals, z: float) -> None:
@@ -120,15 +94,13 @@ def _casing(body: Workpiece, metals: Metals, z: float) -> None:
         body.ring(metals.brass, [0, y, z], [0, 1, 0], m.CASING, 0.0005)
 
 
-def _braces(body: Workpiece, metals: Metals) -> None:
-    x, y, bell = m.X_LEADPIPE, m.Y_TOP, m.X_BELL
-    body.brace(metals.brass, [x + 0.005, y, -0.072], [bell - 0.006, y, -0.072])
-    body.brace(metals.brass, [x + 0.005, y, 0.072], [bell - 0.007, y, 0.072])
-    body.brace(metals.brass, [x, y, 0.092], [m.X_RETURN - 0.001, m.Y_LOW, 0.092], 0.0019)
-    body.brace(metals.brass, [0.007, m.Y_LOW, -0.085], [bell, y - 0.006, -0.085], 0.0019)
+def _braces(body: Workpiece, metals: Metals, horn: Horn) -> None:
+    for (start, end), radius in zip(horn.stays, horn.stay_radii, strict=True):
+        body.brace(metals.brass, start, end, radius)
+    x, y, bell = m.X_LEADPIPE, m.Y_TOP, horn.bell
     for z in (-0.0275, 0.0275):
         body.brace(metals.brass, [x + 0.004, y, z], [-0.006, y - 0.002, z], 0.0028)
-        body.brace(metals.brass, [bell - 0.005, y, z], [0.006, y - 0.002, z], 0.0028)
+        body.brace(metals.brass, [bell.x - 0.005, bell.y, z], [0.006, y - 0.002, z], 0.0028)
 
 
 def hook_path() -> np.ndarray:

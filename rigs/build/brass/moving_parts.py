@@ -1,4 +1,4 @@
-"""The trumpet's moving parts: slides, valves and mouthpiece.
+"""A horn's moving parts: slides of the valves, valves and mouthpiece.
 
 All but the valves are made in the instrument's frame.
 """
@@ -14,42 +14,8 @@ from brass.paths import joined_path, line, u_bend
 from brass.turning import Workpiece
 
 if TYPE_CHECKING:
+    from brass.measures import Horn
     from brass.metals import Metals
-
-
-def tuning_slide(detail: float, metals: Metals) -> Workpiece:
-    """The main tuning slide with its water key."""
-    piece, x, low_x = Workpiece(detail), m.X_LEADPIPE, m.X_RETURN
-    bow = u_bend(x, low_x, m.Y_TOP, m.Y_LOW, 0.158, 0.036, piece.facets(48, 14))
-    piece.sweep(
-        metals.brass,
-        joined_path(line([x, m.Y_TOP, 0.133], bow[0], 4), bow, line(bow[-1], [low_x, m.Y_LOW, 0.133], 4)),
-        m.TUBE,
-    )
-    for leg_x, y in ((x, m.Y_TOP), (low_x, m.Y_LOW)):
-        piece.ferrule(metals.silver, [leg_x, y, 0.133], [leg_x, y, 0.141], m.TUBE + 0.0009)
-    piece.brace(metals.brass, [x, m.Y_TOP - 0.005, 0.152], [low_x, m.Y_LOW + 0.005, 0.152], 0.0019)
-    key = np.array([low_x, m.Y_LOW - 0.007, 0.170])
-    lever = joined_path(
-        line(key + np.array([0, -0.001, 0.01]), key + np.array([0, -0.003, -0.008]), 6),
-        line(key + np.array([0, -0.003, -0.008]), key + np.array([0, -0.001, -0.03]), 8),
-    )
-    piece.sweep(metals.brass, lever, 0.0013, 10, caps=True, oval=(1.6, 0.7))
-    piece.lathe(
-        metals.brass,
-        key + np.array([0, 0.004, 0.008]),
-        [0, -1, 0],
-        [(0, 0.0034), (0.006, 0.0034), (0.0062, 0)],
-        20,
-    )
-    piece.sweep(
-        metals.brass,
-        line(key + np.array([-0.005, -0.001, -0.006]), key + np.array([0.005, -0.001, -0.006])),
-        0.0015,
-        10,
-        caps=True,
-    )
-    return piece
 
 
 def _valve_slide(
@@ -139,22 +105,19 @@ def valve(detail: float, metals: Metals) -> Workpiece:
     return piece
 
 
-def mouthpiece(detail: float, metals: Metals) -> Workpiece:
+def mouthpiece(detail: float, metals: Metals, horn: Horn) -> Workpiece:
     """Cup, rim and shank."""
-    piece = Workpiece(detail)
-    outside = [
-        (0, 0.0043), (0, 0.0049), (0.030, 0.0056), (0.044, 0.0060), (0.050, 0.0068), (0.056, 0.0090),
-        (0.062, 0.0113), (0.068, 0.0122), (0.078, 0.0126), (0.0815, 0.0130), (0.0835, 0.01345),
-        (0.0855, 0.0135), (0.0868, 0.0130),
-    ]  # fmt: skip
-    rim = [
-        (0.0868 + 0.0010 * np.sin(a), 0.0108 + 0.0022 * np.cos(a)) for a in np.linspace(0.1, np.pi - 0.3, 12)
-    ]
+    piece, shape = Workpiece(detail), horn.mouthpiece
+    at = shape.rim_at
+    rim = [(at + 0.0010 * np.sin(a), 0.0108 + 0.0022 * np.cos(a)) for a in np.linspace(0.1, np.pi - 0.3, 12)]
     cup = [
-        (0.0868 - 0.0022 - 0.0115 * t, 0.0084 * (1 - t**2.2) ** 0.5 * 0.99 + 0.0019 * t)
+        (
+            at - 0.0022 - shape.cup_depth * t,
+            0.0084 * (1 - t**shape.cup_shape) ** 0.5 * 0.99 + 0.0019 * t,
+        )
         for t in np.linspace(0, 1, 14)
     ]
-    origin = [m.X_LEADPIPE, m.Y_TOP, m.Z_MOUTHPIECE]
-    piece.lathe(metals.silver, origin, [0, 0, -1], outside, 48, smooth=True)
+    origin = [m.X_LEADPIPE, m.Y_TOP, horn.z_mouthpiece]
+    piece.lathe(metals.silver, origin, [0, 0, -1], shape.outside, 48, smooth=True)
     piece.lathe(metals.silver, origin, [0, 0, -1], rim + cup, 48, smooth=True)
     return piece

@@ -15,7 +15,9 @@ from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.instruments.trumpet import TRUMPET
 
-INSTRUMENTS: Mapping[str, Instrument] = MappingProxyType({"trumpet": TRUMPET})
+INSTRUMENTS: Mapping[str, Instrument] = MappingProxyType(
+    {instrument.name: instrument for instrument in (TRUMPET, *FAMILY.values()) if instrument.rig}
+)
 """What a player can hold, by name: instruments with a rig."""
 
 BRASS: Mapping[str, Instrument] = MappingProxyType({**INSTRUMENTS, **FAMILY})

@@ -21,5 +21,9 @@ class GesturePlanner(Protocol):
         ...
 
 
-GESTURE_PLANNERS: Mapping[str, GesturePlanner] = {"trumpet": plan_trumpet}
-"""By the instrument's name."""
+GESTURE_PLANNERS: Mapping[str, GesturePlanner] = {
+    "trumpet": plan_trumpet,
+    "cornet": plan_trumpet,
+    "flugelhorn": plan_trumpet,
+}
+"""By the instrument's name: what is held and blown as a trumpet is planned as one."""

@@ -96,7 +96,7 @@ def test_the_third_slide_brings_low_c_sharp_and_d_into_tune():
 
 
 def test_the_family():
-    assert set(INSTRUMENTS) == {"trumpet"}
+    assert list(INSTRUMENTS) == ["trumpet", "cornet", "flugelhorn"]
     assert set(BRASS) == {
         "trumpet",
         "c_trumpet",

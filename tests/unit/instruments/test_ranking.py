@@ -122,6 +122,22 @@ def test_others_of_the_family_choose_for_themselves():
     assert [BRASS[name].rank_parts(score)[0].part for name in ("trumpet", "tuba", "euphonium")] == [0, 1, 2]
 
 
+@pytest.mark.parametrize("instrument", ["trumpet", "cornet", "flugelhorn"])
+def test_each_horn_ranks_its_own_part_best(instrument: str):
+    names = ["Trumpet", "Cornet", "Flugelhorn"]
+    for programs in ([], [56, 56, 56]):
+        score = score_of(TUNE, TUNE, TUNE, names=names, programs=programs)
+        best = INSTRUMENTS[instrument].rank_parts(score)[0]
+        assert names[best.part].lower() == instrument
+        # And of the three, none wants it more.
+        part = [
+            next(entry.score for entry in other.rank_parts(score) if entry.part == best.part)
+            for other in INSTRUMENTS.values()
+        ]
+        assert max(part) == best.score
+        assert part.count(best.score) == 1
+
+
 def test_monophony():
     assert monophony(score_of(TUNE).notes) == 1.0
     assert monophony(score_of(CHORDS).notes) == pytest.approx(1 - 8 / 11)

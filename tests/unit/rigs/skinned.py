@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted((ROOT / "examples/scores").iterdir())
 PLAYERS = tuple(sorted(path.parents[1].name for path in (ROOT / "rigs").glob("*/holds/trumpet.json")))
+HORNS = tuple(INSTRUMENTS)
+HOLDS = tuple((player, horn) for player in PLAYERS for horn in HORNS)
+"""Every player with every instrument."""
 
 
 SAMPLE_AREA_M2 = 4e-5
@@ -107,23 +110,23 @@ class Played:
     """Of one float each, by path (F,)."""
 
 
-def play(name: str, path: Path, times_s: Array) -> Played:
-    """A player's frames of an example at some times."""
+def play(name: str, path: Path, times_s: Array, horn: str = "trumpet") -> Played:
+    """A player's frames of an example at some times, on one of the instruments."""
     registry = stage_registry().extended(player_parameters(0))
     show = Show.from_document({"version": 1, "tracks": []}, registry)
-    player, trumpet = load_rig(ROOT / "rigs" / name), load_rig(ROOT / "rigs/trumpet")
+    player, held = load_rig(ROOT / "rigs" / name), load_rig(ROOT / "rigs" / horn)
     skeleton = player.skeleton
     rest_places, rest_turns = forward_kinematics(skeleton, skeleton.rest_rotations)
     back = np.swapaxes(to_matrix(rest_turns), -1, -2)
     score = read_score(path.read_bytes(), filename=path.name)
-    instrument = INSTRUMENTS["trumpet"]
+    instrument = INSTRUMENTS[horn]
     performer = Performer(
         score=score,
         played=instrument.play(score, instrument.rank_parts(score)[0].part),
         instrument=instrument,
         player_rig=player,
-        instrument_rig=trumpet,
-        hold=load_hold(ROOT / "rigs" / name, "trumpet"),
+        instrument_rig=held,
+        hold=load_hold(ROOT / "rigs" / name, horn),
         registry=registry,
     )
     plan = show.plan(registry, TimeMap.steady())

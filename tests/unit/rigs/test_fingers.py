@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from tests.unit.rigs.skinned import PLAYERS, ROOT, Array, play, read_cloths, read_model, shaped
+from tests.unit.rigs.skinned import HOLDS, ROOT, Array, play, read_cloths, read_model, shaped
 
 from reina.skeleton import load_rig
 
@@ -65,6 +65,7 @@ class Hands:
     """Hands as they play: each frame's vertices and normals in the instrument's frame."""
 
     player: str
+    horn: str
     bones: NDArray[np.str_]
     """The bone that moves most of each vertex, by name (V,)."""
     frames: list[tuple[Array, Array]]
@@ -100,11 +101,11 @@ def sample(mesh: dict[str, Any], chance: np.random.Generator) -> tuple[Array, Ar
     return points, turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
 
-def read_metal(out: Path) -> list[Metal]:
-    """The trumpet's parts, each with all its materials; the mute is shown only where it is played with."""
-    moving = {part.node: part for part in load_rig(ROOT / "rigs/trumpet").parts}
+def read_metal(horn: str, out: Path) -> list[Metal]:
+    """An instrument's parts, each with all its materials; the mute is shown only where it is played with."""
+    moving = {part.node: part for part in load_rig(ROOT / "rigs" / horn).parts}
     chance = np.random.default_rng(1)
-    meshes = read_model(ROOT / "rigs/trumpet/full.glb", out)["meshes"]
+    meshes = read_model(ROOT / "rigs" / horn / "full.glb", out)["meshes"]
     parts: list[Metal] = []
     for node in dict.fromkeys(mesh["name"] for mesh in meshes if mesh["name"] != "mute"):
         sampled = [sample(mesh, chance) for mesh in meshes if mesh["name"] == node]
@@ -115,9 +116,9 @@ def read_metal(out: Path) -> list[Metal]:
     return parts
 
 
-@pytest.fixture(scope="module", params=PLAYERS)
+@pytest.fixture(scope="module", params=HOLDS, ids="-".join)
 def hands(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Hands:
-    name = request.param
+    name, horn = request.param
     folder = tmp_path_factory.mktemp("models")
     skin = read_cloths(name, folder / "player.json")["Skin"]
     names = np.array(load_rig(ROOT / "rigs" / name).skeleton.names)
@@ -127,22 +128,23 @@ def hands(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     frames: list[tuple[Array, Array]] = []
     amounts: list[dict[str, float]] = []
     for score, times in PLAYED.items():
-        played = play(name, ROOT / "examples/scores" / score, times)
+        played = play(name, ROOT / "examples/scores" / score, times, horn)
         for frame, matrices in enumerate(played.matrices):
             places, normals = skin.posed(matrices)
             turn = played.instrument_turns[frame]
             frames.append(((places - played.instrument_places[frame]) @ turn, normals @ turn))
             amounts.append({path: float(values[frame]) for path, values in played.parameters.items()})
-    return Hands(name, bones[kept], frames, read_metal(folder / "trumpet.json"), amounts)
+    return Hands(name, horn, bones[kept], frames, read_metal(horn, folder / "horn.json"), amounts)
 
 
 def test_what_is_played_has_every_fingering(hands: Hands) -> None:
     down = {
-        tuple(amounts[f"trumpet/valve/{valve}"] > 0.5 for valve in (1, 2, 3)) for amounts in hands.amounts
+        tuple(amounts[f"{hands.horn}/valve/{valve}"] > 0.5 for valve in (1, 2, 3))
+        for amounts in hands.amounts
     }
     assert len(down) >= 7  # the third valve alone is an alternate
-    assert max(amounts["trumpet/slide/3"] for amounts in hands.amounts) > 0.5
-    half = [0.2 < amounts[f"trumpet/valve/{v}"] < 0.8 for amounts in hands.amounts for v in (1, 2, 3)]
+    assert max(amounts[f"{hands.horn}/slide/3"] for amounts in hands.amounts) > 0.5
+    half = [0.2 < amounts[f"{hands.horn}/valve/{v}"] < 0.8 for amounts in hands.amounts for v in (1, 2, 3)]
     assert sum(half) >= 5
 
 
@@ -165,6 +167,7 @@ def test_a_hand_four_millimetres_off_would_be_found(hands: Hands) -> None:
     for shift in 0.004 * np.concatenate([np.eye(3), -np.eye(3)]):
         moved = Hands(
             hands.player,
+            hands.horn,
             hands.bones,
             [(places + shift, normals) for places, normals in hands.frames[:1]],
             hands.metal,

@@ -14,6 +14,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from reina.instruments import INSTRUMENTS
+
 Array = NDArray[np.float64]
 
 RIGS = Path(__file__).resolve().parents[3] / "rigs"
@@ -39,27 +41,31 @@ def item(items: list[dict[str, Any]], name: str) -> dict[str, Any]:
 @dataclass
 class Held:
     player: dict[str, Any]
-    trumpet: dict[str, Any]
+    instrument: dict[str, Any]
     hold: dict[str, Any]
     world: dict[str, tuple[Array, Array]]
 
-    def in_trumpet(self, joint: str, offset: Any) -> Array:
+    def in_instrument(self, joint: str, offset: Any) -> Array:
         rotation, place = self.world[joint]
-        instrument = self.hold["instrument_pose"]
-        point: Array = matrix(instrument["rotation"]).T @ (
-            place + rotation @ np.asarray(offset) - instrument["position"]
-        )
+        pose = self.hold["instrument_pose"]
+        point: Array = matrix(pose["rotation"]).T @ (place + rotation @ np.asarray(offset) - pose["position"])
         return point
 
 
-PLAYERS = tuple(sorted(path.parents[1].name for path in RIGS.glob("*/holds/trumpet.json")))
+HOLDS = tuple(sorted((path.parents[1].name, path.stem) for path in RIGS.glob("*/holds/*.json")))
+
+
+def test_every_player_holds_every_instrument() -> None:
+    players = {player for player, _ in HOLDS}
+    assert len(players) >= 2
+    assert set(HOLDS) == {(player, instrument) for player in players for instrument in INSTRUMENTS}
 
 
 @cache
-def held_by(name: str) -> Held:
+def held_by(name: str, horn: str) -> Held:
     player = json.loads((RIGS / name / "rig.json").read_text(encoding="utf-8"))
-    trumpet = json.loads((RIGS / "trumpet" / "rig.json").read_text(encoding="utf-8"))
-    hold = json.loads((RIGS / name / "holds" / "trumpet.json").read_text(encoding="utf-8"))
+    instrument = json.loads((RIGS / horn / "rig.json").read_text(encoding="utf-8"))
+    hold = json.loads((RIGS / name / "holds" / f"{horn}.json").read_text(encoding="utf-8"))
     world: dict[str, tuple[Array, Array]] = {}
     for joint in player["joints"]:
         local = matrix(hold["pose"][joint["name"]])
@@ -68,13 +74,13 @@ def held_by(name: str) -> Held:
         else:
             rotation, place = world[joint["parent"]]
             world[joint["name"]] = rotation @ local, place + rotation @ np.array(joint["translation"])
-    return Held(player, trumpet, hold, world)
+    return Held(player, instrument, hold, world)
 
 
-@pytest.fixture(params=PLAYERS)
+@pytest.fixture(params=HOLDS, ids="-".join)
 def held(request: pytest.FixtureRequest) -> Held:
-    """Every player who can hold the trumpet."""
-    return held_by(request.param)
+    """Every player with every instrument."""
+    return held_by(*request.param)
 
 
 def test_pose_names_every_joint_with_a_unit_quaternion_on_the_rest_poses_side(held: Held) -> None:
@@ -89,8 +95,8 @@ def test_pose_names_every_joint_with_a_unit_quaternion_on_the_rest_poses_side(he
 def test_mouthpiece_is_at_the_lips(held: Held) -> None:
     h = held
     lips = item(h.player["contacts"], "lips")
-    rim = item(h.trumpet["contacts"], "mouthpiece")["offset"]
-    assert np.linalg.norm(h.in_trumpet(lips["joint"], lips["offset"]) - rim) < 0.0002
+    rim = item(h.instrument["contacts"], "mouthpiece")["offset"]
+    assert np.linalg.norm(h.in_instrument(lips["joint"], lips["offset"]) - rim) < 0.0002
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
@@ -111,9 +117,11 @@ def test_bell_points_forward_and_a_little_down(held: Held) -> None:
 @pytest.mark.parametrize("valve", [1, 2, 3])
 def test_pads_lie_on_their_buttons(held: Held, valve: int) -> None:
     h = held
-    button = h.trumpet["buttons"][valve - 1]
+    button = h.instrument["buttons"][valve - 1]
     effector = item(h.player["effectors"], button["effector"])
-    assert np.linalg.norm(h.in_trumpet(effector["joint"], effector["offset"]) - button["position"]) < 0.0005
+    assert (
+        np.linalg.norm(h.in_instrument(effector["joint"], effector["offset"]) - button["position"]) < 0.0005
+    )
 
 
 @pytest.mark.parametrize("valve", [1, 2, 3])
@@ -123,7 +131,7 @@ def test_fingers_reach_their_buttons_within_limits_over_the_whole_stroke(
 ) -> None:
     """`stroke` is the valve's value; −0.25 is about 4 mm above the cap."""
     h = held
-    button = h.trumpet["buttons"][valve - 1]
+    button = h.instrument["buttons"][valve - 1]
     name = button["effector"].removesuffix("Tip")
     joints = {joint["name"]: joint for joint in h.player["joints"]}
     chain = item(h.player["chains"], name)
@@ -192,10 +200,10 @@ def test_every_joint_is_within_its_limits(held: Held) -> None:
                 assert low - 1e-6 <= angle <= high + 1e-6, (joint["name"], axis, np.degrees(angle))
 
 
-def clearance(trumpet: dict[str, Any], point: Array) -> float:
+def clearance(instrument: dict[str, Any], point: Array) -> float:
     """Distance from the nearest of the instrument's capsules, negative inside."""
     best = np.inf
-    for capsule in trumpet["capsules"]:
+    for capsule in instrument["capsules"]:
         start, bone = np.array(capsule["from"]), np.subtract(capsule["to"], capsule["from"])
         t = np.clip((point - start) @ bone / max(bone @ bone, 1e-12), 0, 1)
         best = min(best, float(np.linalg.norm(point - start - t * bone)) - capsule["radius"])
@@ -209,18 +217,18 @@ def clearance(trumpet: dict[str, Any], point: Array) -> float:
 def test_gripping_pads_touch_the_metal(held: Held, pad: str) -> None:
     h = held
     effector = item(h.player["effectors"], pad)
-    assert abs(clearance(h.trumpet, h.in_trumpet(effector["joint"], effector["offset"]))) < 0.002
+    assert abs(clearance(h.instrument, h.in_instrument(effector["joint"], effector["offset"]))) < 0.002
 
 
 def test_left_thumb_lies_in_the_saddle_and_the_ring_finger_in_the_ring(held: Held) -> None:
     h = held
     thumb = item(h.player["effectors"], "leftThumbTip")
-    saddle = np.array(item(h.trumpet["contacts"], "saddle")["offset"])
-    assert np.linalg.norm(h.in_trumpet(thumb["joint"], thumb["offset"]) - saddle) < 0.003
-    ring = np.array(item(h.trumpet["contacts"], "ring")["offset"])
+    saddle = np.array(item(h.instrument["contacts"], "saddle")["offset"])
+    assert np.linalg.norm(h.in_instrument(thumb["joint"], thumb["offset"]) - saddle) < 0.003
+    ring = np.array(item(h.instrument["contacts"], "ring")["offset"])
     tip = item(h.player["effectors"], "leftRingTip")
-    chain = [h.in_trumpet(f"leftRing{part}", np.zeros(3)) for part in ("Intermediate", "Distal")]
-    chain.append(h.in_trumpet(tip["joint"], tip["offset"]))
+    chain = [h.in_instrument(f"leftRing{part}", np.zeros(3)) for part in ("Intermediate", "Distal")]
+    chain.append(h.in_instrument(tip["joint"], tip["offset"]))
     gaps: list[float] = []
     for a, b in itertools.pairwise(chain):
         t = np.clip((ring - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
@@ -233,9 +241,9 @@ def test_left_fingers_wrap_the_third_casing(held: Held, finger: str) -> None:
     """Round its front to its right side, every joint bent, the tip turned back toward the palm."""
     h = held
     tip = item(h.player["effectors"], f"{finger}Tip")
-    pad = h.in_trumpet(tip["joint"], tip["offset"])
-    outer = h.in_trumpet(f"{finger}Distal", np.zeros(3))
-    assert h.in_trumpet(f"{finger}Proximal", np.zeros(3))[0] > 0.02
+    pad = h.in_instrument(tip["joint"], tip["offset"])
+    outer = h.in_instrument(f"{finger}Distal", np.zeros(3))
+    assert h.in_instrument(f"{finger}Proximal", np.zeros(3))[0] > 0.02
     assert pad[0] < 0
     assert (pad - outer)[2] < -0.004
     for part, low, high in (("Intermediate", -88, -40), ("Distal", -45, -12)):
@@ -266,4 +274,4 @@ def test_palms_stay_out_of_the_metal(held: Held, joint: str) -> None:
         if capsule["joint"] == joint:
             for t in np.linspace(0, 1, 7):
                 along = (1 - t) * np.array(capsule["from"]) + t * np.array(capsule["to"])
-                assert clearance(h.trumpet, h.in_trumpet(joint, along)) > capsule["radius"] - 0.003
+                assert clearance(h.instrument, h.in_instrument(joint, along)) > capsule["radius"] - 0.003

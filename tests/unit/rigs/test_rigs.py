@@ -10,9 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from reina.instruments import INSTRUMENTS
+
 RIGS = Path(__file__).resolve().parents[3] / "rigs"
 PLAYERS = ("trumpeter", "soloist")
-NAMES = (*PLAYERS, "trumpet")
+HORNS = tuple(INSTRUMENTS)
+NAMES = (*PLAYERS, *HORNS)
 TIERS = ("full", "medium", "low")
 FINGERS = ("Index", "Middle", "Ring", "Little")
 PHALANGES = ("Proximal", "Intermediate", "Distal")
@@ -120,19 +123,58 @@ def test_player_has_one_skin_and_all_morphs(tier: str) -> None:
     assert {morph["target"] for morph in rig["morphs"]} <= targets
 
 
+@pytest.mark.parametrize("horn", HORNS)
 @pytest.mark.parametrize("tier", TIERS)
-def test_instrument_has_the_nodes_of_its_parts(tier: str) -> None:
-    names = {node["name"] for node in read_gltf(RIGS / "trumpet" / f"{tier}.glb")["nodes"]}
-    assert {part["node"] for part in read_rig("trumpet")["parts"]} <= names
+def test_instrument_has_the_nodes_of_its_parts(horn: str, tier: str) -> None:
+    names = {node["name"] for node in read_gltf(RIGS / horn / f"{tier}.glb")["nodes"]}
+    assert {part["node"] for part in read_rig(horn)["parts"]} <= names
 
 
-def test_valve_one_is_nearest_the_face_and_the_index_fingers() -> None:
-    trumpet = read_rig("trumpet")
-    mouthpiece = next(c["offset"] for c in trumpet["contacts"] if c["name"] == "mouthpiece")
-    distances = [np.linalg.norm(np.subtract(b["position"], mouthpiece)) for b in trumpet["buttons"]]
+@pytest.mark.parametrize("horn", HORNS)
+def test_instruments_parts_go_by_its_own_parameters(horn: str) -> None:
+    parameters = {part["parameter"] for part in read_rig(horn)["parts"]}
+    assert parameters == {parameter.path for parameter in INSTRUMENTS[horn].parameters} | {f"{horn}/mute"}
+
+
+@pytest.mark.parametrize("horn", HORNS)
+def test_valve_one_is_nearest_the_face_and_the_index_fingers(horn: str) -> None:
+    instrument = read_rig(horn)
+    mouthpiece = next(c["offset"] for c in instrument["contacts"] if c["name"] == "mouthpiece")
+    distances = [np.linalg.norm(np.subtract(b["position"], mouthpiece)) for b in instrument["buttons"]]
     assert distances == sorted(distances)
-    assert [b["valve"] for b in trumpet["buttons"]] == [1, 2, 3]
-    assert [b["effector"] for b in trumpet["buttons"]] == ["rightIndexTip", "rightMiddleTip", "rightRingTip"]
+    assert [b["valve"] for b in instrument["buttons"]] == [1, 2, 3]
+    assert [b["effector"] for b in instrument["buttons"]] == [
+        "rightIndexTip",
+        "rightMiddleTip",
+        "rightRingTip",
+    ]
+
+
+def test_horns_differ_as_they_should_and_not_in_the_hands() -> None:
+    """The cornet and the flugelhorn are shorter than the trumpet; what hands hold is the same on all."""
+    rigs = {horn: read_rig(horn) for horn in HORNS}
+    at = {
+        horn: {contact["name"]: np.array(contact["offset"]) for contact in rig["contacts"]}
+        for horn, rig in rigs.items()
+    }
+    length = {horn: float((places["bell"] - places["mouthpiece"])[2]) for horn, places in at.items()}
+    assert 0.40 < length["cornet"] < length["flugelhorn"] < 0.47 < length["trumpet"]
+    for horn in ("cornet", "flugelhorn"):
+        assert rigs[horn]["buttons"] == rigs["trumpet"]["buttons"]
+        for contact in ("ring", "hook", "saddle", "thumb_right", "grip_left"):
+            np.testing.assert_array_equal(at[horn][contact], at["trumpet"][contact])
+    widest = {horn: bell_diameter(horn) for horn in HORNS}
+    assert widest["flugelhorn"] == pytest.approx(0.152, abs=0.004)
+    assert widest["cornet"] < widest["trumpet"] < widest["flugelhorn"]
+
+
+def bell_diameter(horn: str) -> float:
+    """How wide the model of an instrument is, metres: no part of it is wider than its bell."""
+    gltf = read_gltf(RIGS / horn / "full.glb")
+    mesh = next(mesh for mesh in gltf["meshes"] if mesh["name"] == "body")
+    bounds = [gltf["accessors"][part["attributes"]["POSITION"]] for part in mesh["primitives"]]
+    bell = next(c["offset"] for c in read_rig(horn)["contacts"] if c["name"] == "bell")
+    return 2 * float(max(bound["max"][0] for bound in bounds) - bell[0])
 
 
 def test_models_are_small_and_valid() -> None:
@@ -142,9 +184,11 @@ def test_models_are_small_and_valid() -> None:
             said = models[f"{name}/{tier}.glb"]
             assert (said["errors"], said["warnings"]) == (0, 0)
             assert said["bytes"] == (RIGS / name / f"{tier}.glb").stat().st_size
-    assert sum(models[f"{name}/full.glb"]["bytes"] for name in NAMES) <= 4_000_000
+    assert sum(models[f"{name}/full.glb"]["bytes"] for name in (*PLAYERS, "trumpet")) <= 4_000_000
     assert models["trumpeter/low.glb"]["triangles"] <= 12_000
-    assert models["trumpet/low.glb"]["triangles"] <= 8_000
+    for horn in HORNS:
+        assert models[f"{horn}/full.glb"]["bytes"] <= 600_000
+        assert models[f"{horn}/low.glb"]["triangles"] <= 8_000
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from tests.unit.rigs.skinned import PLAYERS, ROOT, read_model, shaped
+from tests.unit.rigs.skinned import HORNS, PLAYERS, ROOT, read_model, shaped
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -40,8 +40,9 @@ def test_a_player_is_light_in_the_open_and_dark_where_closed_in(
 
 
 @pytest.mark.parametrize("tier", TIERS)
-def test_the_trumpet_is_dark_between_its_tubes(tier: str, tmp_path: Path) -> None:
-    content = read_model(ROOT / "rigs/trumpet" / f"{tier}.glb", tmp_path / "model.json")
+@pytest.mark.parametrize("horn", HORNS)
+def test_a_horn_is_dark_between_its_tubes(horn: str, tier: str, tmp_path: Path) -> None:
+    content = read_model(ROOT / "rigs" / horn / f"{tier}.glb", tmp_path / "model.json")
     brass = [mesh for mesh in content["meshes"] if mesh["name"] == "body" and mesh["material"] == "brass"]
     colours = np.vstack([shaped(mesh["color_0"]) for mesh in brass])
     assert colours[:, 0].max() > 0.95

@@ -1,4 +1,4 @@
-"""The brass instruments that are tables alone; the trumpet, which has a rig, is a package of its own."""
+"""The brass instruments that are tables alone; the trumpet is a package of its own."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
