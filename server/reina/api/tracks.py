@@ -21,6 +21,7 @@ from reina.keyframes import (
     keyframe_document,
     with_edits,
 )
+from reina.keyframes.shown import shown
 from reina.protocol.links import session_links
 
 router = APIRouter(tags=["show"])
@@ -165,7 +166,7 @@ async def put_track(
             422,
             "parameter-fixed",
             "The show cannot be used",
-            f"this is the track of {path}, and the body names {fields['parameter']!r}",
+            f"this is the track of {path}, and the body names {shown(fields['parameter'])}",
         )
     track = {**fields, "parameter": path}
     if not track.get("keyframes") and "events" not in track:
