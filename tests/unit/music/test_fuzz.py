@@ -5,13 +5,11 @@ tests/benchmarks/fuzz_readers.py does more of it.
 
 import json
 
-import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.unit.music.mutations import mutated, seeds
 from tests.unit.music.score_checks import check_score
 
-from reina.instruments import INSTRUMENTS
 from reina.music import Limits
 
 LIMITS = Limits(size_bytes=100_000, events=5_000, notes=2_000)
@@ -22,18 +20,8 @@ def test_the_seeds_are_read():
 
 
 def test_mutated_files_give_a_score_or_the_readers_own_error():
-    trumpet = INSTRUMENTS["trumpet"]
-    read = 0
-    for number, data in enumerate(mutated(10_000, seed=20_261_122)):
-        score = check_score(data, limits=LIMITS)
-        if score is None:
-            continue
-        read += 1
-        if number % 20 == 0:
-            played = trumpet.play(score, trumpet.rank_parts(score)[0].part)
-            assert np.all(played.line.end_s > played.line.onset_s)
-            assert np.all(played.line.onset_s[1:] >= played.line.end_s[:-1])
-    assert read > 3_000
+    read = sum(check_score(data, limits=LIMITS) is not None for data in mutated(8_000, seed=20_261_122))
+    assert read > 2_400
 
 
 @settings(max_examples=300)

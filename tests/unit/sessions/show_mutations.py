@@ -67,7 +67,7 @@ SMALL = (
             },
             {
                 "parameter": "blocks/color",
-                "color_space": "oklch",
+                "color_space": "linear",
                 "keyframes": [{"time": 0, "value": "#123456"}],
             },
             {"parameter": "look/style", "keyframes": [{"time": 1, "value": "toon"}]},
