@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
     import random
@@ -33,10 +33,13 @@ Place = tuple[Any, Any]
 
 def _places(container: Any) -> Iterator[Place]:
     """Every place of a document, without recursion."""
-    waiting = [container]
+    waiting: list[Any] = [container]
     while waiting:
         at = waiting.pop()
-        for key, value in at.items() if isinstance(at, dict) else enumerate(at):
+        values = cast(
+            "dict[Any, Any]", at if isinstance(at, dict) else dict(enumerate(cast("list[Any]", at)))
+        )
+        for key, value in values.items():
             yield at, key
             if isinstance(value, dict | list):
                 waiting.append(value)

@@ -8,6 +8,8 @@ within a second of processor time and 64 MiB of memory. The first that does not 
 from __future__ import annotations
 
 import argparse
+import importlib
+import importlib.util
 import os
 import random
 import subprocess
@@ -17,7 +19,7 @@ import time
 import traceback
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fuzz_memory import PeakMemory
 
@@ -142,8 +144,8 @@ def fuzz(name: str, files: int, seed: int, folder: Path) -> bool:
 
 def fuzz_guided(name: str, files: int, seed: int, folder: Path) -> None:
     """Read files found by coverage; ends the process, as libFuzzer does, with 0 if none fails."""
-    import atheris  # Foreign and for Linux only: nothing else here needs it.
-
+    # Foreign, and for Linux only: nothing else here needs it.
+    atheris: Any = importlib.import_module("atheris")
     with atheris.instrument_imports(include=["reina"]):
         from fuzz_kinds import KINDS
     kind = KINDS[name]
@@ -181,6 +183,8 @@ def main() -> int:
         # A process a kind: libFuzzer ends the one that it is in, and peaks of memory are a process's.
         arguments = [sys.executable, __file__, *sys.argv[1:], "--kind"]
         return max([subprocess.run([*arguments, name], check=False).returncode != 0 for name in NAMES])
+    if given.guided and importlib.util.find_spec("atheris") is None:
+        parser.error("--guided needs atheris, which is not installed: see requirements/bench.txt")
     if given.guided:
         fuzz_guided(given.kind, given.files, given.seed, given.folder)
     return 0 if fuzz(given.kind, given.files, given.seed, given.folder) else 1

@@ -1,6 +1,7 @@
 """Whatever JSON can say is either a show, which can be written again, or a ShowError."""
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -63,7 +64,7 @@ LONG: dict[str, Any] = {
     "a number": 10**4000,
     "lists as deep as JSON is read": json.loads("[" * 900 + "]" * 900),
 }
-FIELDS = {
+FIELDS: dict[str, Callable[[Any], Any]] = {
     "the show": lambda value: value,
     "version": lambda value: {"version": value},
     "time": lambda value: {"version": 1, "time": value},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from tests.document_mutations import mutate_document
@@ -46,7 +46,7 @@ SHOWS = Format(
 )
 """What means something to the reader of shows."""
 
-SMALL = (
+SMALL: tuple[dict[str, Any], ...] = (
     {"version": 1, "tracks": []},
     {
         "version": 1,
@@ -102,7 +102,7 @@ SMALL = (
 @cache
 def seeds() -> tuple[bytes, ...]:
     """The examples, small shows of most fields, and one of each interpolation."""
-    kinds = {
+    kinds: dict[str, Any] = {
         "version": 1,
         "tracks": [
             {
