@@ -66,12 +66,17 @@ MUTATIONS: tuple[Callable[[bytearray, random.Random, Format], None], ...] = (
 )  # fmt: skip
 
 
+def mutate(data: bytes, form: Format, rng: random.Random) -> bytes:
+    """A file with one mutation or more."""
+    worse = bytearray(data)
+    for _ in range(1 + int(rng.expovariate(0.5))):
+        if worse:
+            rng.choice(MUTATIONS)(worse, rng, form)
+    return bytes(worse)
+
+
 def mutated(seeds: Sequence[bytes], form: Format, count: int, seed: int) -> Iterator[bytes]:
     """Yield `count` files, each one of `seeds` with one mutation or more."""
     rng = random.Random(seed)
     for _ in range(count):
-        data = bytearray(rng.choice(seeds))
-        for _ in range(1 + int(rng.expovariate(0.5))):
-            if data:
-                rng.choice(MUTATIONS)(data, rng, form)
-        yield bytes(data)
+        yield mutate(rng.choice(seeds), form, rng)

@@ -10,6 +10,7 @@ import re
 import numpy as np
 
 from reina.keyframes.arrays import FloatArray
+from reina.keyframes.shown import shown
 
 _HEX = re.compile(r"#[0-9a-fA-F]{6}")
 
@@ -50,7 +51,7 @@ def linear_from_hex(text: str) -> FloatArray:
         ValueError: The text is of another form.
     """
     if _HEX.fullmatch(text) is None:
-        raise ValueError(f"{text!r} is no colour; write #RRGGBB, as #D9A441")
+        raise ValueError(f"{shown(text)} is no colour; write #RRGGBB, as #D9A441")
     encoded = np.array([int(text[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
     return linear_from_srgb(encoded)
 

@@ -10,6 +10,7 @@ from reina.keyframes.parameter_registry import ParameterRegistry
 from reina.keyframes.place import Json, Place
 from reina.keyframes.show import Show
 from reina.keyframes.show_draft import ShowDraft
+from reina.keyframes.shown import shown
 from reina.keyframes.time_map import TIME_UNITS, TimeMap
 from reina.keyframes.track_draft import TrackDraft
 from reina.keyframes.value_types import parse_number, parse_numbers
@@ -39,9 +40,9 @@ def with_edits(
     for index, entry in enumerate(place.items(edits, "edits")):
         given: Json = cast("Json", entry) if isinstance(entry, Mapping) else {}
         name: object = given.get("edit")
-        kind = EDITS.get(str(name))
+        kind = EDITS.get(name) if isinstance(name, str) else None
         if kind is None:
-            raise place.error(f"{name!r} is none of {', '.join(EDITS)}", f"edits/{index}/edit")
+            raise place.error(f"{shown(name)} is none of {', '.join(EDITS)}", f"edits/{index}/edit")
         try:
             edit = place.fields(given, ("edit", *kind.fields, *kind.optional), what=f"the edit {name}")
             for field in kind.fields:
@@ -57,7 +58,7 @@ def with_edits(
 def _parameter(path: object, registry: ParameterRegistry, field: str = "parameter") -> Parameter:
     parameter = registry.get(path) if isinstance(path, str) else None
     if parameter is None:
-        raise ShowError(f"there is no parameter {path!r}; GET /parameters lists them all", field=field)
+        raise ShowError(f"there is no parameter {shown(path)}; GET /parameters lists them all", field=field)
     return parameter
 
 

@@ -1,6 +1,7 @@
 """What is said when a show cannot be used."""
 
 from reina.errors import InputError
+from reina.keyframes.shown import shortened
 
 
 class ShowError(InputError):
@@ -16,7 +17,7 @@ class ShowError(InputError):
         self, detail: str, *, track: str | None = None, key: str | None = None, field: str | None = None
     ) -> None:
         places = (("track", track), ("key", key), ("field", field))
-        where = ", ".join(f"{name} {value}" for name, value in places if value is not None)
+        where = ", ".join(f"{name} {shortened(value)}" for name, value in places if value is not None)
         super().__init__(detail, where=where or None)
         self.track = track
         self.key = key

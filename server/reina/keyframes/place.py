@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 from reina.keyframes.errors import ShowError
+from reina.keyframes.shown import shown
 from reina.keyframes.value_types import parse_number
 
 Json = Mapping[str, Any]
@@ -55,7 +56,7 @@ class Place:
         for known in choices:
             if value == known:
                 return known
-        raise self.error(f"{value!r} is none of {', '.join(choices)}", field)
+        raise self.error(f"{shown(value)} is none of {', '.join(choices)}", field)
 
     def text(self, document: Json, field: str, default: str = "") -> str:
         """A string."""
@@ -70,7 +71,7 @@ class Place:
         """True or false; false where it is not given."""
         value: object = document.get(field, False)
         if not isinstance(value, bool):
-            raise self.error(f"{value!r} is neither true nor false", field)
+            raise self.error(f"{shown(value)} is neither true nor false", field)
         return value
 
     def number(self, document: Json, field: str) -> float:

@@ -13,6 +13,7 @@ from reina.keyframes.plain_json import check_plain
 from reina.keyframes.show_plan import ShowPlan
 from reina.keyframes.show_reader import read_keyframe, read_track
 from reina.keyframes.show_writer import json_value, track_document
+from reina.keyframes.shown import shown
 from reina.keyframes.time_map import TIME_UNITS, TimeMap, TimeUnit
 from reina.keyframes.track import Track, UnknownTrack
 from reina.keyframes.track_draft import changed_keyframe
@@ -71,9 +72,8 @@ class Show:
         place = Place()
         fields = place.fields(document, SHOW_FIELDS, what="a show")
         if fields.get("version") != VERSION:
-            raise place.error(
-                f"this is version {fields.get('version')!r}; version {VERSION} is read here", "version"
-            )
+            version = shown(fields.get("version"))
+            raise place.error(f"this is version {version}; version {VERSION} is read here", "version")
         unit = place.choice(fields, "time", TIME_UNITS, "seconds")
         tracks: list[Track | UnknownTrack] = []
         for index, entry in enumerate(place.items(fields.get("tracks", ()), "tracks")):

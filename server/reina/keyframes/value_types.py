@@ -12,6 +12,7 @@ import numpy as np
 
 from reina.keyframes.arrays import FloatArray
 from reina.keyframes.color import linear_from_hex
+from reina.keyframes.shown import shown
 
 TypeName = Literal["number", "boolean", "choice", "color", "vector", "orientation", "transform"]
 Value = bool | float | str | tuple[float, ...] | Mapping[str, tuple[float, ...]]
@@ -55,8 +56,8 @@ def parse_number(value: object) -> float:
         if abs(value) <= LARGEST:
             return float(value)
         if not isinstance(value, float) or math.isfinite(value):
-            raise ValueError(f"{_shown(value)} is too large; numbers lie within ±{LARGEST:g}")
-    raise ValueError(f"{_shown(value)} is no number; write a finite number, as 0.5")
+            raise ValueError(f"{shown(value)} is too large; numbers lie within ±{LARGEST:g}")
+    raise ValueError(f"{shown(value)} is no number; write a finite number, as 0.5")
 
 
 def parse_numbers(value: object, length: int) -> tuple[float, ...]:
@@ -67,7 +68,7 @@ def parse_numbers(value: object, length: int) -> tuple[float, ...]:
     """
     items = value_items(value)
     if items is None:
-        raise ValueError(f"{_shown(value)} is no list; write {length} numbers in brackets")
+        raise ValueError(f"{shown(value)} is no list; write {length} numbers in brackets")
     if len(items) != length:
         raise ValueError(f"{len(items)} numbers are given where {length} are needed")
     return tuple(parse_number(item) for item in items)
@@ -84,20 +85,15 @@ def _fields(value: object) -> Mapping[str, object]:
     return cast("Mapping[str, object]", value) if isinstance(value, Mapping) else {}
 
 
-def _shown(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
 def _parse_boolean(value: object, _: Choices) -> bool:
     if not isinstance(value, bool):
-        raise ValueError(f"{_shown(value)} is neither true nor false")  # noqa: TRY004
+        raise ValueError(f"{shown(value)} is neither true nor false")  # noqa: TRY004
     return value
 
 
 def _parse_choice(value: object, choices: Choices) -> str:
     if not isinstance(value, str) or value not in choices:
-        raise ValueError(f"{_shown(value)} is no choice here; the choices are {', '.join(choices)}")
+        raise ValueError(f"{shown(value)} is no choice here; the choices are {', '.join(choices)}")
     return value
 
 
@@ -110,7 +106,7 @@ def _parse_color(value: object, _: Choices) -> str | tuple[float, ...]:
     except ValueError as error:
         raise ValueError(f"{error}; a colour is #RRGGBB or three linear components in 0..1") from None
     if not all(0.0 <= number <= 1.0 for number in numbers):
-        raise ValueError(f"{_shown(list(numbers))} is no colour; its three linear components lie in 0..1")
+        raise ValueError(f"{shown(list(numbers))} is no colour; its three linear components lie in 0..1")
     return numbers
 
 
@@ -119,7 +115,7 @@ def _parse_orientation(value: object, _: Choices) -> tuple[float, ...]:
     length = math.hypot(*numbers)
     if abs(length - 1.0) > 1e-3:
         raise ValueError(
-            f"{_shown(list(numbers))} is {length:.4g} long; an orientation is a unit quaternion [x, y, z, w]"
+            f"{shown(list(numbers))} is {length:.4g} long; an orientation is a unit quaternion [x, y, z, w]"
         )
     return numbers
 
@@ -130,7 +126,7 @@ TRANSFORM_PARTS: dict[str, TypeName] = {"position": "vector", "orientation": "or
 def _parse_transform(value: object, choices: Choices) -> Mapping[str, tuple[float, ...]]:
     fields = _fields(value)
     if set(fields) != set(TRANSFORM_PARTS):
-        raise ValueError(f"{_shown(value)} is no transform; it is an object of {', '.join(TRANSFORM_PARTS)}")
+        raise ValueError(f"{shown(value)} is no transform; it is an object of {', '.join(TRANSFORM_PARTS)}")
     return {
         part: cast("tuple[float, ...]", VALUE_TYPES[name].parse(fields[part], choices))
         for part, name in TRANSFORM_PARTS.items()

@@ -11,6 +11,7 @@ from typing import cast as typed
 from reina.keyframes import Show, ShowError
 from reina.keyframes.show_reader import read_track
 from reina.keyframes.show_writer import keyframe_text
+from reina.keyframes.shown import shown
 from reina.music import read_score
 from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
 from reina.sessions.production import Production, read_show
@@ -131,7 +132,7 @@ def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Tra
         raise ShowError(f"a track is a JSON object, not {type(document).__name__}", track=parameter.path)
     fields = typed("Mapping[str, Any]", document)
     if fields.get("parameter", parameter.path) != parameter.path:
-        detail = f"this is the track of {parameter.path}, and the body names {fields['parameter']!r}"
+        detail = f"this is the track of {parameter.path}, and the body names {shown(fields['parameter'])}"
         raise ShowError(detail, track=parameter.path, field="parameter")
     if not fields.get("keyframes") and "events" not in fields:
         detail = "a track has one keyframe at least, or answers events; DELETE removes it"

@@ -35,7 +35,9 @@ def decoded(data: bytes) -> str:
 
 def shown(text: str) -> str:
     """What stands in a file, quoted for a message, cut where it is long."""
-    return repr(text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…")
+    quoted = repr(text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…")
+    # A character that cannot be printed takes up to ten.
+    return quoted if len(quoted) <= 2 * _SHOWN else f"{quoted[: 2 * _SHOWN]}…"
 
 
 class Tokens:

@@ -1,6 +1,7 @@
 """Whatever JSON can say is either a show, which can be written again, or a ShowError."""
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -53,6 +54,70 @@ ODD: dict[str, Any] = {
 def test_odd_documents_are_refused(case: str) -> None:
     with pytest.raises(ShowError):
         Show.from_document(ODD[case], REGISTRY)
+
+
+LONG: dict[str, Any] = {
+    "a text": "x" * 100_000,
+    "a list": list(range(100_000)),
+    "lists in lists": [[[["x" * 1000] * 10] * 10] * 10],
+    "an object": {str(n): "x" * 1000 for n in range(1000)},
+    "a number": 10**4000,
+    "lists as deep as JSON is read": json.loads("[" * 900 + "]" * 900),
+}
+FIELDS: dict[str, Callable[[Any], Any]] = {
+    "the show": lambda value: value,
+    "version": lambda value: {"version": value},
+    "time": lambda value: {"version": 1, "time": value},
+    "a marker": lambda value: {"version": 1, "markers": [{"time": value, "name": "A"}]},
+    "muted": lambda value: _show([{"time": 0, "value": 1}], muted=value),
+    "events": lambda value: _show([], events={"on": value, "amount": 1}),
+    "a number": lambda value: _show([{"time": 0, "value": value}]),
+    "interpolation": lambda value: _show([{"time": 0, "value": 1, "interpolation": value}]),
+    "a tangent": lambda value: _show([{"time": 0, "value": 1, "in_tangent": value}]),
+    "a colour": lambda value: {
+        "version": 1,
+        "tracks": [{"parameter": "blocks/color", "keyframes": [{"time": 0, "value": value}]}],
+    },
+    "a choice": lambda value: {
+        "version": 1,
+        "tracks": [{"parameter": "look/style", "keyframes": [{"time": 0, "value": value}]}],
+    },
+}
+
+
+@pytest.mark.parametrize("value", LONG)
+@pytest.mark.parametrize("field", FIELDS)
+def test_an_error_quotes_little_of_what_was_sent(field: str, value: str) -> None:
+    with pytest.raises(ShowError) as caught:
+        Show.from_document(FIELDS[field](LONG[value]), REGISTRY)
+    assert len(str(caught.value)) < 1_000
+
+
+@pytest.mark.parametrize("value", LONG)
+def test_an_edit_s_error_quotes_little_of_what_was_sent(value: str) -> None:
+    edits = [
+        {"edit": LONG[value]},
+        {"edit": "remove_track", "parameter": LONG[value]},
+        {"edit": "change_track", "parameter": PATH, "changes": LONG[value]},
+    ]
+    for edit in edits:
+        with pytest.raises(ShowError) as caught:
+            with_edits(Show(), [edit], REGISTRY)
+        assert len(str(caught.value)) < 1_000
+
+
+def test_an_error_names_a_long_field_or_path_in_short() -> None:
+    name = "x" * 100_000
+    for document in (
+        {"version": 1, name: 1},
+        _show([], **{name: 1}),
+        _show([{"time": 0, "value": 1, name: 1}]),
+        _show([{"time": 0, "value": 1, "key": name}]),
+        {"version": 1, "tracks": [{"parameter": name}, {"parameter": name}]},
+    ):
+        with pytest.raises(ShowError) as caught:
+            Show.from_document(document, REGISTRY)
+        assert len(str(caught.value)) < 1_000
 
 
 def test_unknown_tracks_are_kept_as_they_came() -> None:

@@ -1,13 +1,21 @@
 """Score files made worse at random: what the fuzz tests and the longer fuzz of the benchmarks read."""
 
+from __future__ import annotations
+
 import io
 import json
-from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import mido
 from tests import mutations
+from tests.document_mutations import mutate_document
 from tests.unit.music.midi_bytes import END, chunk, events, header, metre, midi, name, off, on, program, tempo
+
+if TYPE_CHECKING:
+    import random
+    from collections.abc import Iterator
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "scores"
 
@@ -26,8 +34,9 @@ SCORES = mutations.Format(
 """What means something to readers of MIDI and JSON."""
 
 
-def seeds() -> list[bytes]:
-    """Small files of every kind to begin from."""
+@cache
+def midi_seeds() -> tuple[bytes, ...]:
+    """Small MIDI files of every kind to begin from."""
     melody = [event for pitch in (60, 64, 67, 72) for event in (on(10, pitch), off(110, pitch))]
     written = mido.MidiFile(type=1, ticks_per_beat=96)
     track = written.add_track("Trumpet")
@@ -38,7 +47,7 @@ def seeds() -> list[bytes]:
     stream = io.BytesIO()
     written.save(file=stream)
     plain = midi([name("Song"), tempo(0, 400_000), metre(0, 3, 2)], [name("Tpt"), program(0, 56), *melody])
-    return [
+    return (
         plain,
         midi([tempo(0, 300_000), *melody], form=0),
         midi(melody, melody, form=2),
@@ -54,6 +63,13 @@ def seeds() -> list[bytes]:
         ),
         stream.getvalue(),
         (EXAMPLES / "taps.mid").read_bytes(),
+    )
+
+
+@cache
+def json_seeds() -> tuple[bytes, ...]:
+    """A small JSON score of either form."""
+    return (
         json.dumps(
             {
                 "format": "reina-score",
@@ -70,7 +86,23 @@ def seeds() -> list[bytes]:
                 ],
             }
         ).encode(),
-    ]
+    )
+
+
+def seeds() -> tuple[bytes, ...]:
+    """Small files of every kind to begin from."""
+    return (*midi_seeds(), *json_seeds())
+
+
+def mutate_midi(data: bytes, rng: random.Random) -> bytes:
+    """A MIDI file with one mutation or more."""
+    return mutations.mutate(data, SCORES, rng)
+
+
+def mutate_json(data: bytes, rng: random.Random) -> bytes:
+    """A JSON score with one mutation or more, of its values or of its bytes."""
+    worse = mutate_document(data, rng) if rng.random() < 0.7 else None
+    return mutations.mutate(data, SCORES, rng) if worse is None else worse
 
 
 def mutated(count: int, seed: int) -> Iterator[bytes]:

@@ -396,3 +396,10 @@ def test_the_published_schema_is_the_present_one():
     assert published == schema_text()
     assert json.loads(published) == score_schema()
     assert score_schema()["required"] == ["format", "parts"]
+
+
+@pytest.mark.parametrize("letter", ["x", "\0", "\x80", "\U000e0001", "\ud800", "\\", "'"])
+def test_an_error_quotes_little_of_a_long_text(letter: str):
+    with pytest.raises(ScoreError, match="a list of tracks is needed") as caught:
+        read_score(json.dumps({"tracks": 100_000 * letter}).encode())
+    assert len(str(caught.value)) < 150

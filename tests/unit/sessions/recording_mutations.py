@@ -7,7 +7,7 @@ import random
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tests.mutations import MUTATIONS, Format
+from tests.mutations import Format, mutate
 from tests.unit.sessions.recordings import flac_in_ogg, id3, mp4, recording, wav, webm
 
 from reina.errors import InputError
@@ -53,18 +53,18 @@ def seeds() -> tuple[bytes, ...]:
     )
 
 
+def mutate_recording(data: bytes, rng: random.Random) -> bytes:
+    """A recording with one mutation or more."""
+    # Most of a recording is samples: two of three are mutated where headers stand.
+    head = rng.choice((64, 256, len(data)))
+    return mutate(data[:head], RECORDINGS, rng) + data[head:]
+
+
 def mutated(count: int, seed: int) -> Iterator[bytes]:
     """Yield `count` files, each a seed with one mutation or more."""
     rng = random.Random(seed)
     for _ in range(count):
-        data = bytearray(rng.choice(seeds()))
-        # Most of a recording is samples: half of the mutations are put where headers stand.
-        head = data[: rng.choice((64, 256, len(data)))]
-        rest = data[len(head) :]
-        for _ in range(1 + int(rng.expovariate(0.5))):
-            if head:
-                rng.choice(MUTATIONS)(head, rng, RECORDINGS)
-        yield bytes(head + rest)
+        yield mutate_recording(rng.choice(seeds()), rng)
 
 
 def check_recording(data: bytes) -> bool:

@@ -350,3 +350,11 @@ def test_frames_of_many_joints_are_bounded() -> None:
     sites = "End Site { OFFSET 0 0 0 } " * 2001
     assert refused(f"HIERARCHY ROOT a {{ {sites} }}") == "line 1: the file has more than 2000 end sites"
     assert "a name of 1001 letters" in refused(f"HIERARCHY ROOT {'a' * 1001} {{ }}")
+
+
+@pytest.mark.parametrize("letter", ["x", "\0", "\x80", "\U000e0001", "\\", "'"])
+def test_an_error_quotes_little_of_a_long_name_and_a_long_word(letter: str) -> None:
+    name, word = f"a{250 * letter}", f"b{100_000 * letter}"
+    said = refused(f"HIERARCHY ROOT {name}\n{{ OFFSET 0 0 0\n{word} }}")
+    assert "is not OFFSET, CHANNELS, JOINT, End Site or a closing brace" in said
+    assert len(said) < 400

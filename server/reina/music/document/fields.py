@@ -64,7 +64,9 @@ def shown(value: object) -> str:
     if value is None or isinstance(value, bool):
         return {None: "null", True: "true", False: "false"}[value]
     if isinstance(value, str):
-        return repr(value if len(value) <= LONGEST_SHOWN else value[:LONGEST_SHOWN] + "…")
+        quoted = repr(value if len(value) <= LONGEST_SHOWN else value[:LONGEST_SHOWN] + "…")
+        # A character that cannot be printed takes up to ten.
+        return quoted if len(quoted) <= 2 * LONGEST_SHOWN else quoted[: 2 * LONGEST_SHOWN] + "…"
     return f"{to_number(value):.6g}"
 
 
