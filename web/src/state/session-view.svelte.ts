@@ -64,8 +64,8 @@ export class SessionView {
   readonly playing = $derived.by(
     () => this.transport.playing && (this.transport.loop !== null || this.songTime < this.duration - END_TOLERANCE_S),
   );
-  /** The notes of the parts that the player plays, by onset. */
-  readonly playedNotes: readonly WireNote[] = $derived.by(() => this.score.notes.filter((note) => note.in_played_part));
+  /** The notes of the parts that the first player plays, by onset. */
+  readonly playedNotes: readonly WireNote[] = $derived.by(() => this.score.notes.filter((note) => note.player === 0));
 
   readonly #surroundings: Surroundings;
   readonly #stream: Stream;
