@@ -11,10 +11,11 @@ import numpy as np
 from tests.unit.music.score_checks import check_score
 
 from reina.errors import InputError
-from reina.instruments import INSTRUMENTS, describe_score
+from reina.instruments import INSTRUMENTS, Cast, Casting, describe_score
 from reina.music import DEFAULT_LIMITS, Limits, Score
-from reina.sessions.production import Production, Stage
-from reina.sessions.sound_plan import LONGEST_S, SoundPlan, plan_sound
+from reina.sessions.production import Production
+from reina.sessions.sound_plan import LONGEST_S, PlayedParts, SoundPlan, plan_sound
+from reina.sessions.stage import Stage
 
 RIGS = Path(__file__).parents[3] / "rigs"
 STAGED_OF = 512
@@ -69,7 +70,7 @@ def check_score_played(data: bytes, *, limits: Limits = DEFAULT_LIMITS) -> bool:
 
 def _check_sound(score: Score, part: int, joined: tuple[int, ...], transposition: int) -> None:
     try:
-        plan = plan_sound(score, trumpet_part=part, joined_parts=joined, transposition=transposition)
+        plan = plan_sound(score, [PlayedParts((part, *joined), transposition)])
     except InputError as error:
         told = error.detail
     else:
@@ -88,7 +89,7 @@ def _check_plan(score: Score, plan: SoundPlan) -> None:
 
 def _check_staged(score: Score, part: int, joined: tuple[int, ...]) -> None:
     """Plan a performance with its default show, and evaluate its first and its last second."""
-    production = Production.plan(stage(), score, part=part, joined_parts=joined)
+    production = Production.plan(stage(), score, cast=Cast((Casting(part=part, joined_parts=joined),)))
     json.dumps(production.show.to_document(), ensure_ascii=False, allow_nan=False).encode()
     for block in {0, int(score.duration_s)}:
         frames = production.performance.evaluate(block)
