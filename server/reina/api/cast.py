@@ -1,20 +1,23 @@
 """A session's cast: who plays what."""
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Body
 
 from reina.api.access import Controlled, Store, Watched
+from reina.api.body import BoundedRoute
 from reina.api.problems import ProblemError
 from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting
 from reina.performance import SEATS
 from reina.protocol import resources
 from reina.sessions.description import cast_resource
 
-router = APIRouter(tags=["cast"])
+router = APIRouter(tags=["cast"], route_class=BoundedRoute)
 
 ALONE = ("part", "transposition", "written", "octave_fit", "joined_parts", "player")
 """Fields of the form that are for one player."""
+
+EXAMPLE = {"castings": [{"part": 0, "player": "soloist", "instrument": "cornet", "octave_fit": True}]}
 
 
 @router.get("/instruments")
@@ -42,7 +45,9 @@ async def get_cast(session: Watched) -> resources.Cast:
 
 
 @router.put("/sessions/{session_id}/cast")
-async def put_cast(session: Controlled, fields: resources.CastFields, store: Store) -> resources.Cast:
+async def put_cast(
+    session: Controlled, fields: Annotated[resources.CastFields, Body(examples=[EXAMPLE])], store: Store
+) -> resources.Cast:
     """Let others play, or other parts, elsewhere; who watches is told by `hello` what frames now hold."""
     await store.change(session, recast=lambda cast: cast_of(fields, cast.sequence))
     return cast_resource(session.production)

@@ -56,6 +56,9 @@ class Stage:
             found = {path.parents[1].name for path in rigs_dir.glob(f"*/holds/{instrument.rig}.json")}
             for player in sorted(found, key=lambda player: (player != FIRST_PLAYER, player)):
                 holds[player, name] = load_hold(rigs_dir / player, instrument.rig)
+        if not holds:
+            # Nobody can play: say what of the first player is not there.
+            load_hold(rigs_dir / load_rig(rigs_dir / FIRST_PLAYER).name, next(iter(INSTRUMENTS.values())).rig)
         instruments = {INSTRUMENTS[name].rig for _, name in holds}
         rigs = {name: load_rig(rigs_dir / name) for name in {player for player, _ in holds} | instruments}
         kinds = {instrument: INSTRUMENTS[instrument] for _, instrument in holds}
@@ -90,7 +93,7 @@ class Stage:
         if (casting.player, casting.instrument) not in self.holds:
             known = ", ".join(self.players(casting.instrument))
             raise CastError(
-                f"there is no player {casting.player!r} of the {casting.instrument}; there are {known}",
+                f"there is no player {casting.player!r}; there are {known} for the {casting.instrument}",
                 where=f"{place}player",
             )
         return self.kinds[casting.instrument]
