@@ -13,14 +13,14 @@ from tests.mutations import Format, mutate
 
 from reina.keyframes import Show, ShowError, TimeMap, Triggers, stage_registry
 from reina.keyframes.interpolation import BUILT_IN
-from reina.performance import PLAYER_PARAMETERS, POSE_PARAMETERS
+from reina.performance import player_parameters
 from reina.sessions.production import read_show
 
 if TYPE_CHECKING:
     import random
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "shows"
-REGISTRY = stage_registry().extended([*PLAYER_PARAMETERS, *POSE_PARAMETERS])
+REGISTRY = stage_registry().extended(player_parameters(0))
 TIME_MAP = TimeMap(
     beats=lambda seconds: np.where(seconds < 4, seconds * 2, 8 + (seconds - 4) * 3),
     seconds=lambda beats: np.where(beats < 8, beats / 2, 4 + (beats - 8) / 3),
