@@ -1,7 +1,7 @@
 """Where mido reads a file rightly, the result is the same notes."""
 
 import io
-from collections import Counter, defaultdict
+from collections import defaultdict
 
 import mido
 import numpy as np
@@ -64,19 +64,20 @@ def test_the_same_notes_as_mido(
     file = mido.MidiFile(type=1, ticks_per_beat=division)
     for content in contents:
         track = file.add_track()
-        # Every note has its end and no end is too many: what else there is Reina reads in its own way.
-        held = Counter[tuple[int, int]]()
+        # Every note has its end before its key is struck again: what else there is Reina reads in its own way
+        # (test_pairing.py).
+        held: set[tuple[int, int]] = set()
         for event in content:
             if len(event) == 3:
                 track.append(mido.MetaMessage(event[1], time=event[0], tempo=event[2]))
                 continue
             delta, kind, channel, note, velocity = event
             begins = kind == "note_on" and velocity > 0
-            if not begins and not held[channel, note]:
+            if begins == ((channel, note) in held):
                 continue
             track.append(mido.Message(kind, time=delta, channel=channel, note=note, velocity=velocity))
-            held[channel, note] += 1 if begins else -1
-        for channel, note in sorted(held.elements()):
+            held ^= {(channel, note)}
+        for channel, note in sorted(held):
             track.append(mido.Message("note_off", time=1, channel=channel, note=note))
     stream = io.BytesIO()
     file.save(file=stream)
