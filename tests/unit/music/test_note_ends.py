@@ -117,12 +117,6 @@ def test_many_keys_let_go_at_once_are_music() -> None:
     assert kinds(score) == []
 
 
-def test_one_note_off_too_many_in_the_end_makes_up_for_no_missing_one() -> None:
-    score = read_score(midi((*repeated(60, 6, unreleased=2), off(9600, 60))))
-    assert lengths(score) == [0.25, 0.25, 0.5, 0.25, 0.25, 0.25]
-    assert kinds(score) == ["unreleased_note", "stray_note_off"]
-
-
 def test_a_controller_in_a_track_without_notes_on_its_channel_holds_for_all_tracks() -> None:
     score = read_score(midi((on(0, 60), on(0, 48, channel=1), off(1440, 48, 1)), (all_off(480),)))
     assert lengths(score) == [1.5, 0.5]

@@ -55,23 +55,15 @@ def test_what_was_paired_before_the_key_was_last_at_rest_stays():
 
 
 LEGATO = [(0, True), (10, True), (11, False), (20, True), (21, False), (29, False)]
-MISSING = [(0, True), (10, True), (15, False), (20, True), (25, False), (29, False)]
+HELD = [(0, True), (10, True), (15, False), (20, True), (25, False), (29, False)]
 
 
-def late(messages: list[tuple[int, bool]]) -> list[int]:
-    ticks, is_on = (np.array(column) for column in zip(*messages, strict=True))
-    return pair_notes(np.zeros(len(ticks), dtype=np.int64), is_on, ticks, longest_legato=2).off.tolist()
-
-
-def test_bound_notes_of_one_key_overlap_and_strokes_that_are_let_go_do_not():
-    assert late(LEGATO) == [2, 4, 5]
-    assert late(MISSING) == [1, 2, 4]
-
-
-def test_voices_that_meet_on_one_key_end_first_in_first_out():
-    assert late([(0, True), (0, True), *MISSING[2:]]) == [2, 4, 5], "they begin together"
-    assert late([*MISSING[:5], (25, False)]) == [2, 4, 5], "they end together"
-    assert late([*MISSING[:3], (29, False)]) == [2, 3], "one stroke"
+def test_where_every_note_has_its_end_strokes_over_a_held_note_end_first_in_first_out():
+    for messages in (LEGATO, HELD):
+        assert pairs_of(*messages).off.tolist() == [2, 4, 5]
+    assert pairs_of((0, True), (0, True), *HELD[2:]).off.tolist() == [2, 4, 5], "they begin together"
+    assert pairs_of(*HELD[:5], (25, False)).off.tolist() == [2, 4, 5], "they end together"
+    assert pairs_of(*HELD[:3], (29, False)).off.tolist() == [2, 3], "one stroke"
 
 
 def test_a_key_struck_again_and_let_go_at_one_tick_keeps_the_new_note():

@@ -6,9 +6,6 @@ import numpy as np
 
 from reina.music.arrays import BoolArray, IntArray
 
-LEGATO_BEATS = 1 / 8
-"""How far notes of one pitch overlap that are bound."""
-
 
 @dataclass(frozen=True)
 class Pairs:
@@ -28,20 +25,16 @@ class Pairs:
     stray: IntArray
 
 
-def pair_notes(
-    key: IntArray, is_on: BoolArray, tick: IntArray, longest_legato: float = float("inf")
-) -> Pairs:
+def pair_notes(key: IntArray, is_on: BoolArray, tick: IntArray) -> Pairs:
     """Pair M messages: first in, first out, where every note has its end.
 
     Where a note-off is missing, first in, first out would shift all later ends of the key by one. From where
-    the key was last at rest a note-on ends the note before it there, as a synthesizer has it. So it is where
-    one note-off too many comes in the end, since then no note is left.
+    the key was last at rest a note-on ends the note before it there, as a synthesizer has it.
 
     Args:
         key: (M,) what has to agree for a note-off to end a note-on (track, channel and pitch in one number).
         is_on: (M,) bool.
         tick: (M,) when, increasing among messages of one key.
-        longest_legato: For how many ticks a key struck again and again is meant to sound twice.
     """
     order = np.argsort(key, kind="stable")
     key, is_on, tick = key[order], is_on[order], tick[order]
@@ -70,12 +63,6 @@ def pair_notes(
     overlapping = depth[on_at] > 1
 
     place_of_on = np.cumsum(is_on) - 1
-    is_late = _in_late_runs(depth, group, tick, longest_legato)
-    late_ons = np.flatnonzero(is_late & is_on)
-    off[place_of_on[late_ons]] = order[late_ons + 1]
-    overlapping[place_of_on[late_ons]] = False
-    is_stray |= is_late & (depth == 0)
-
     for run in _hanging_runs(depth, is_stray, start):
         messages = order[run]
         ends = _end_by_the_next(is_on[run].tolist(), tick[run].tolist())
@@ -111,35 +98,6 @@ def _hanging_runs(depth: IntArray, is_stray: BoolArray, start: IntArray) -> list
         run = np.arange(begin, int(end[key]))
         runs.append(run[~is_stray[run]])
     return runs
-
-
-def _in_late_runs(depth: IntArray, group: IntArray, tick: IntArray, longest_legato: float) -> BoolArray:
-    """Return (M,) which messages are of a run from rest to rest whose last end makes up for a missing one.
-
-    In such a run each stroke of the key is let go before the next, though one note sounds on beneath; two or
-    more strokes are, all for longer than where notes are bound, and the last note-off comes after all.
-
-    Args:
-        depth: (M,) how many notes of the key sound after each message, sorted by key.
-        group: (M,) the number of their key.
-        tick: (M,) when they are.
-        longest_legato: For how many ticks notes that are bound overlap.
-    """
-    at_rest = depth == 0
-    begins = np.append(True, at_rest[:-1] | (group[1:] != group[:-1]))[: len(depth)]
-    start = np.flatnonzero(begins)
-    run = np.cumsum(begins) - 1
-    place = np.arange(len(depth)) - start[run]
-    # One note sounds, then two and one with every stroke, then none.
-    fits = at_rest | (depth == 1 + place % 2)
-    since = np.diff(tick, prepend=0)
-    is_let_go = (place > 0) & (place % 2 == 0)
-    fits &= ~is_let_go | (since > longest_legato)
-    fits &= ~((place == 1) | at_rest) | (since > 0)
-    length = np.diff(np.append(start, len(depth)))
-    last = start + length - 1
-    is_late = np.logical_and.reduceat(fits, start) & at_rest[last] & (length >= 6) if len(start) else fits
-    return is_late[run]
 
 
 def _end_by_the_next(is_on: list[bool], tick: list[int]) -> list[int | None]:

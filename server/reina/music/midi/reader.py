@@ -16,7 +16,7 @@ from reina.music.midi.encoding import decide_encoding
 from reina.music.midi.maps import read_metre_map, read_tempo_map
 from reina.music.midi.messages import Messages
 from reina.music.midi.note_ends import NoteEnds, find_note_ends
-from reina.music.midi.pairing import LEGATO_BEATS, Pairs, pair_notes
+from reina.music.midi.pairing import Pairs, pair_notes
 from reina.music.midi.parts import find_parts
 from reina.music.midi.silences import find_silences
 from reina.music.midi.text import decode_text
@@ -66,8 +66,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
 
     tempo_map = read_tempo_map(tracks, division, log)
     key = note_messages.track << 19 | note_messages.channel << 7 | note_messages.first
-    longest_legato = LEGATO_BEATS * division.ticks_per_beat
-    pairs = pair_notes(key, is_on, note_messages.tick, longest_legato)
+    pairs = pair_notes(key, is_on, note_messages.tick)
     on = note_messages.take(pairs.on)
     track_end = np.array([track.end_tick for track in tracks], dtype=np.int64)
     silences = messages.take(np.flatnonzero(is_silence))
