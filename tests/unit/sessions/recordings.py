@@ -30,8 +30,8 @@ def recording(
     return out.getvalue()
 
 
-def wav(**options: int | float) -> bytes:
-    return recording("WAV", "PCM_16", **options)  # type: ignore[arg-type]
+def wav(*, seconds: float = 1.0, rate: int = RATE, channels: int = 2) -> bytes:
+    return recording("WAV", "PCM_16", seconds=seconds, rate=rate, channels=channels)
 
 
 def id3(content: int) -> bytes:
