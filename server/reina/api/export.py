@@ -9,8 +9,8 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import StreamingResponse
 
-from reina.api.access import Watched
 from reina.api.frames import EndS, FramesPerSecond, StartS, frame_span
+from reina.api.http.access import Watched
 from reina.sessions.motion_export import BvhExport
 
 router = APIRouter(tags=["frames"])
