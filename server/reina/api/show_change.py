@@ -10,8 +10,8 @@ from reina.show.show_writer import json_text
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.session import Session
+    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.store import SessionStore
     from reina.show import Show, ShowHistory
 

@@ -23,9 +23,9 @@ from reina.sessions.description import (
     warned,
 )
 from reina.sessions.frames import EncodedFrames
-from reina.sessions.show_revision import changed_paths
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.show_fit import show_warnings
+from reina.sessions.show_revision import changed_paths
 from reina.sessions.song import Song, song_state
 
 if TYPE_CHECKING:
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
     from reina.protocol.messages import SongState
     from reina.protocol.transport import TransportCommand
-    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
+    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.viewer import Viewer
 
 FIRST_S = 0.3

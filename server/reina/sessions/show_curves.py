@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.curves.arrays import FloatArray
-    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.production import Production
+    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.show_text import ShowText
     from reina.show.track_samples import Curve
 

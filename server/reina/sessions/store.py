@@ -14,9 +14,9 @@ from reina.errors import InputError
 from reina.instruments import Cast
 from reina.sessions.description import warned
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
-from reina.sessions.show_revision import ShowRevision
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import Session, note_messages
+from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.workers.reader import Reader
 from reina.sound.recording.decoder import SongDecoder
