@@ -2,8 +2,8 @@
 
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
 from reina.performance.performance import TAIL_S, Performance
-from reina.performance.performer import Performer, player_parameters, player_prefix
-from reina.performance.seats import SEATS, SEATS_FOR, Seat
+from reina.instruments.player.performer import Performer, player_parameters, player_prefix
+from reina.instruments.player.seats import SEATS, SEATS_FOR, Seat
 
 __all__ = [
     "BLOCK_FRAMES",

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
-from reina.performance.stance_choice import StanceChoice
+from reina.instruments.player.stance_choice import StanceChoice
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.performance.performer import Performer
+    from reina.instruments.player.performer import Performer
     from reina.rotations.arrays import FloatArray
     from reina.show import ShowPlan
 

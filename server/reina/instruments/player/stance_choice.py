@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.kinematics import minimum_jerk
-from reina.performance.stances import STANCES
+from reina.instruments.player.stances import STANCES
 from reina.show import ShowPlan
 
 if TYPE_CHECKING:

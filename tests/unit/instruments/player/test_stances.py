@@ -6,8 +6,8 @@ import pytest
 
 from reina.curves import ParameterRegistry
 from reina.performance import Performance
-from reina.performance.stance_choice import PASSAGE_S, StanceChoice
-from reina.performance.stances import STANCES, Stances
+from reina.instruments.player.stance_choice import PASSAGE_S, StanceChoice
+from reina.instruments.player.stances import STANCES, Stances
 from reina.show import Show, TimeMap
 from reina.skeleton import Rig
 

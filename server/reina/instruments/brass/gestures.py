@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from reina.instruments.line import BREATH_S
-from reina.instruments.trumpet.strokes import plan_strokes
+from reina.instruments.brass.strokes import plan_strokes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.kinematics import TwistHelpers, TwoBoneLimbs
-from reina.performance.body_table import EYES, TRUNK, body_matrix
-from reina.performance.hands_on_instrument import PressingFingers
-from reina.performance.slide_finger import SLIDE_FINGERS, YIELDING_M, SlideFinger
-from reina.performance.trunk import Trunk
+from reina.instruments.player.body_table import EYES, TRUNK, body_matrix
+from reina.instruments.brass.pressing_fingers import PressingFingers
+from reina.instruments.brass.slide_finger import SLIDE_FINGERS, YIELDING_M, SlideFinger
+from reina.instruments.player.trunk import Trunk
 from reina.rotations import (
     conjugate,
     dot,

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.curves import Parameter
-from reina.performance.mute import MUTE_CHOICE
-from reina.performance.stances import STANCES
+from reina.instruments.brass.mute import MUTE_CHOICE
+from reina.instruments.player.stances import STANCES
 
 if TYPE_CHECKING:
     from reina.curves import ParameterRegistry

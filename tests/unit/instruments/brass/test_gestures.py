@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reina.instruments import Fingering, Line, PlayedPart
-from reina.instruments.trumpet.gestures import LOWERING_REST_S, RAISED_BEFORE_S, plan_gestures
+from reina.instruments.brass.gestures import LOWERING_REST_S, RAISED_BEFORE_S, plan_gestures
 from reina.kinematics import MotionCurves
 
 Note = tuple[float, float, int]

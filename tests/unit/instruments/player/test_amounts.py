@@ -7,7 +7,7 @@ import pytest
 
 from reina import rotations as r
 from reina.performance import Performance
-from reina.performance.amounts import PLAYER_PARAMETERS
+from reina.instruments.player.amounts import PLAYER_PARAMETERS
 from reina.skeleton import Rig
 
 NoteBeats = tuple[float, float, int]

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reina.instruments import Fingering, Line, PlayedPart
-from reina.instruments.trumpet.strokes import (
+from reina.instruments.brass.strokes import (
     LARGEST_SHARE,
     LONGEST_STROKE_S,
     PRESS_S,

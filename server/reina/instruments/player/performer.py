@@ -9,23 +9,23 @@ import numpy as np
 
 from reina.kinematics import MotionCurves
 from reina.performance import body_table, face
-from reina.performance.amounts import PLAYER_PARAMETERS, Amounts
-from reina.performance.face import Face
+from reina.instruments.player.amounts import PLAYER_PARAMETERS, Amounts
+from reina.instruments.player.face import Face
 from reina.performance.frame import Float32Array, SkeletonLayout
 from reina.performance.gesture_planners import GESTURE_PLANNERS
-from reina.performance.idle_motion import IdleMotion
-from reina.performance.mute import Mute, mute_parameter
-from reina.performance.player_body import PlayerBody
-from reina.performance.pose_keys import POSE_PARAMETERS, PoseKeys
-from reina.performance.seats import SEATS, Seat
-from reina.performance.slide_finger import SLIDE_FINGERS
-from reina.performance.stances import Stances
+from reina.instruments.player.idle_motion import IdleMotion
+from reina.instruments.brass.mute import Mute, mute_parameter
+from reina.instruments.player.body import PlayerBody
+from reina.instruments.player.pose_keys import POSE_PARAMETERS, PoseKeys
+from reina.instruments.player.seats import SEATS, Seat
+from reina.instruments.brass.slide_finger import SLIDE_FINGERS
+from reina.instruments.player.stances import Stances
 from reina.rotations import same_hemisphere
 
 if TYPE_CHECKING:
     from reina.curves import Parameter, ParameterRegistry
     from reina.instruments import Instrument, PlayedPart
-    from reina.instruments.trumpet.gestures import Curve
+    from reina.instruments.brass.gestures import Curve
     from reina.music.score import Score
     from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import Hold, Rig
