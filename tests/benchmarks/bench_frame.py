@@ -20,8 +20,9 @@ import mido
 import numpy as np
 
 from reina.instruments import INSTRUMENTS
+from reina.instruments.player import Engagement, Performer, player_parameters
 from reina.music import read_score
-from reina.performance import Performance, Performer, player_parameters
+from reina.performance import Performance
 from reina.protocol import build_manifest, encode_block
 from reina.show import Show, TimeMap
 from reina.skeleton import load_hold, load_rig
@@ -52,7 +53,7 @@ def part(notes: int) -> bytes:
 
 def performance(notes: int, tracks: int = 12) -> Performance:
     """A performance of such a part under a show with so many tracks, twelve at most."""
-    registry = stage_registry().extended(player_parameters(0))
+    registry = stage_registry().extended(player_parameters(0, INSTRUMENTS["trumpet"]))
     numbers = [p for p in registry if p.type == "number"][:tracks]
     documents = [
         {
@@ -68,13 +69,15 @@ def performance(notes: int, tracks: int = 12) -> Performance:
     instrument = INSTRUMENTS["trumpet"]
     show = Show.from_document({"version": 1, "tracks": documents}, registry)
     performer = Performer(
-        score=score,
-        played=instrument.play(score, 0),
-        instrument=instrument,
-        player_rig=load_rig(RIGS / "trumpeter"),
-        instrument_rig=load_rig(RIGS / "trumpet"),
-        hold=load_hold(RIGS / "trumpeter", "trumpet"),
-        registry=registry,
+        Engagement(
+            score=score,
+            played=instrument.play(score, 0),
+            instrument=instrument,
+            player_rig=load_rig(RIGS / "trumpeter"),
+            instrument_rigs={instrument.name: load_rig(RIGS / "trumpet")},
+            hold=load_hold(RIGS / "trumpeter", "trumpet"),
+            registry=registry,
+        )
     )
     plan = show.plan(registry, TimeMap.steady())
     return Performance([performer], plan, duration_s=score.duration_s)

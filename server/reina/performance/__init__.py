@@ -1,21 +1,12 @@
-"""The whole player at any frame: gestures, body, inverse kinematics, valves and show put together."""
+"""Show and performers put together: what is on screen at any frame."""
 
-from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
+from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
 from reina.performance.performance import TAIL_S, Performance
-from reina.instruments.player.performer import Performer, player_parameters, player_prefix
-from reina.instruments.player.seats import SEATS, SEATS_FOR, Seat
 
 __all__ = [
     "BLOCK_FRAMES",
-    "SEATS",
-    "SEATS_FOR",
     "TAIL_S",
     "FrameBlock",
     "FrameLayout",
     "Performance",
-    "Performer",
-    "Seat",
-    "SkeletonLayout",
-    "player_parameters",
-    "player_prefix",
 ]

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, CastError
+from reina.instruments.player import SEATS, SEATS_FOR
 from reina.music import NotInScoreError
-from reina.performance import SEATS, SEATS_FOR, Performance
+from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
@@ -18,8 +19,8 @@ from reina.stage import write_default_show
 if TYPE_CHECKING:
     from reina.curves import ParameterRegistry
     from reina.instruments import Casting, Instrument, PartRanking, PlayedPart
+    from reina.instruments.player import Performer, Seat
     from reina.music import Score, ScoreWarning
-    from reina.performance import Performer, Seat
     from reina.sessions.stage import Stage
 
 
@@ -79,8 +80,8 @@ class Production:
             NotInScoreError: The score has no such part.
         """
         cast = cast or Cast()
-        registry = stage.registry(len(cast.castings))
         castings, played, rankings = _prepare(stage, score, cast)
+        registry = stage.registry(tuple(casting.instrument for casting in castings))
         performers = [
             stage.performer(casting, number, seat, score, part, registry)
             for number, (casting, seat, part) in enumerate(zip(castings, _seats(cast), played, strict=True))
@@ -118,8 +119,10 @@ class Production:
     @property
     def sounding(self) -> tuple[PlayedParts, ...]:
         """What of the score the players play, as it sounds."""
-        played = (performer.played for performer in self.performers)
-        return tuple(PlayedParts(one.parts, one.transposition) for one in played)
+        return tuple(
+            PlayedParts(one.played.parts, one.played.transposition, one.instrument.program)
+            for one in self.performers
+        )
 
     @property
     def warnings(self) -> tuple[ScoreWarning, ...]:

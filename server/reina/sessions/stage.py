@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS, CastError
-from reina.performance import Performer, player_parameters
+from reina.instruments.player import Engagement, Performer, player_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from reina.curves import Parameter
     from reina.instruments import Instrument, PlayedPart
     from reina.instruments.casting import Casting
+    from reina.instruments.player import Seat
     from reina.music import Score
-    from reina.performance import Seat
     from reina.skeleton import Hold, Rig
 
 FIRST_PLAYER = "trumpeter"
@@ -54,14 +54,17 @@ class Stage:
         """
         holds: dict[tuple[str, str], Hold] = {}
         for name, instrument in INSTRUMENTS.items():
+            if not instrument.rig:
+                continue
             found = {path.parents[1].name for path in rigs_dir.glob(f"*/holds/{instrument.rig}.json")}
             for player in sorted(found, key=lambda player: (player != FIRST_PLAYER, player)):
                 holds[player, name] = load_hold(rigs_dir / player, instrument.rig)
         if not holds:
             # Nobody can play: say what of the first player is not there.
             load_hold(rigs_dir / load_rig(rigs_dir / FIRST_PLAYER).name, next(iter(INSTRUMENTS.values())).rig)
-        instruments = {INSTRUMENTS[name].rig for _, name in holds}
-        rigs = {name: load_rig(rigs_dir / name) for name in {player for player, _ in holds} | instruments}
+        names = {player for player, _ in holds}
+        names |= {rig for _, held in holds for rig in INSTRUMENTS[held].skeletons.values()}
+        rigs = {name: load_rig(rigs_dir / name) for name in names}
         kinds = {instrument: INSTRUMENTS[instrument] for _, instrument in holds}
         return cls(rigs=rigs, holds=holds, kinds=kinds)
 
@@ -74,9 +77,18 @@ class Stage:
         """Who can play an instrument, by name."""
         return tuple(player for player, held in self.holds if held == instrument)
 
-    def registry(self, players: int = 1) -> ParameterRegistry:
-        """Everything that a show of so many players can move."""
-        own = (parameter for number in range(players) for parameter in player_parameters(number))
+    def registry(self, instruments: Sequence[str] | None = None) -> ParameterRegistry:
+        """Everything that a show can move where these are played, by the names that there are.
+
+        Args:
+            instruments: Each player's, in the cast's order; by default the first that there is, alone.
+        """
+        played = self.instruments[:1] if instruments is None else instruments
+        own = (
+            parameter
+            for number, name in enumerate(played)
+            for parameter in player_parameters(number, self.kinds[name])
+        )
         return ParameterRegistry((*self.parameters, *own))
 
     def instrument(self, casting: Casting, place: str) -> Instrument:
@@ -120,14 +132,16 @@ class Stage:
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
-            score=score,
-            played=played,
-            instrument=instrument,
-            player_rig=self.rigs[casting.player],
-            instrument_rig=self.rigs[instrument.rig],
-            hold=self.holds[casting.player, casting.instrument],
-            registry=registry,
-            number=number,
-            seat=seat,
-            seed=number,
+            Engagement(
+                score=score,
+                played=played,
+                instrument=instrument,
+                player_rig=self.rigs[casting.player],
+                instrument_rigs={name: self.rigs[rig] for name, rig in instrument.skeletons.items()},
+                hold=self.holds[casting.player, casting.instrument],
+                registry=registry,
+                number=number,
+                seat=seat,
+                seed=number,
+            )
         )

@@ -19,10 +19,12 @@ class BrassModel:
     Attributes:
         name: For programs: ``trumpet``.
         title: For people: ``B♭ trumpet``.
+        program: The General MIDI program, from 0, that it sounds with where the score says none.
         rig: Name of its rig, or "" if it has none yet.
         written_above_sounding: Semitones from a sounding pitch to the one written for the player.
         chart_above_sounding: Semitones from a sounding pitch to the one under which it stands in the
-        three-valve chart. lowest: Lowest playable sounding pitch.
+            three-valve chart.
+        lowest: Lowest playable sounding pitch.
         highest: Highest playable sounding pitch.
         tube: Its acoustics.
         substitutes: Fingerings that a fourth valve takes the place of, as in 1-3 by 4.
@@ -32,6 +34,7 @@ class BrassModel:
 
     name: str
     title: str
+    program: int
     rig: str
     written_above_sounding: int
     chart_above_sounding: int
@@ -90,6 +93,7 @@ def _model(table: Mapping[str, Any]) -> BrassModel:
     return BrassModel(
         name=table["name"],
         title=table["title"],
+        program=table["program"],
         rig=table.get("rig", ""),
         written_above_sounding=table["written_above_sounding"],
         chart_above_sounding=table["chart_above_sounding"],

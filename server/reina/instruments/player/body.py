@@ -1,4 +1,4 @@
-"""The whole player: gestures turn the trunk, the horn goes with the mouth, hands with the horn, feet stay."""
+"""A player's body: gestures turn the trunk, hands go where they are asked to, feet stay."""
 
 from __future__ import annotations
 
@@ -7,75 +7,79 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.kinematics import TwistHelpers, TwoBoneLimbs
-from reina.instruments.player.body_table import EYES, TRUNK, body_matrix
-from reina.instruments.brass.pressing_fingers import PressingFingers
-from reina.instruments.brass.slide_finger import SLIDE_FINGERS, YIELDING_M, SlideFinger
+from reina.instruments.player.body_table import EYES, SIGNALS, TRUNK, Vector, body_matrix
+from reina.instruments.player.rows import stacked
 from reina.instruments.player.trunk import Trunk
-from reina.rotations import (
-    conjugate,
-    dot,
-    exp,
-    from_axis_angle,
-    multiply,
-    rotate,
-    same_hemisphere,
-)
-from reina.skeleton import Point, RigError, forward_kinematics
+from reina.kinematics import TwistHelpers, TwoBoneLimbs
+from reina.rotations import conjugate, exp, multiply, rotate, same_hemisphere
+from reina.skeleton import Point, RigError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from reina.instruments.player.held_pose import HeldPose
     from reina.rotations.arrays import FloatArray, IntArray
-    from reina.skeleton import Hold, Rig
+    from reina.skeleton import Rig
 
 LIMBS: tuple[str, ...] = ("leftArm", "rightArm", "leftLeg", "rightLeg")
 SOFT_KNEE_M = 0.001
 """No leg comes nearer to being straight than this; the hips sink instead, beginning twice as far before."""
 
-LOWERED_RAD = 0.85
-"""How far arms and instrument are turned down about the line of the shoulders in long rests."""
-
-ELBOWS_OUT_RAD = np.array([0.7, -0.2])
-"""How far the elbows then swing out about the line from shoulder to wrist, left and right."""
-
 
 @dataclass(frozen=True, eq=False)
-class Pose:
-    """F frames of player and instrument."""
+class Standing:
+    """F frames of a body whose arms are still to be placed."""
 
-    moving: FloatArray
-    """Local rotations, rest included, of the joints `PlayerBody.moving`, ``(F, M, 4)``; others hold still."""
-    root_positions: FloatArray
-    """The player's hips, metres, ``(F, 3)``."""
-    instrument_rotations: FloatArray
-    """``(F, 4)``."""
-    instrument_positions: FloatArray
-    """Metres, ``(F, 3)``."""
-    reached: bool
-    """Whether every hand, foot and finger is where it is meant to be."""
+    local: FloatArray
+    """Local rotations, rest included, of trunk and eyes, ``(F, T, 4)``."""
+    hips: FloatArray
+    """The root, metres, ``(F, 3)``."""
+    world: FloatArray
+    """World rotations of the trunk's joints, ``(F, J, 4)``, in the order of `PlayerBody.trunk`."""
+    limbs: FloatArray
+    """Where arms and legs begin, ``(F, 4, 3)``, metres, in the order of `LIMBS`."""
+    points: FloatArray
+    """The points that the body was made with, ``(F, K, 3)``, metres."""
+    elbows: FloatArray
+    """Which way the elbows' hinges point, as the chest turns them, ``(F, 2, 3)``."""
+    turns: FloatArray
+    """What `body_matrix` turns beside the joints, ``(F, len(turns), 4)``."""
+    shifts: FloatArray
+    """What it shifts beside the hips, metres, ``(F, len(shifts), 3)``."""
 
 
 class PlayerBody:
-    """Solves whole poses.
+    """Solves a body in two steps: `stand` by the gestures, then `reach` with the hands.
 
     Args:
-        rig: The player's rig: a VRM humanoid with arms and legs as ``two_bone`` chains and a contact
-            ``lips``.
-        instrument_rig: One joint, a contact ``mouthpiece``, buttons.
-        hold: The playing position; in it hands and feet keep their places.
+        rig: The player's rig: a VRM humanoid with arms and legs as ``two_bone`` chains.
+        held: The playing position; in it the feet keep their places, and elbows and knees their ways.
+        points: Places on the trunk whose way is asked for.
+        signals: Signals beside `SIGNALS`, which `turns` and `shifts` name.
+        turns: As `body_matrix` takes them.
+        shifts: As `body_matrix` takes them.
+        fingers: Joints that the instrument moves itself, ``(N,)``; what is not moved keeps its place in the
+            hold.
 
     Raises:
-        RigError: Something that playing needs is not in the rigs.
+        RigError: Something that playing needs is not in the rig.
     """
 
-    def __init__(self, rig: Rig, instrument_rig: Rig, hold: Hold) -> None:
+    def __init__(
+        self,
+        rig: Rig,
+        held: HeldPose,
+        *,
+        points: Sequence[Point] = (),
+        signals: Sequence[str] = (),
+        turns: Sequence[Mapping[str, Vector]] = (),
+        shifts: Sequence[Mapping[str, Vector]] = (),
+        fingers: IntArray | None = None,
+    ) -> None:
         skeleton = rig.skeleton
-        self.rig, self.hold = rig, hold
-        rotations = hold.rotations(rig)
-        root = skeleton.rest_translations[0] if hold.hips_position is None else hold.hips_position
-        positions, world = forward_kinematics(skeleton, rotations, root)
-        trunk = [name for name in TRUNK if name in skeleton]
+        world = held.world
+        self.trunk = tuple(name for name in TRUNK if name in skeleton)
+        """Joints that gestures turn, parents first."""
         eyes = [name for name in EYES if name in skeleton]
         self._limbs = TwoBoneLimbs(rig, LIMBS)
         joints = self._limbs.joints
@@ -86,65 +90,28 @@ class PlayerBody:
         # Which way elbows and knees point: as in the hold; elbows turn with the chest, knees do not.
         hinges = rotate(world[joints[:, 0]], self._limbs.hinge)
         self._knees = hinges[2:]
-        chest = int(skeleton.parents[skeleton.index("neck" if "neck" in trunk else "head")])
+        chest = int(skeleton.parents[skeleton.index("neck" if "neck" in self.trunk else "head")])
         elbows = [Point("elbow", chest, elbow) for elbow in rotate(conjugate(world[chest]), hinges[:2])]
-        self._trunk = Trunk(rig, trunk, [*uppers, rig.contact("lips")], elbows)
-        self._turned: IntArray = np.array([skeleton.index(name) for name in (*trunk, *eyes)], dtype=np.intp)
-        self._held: FloatArray = rotations[self._turned]
-        self._matrix = body_matrix(rig, [*trunk, *eyes])
-        self._eyes = slice(len(trunk), len(trunk) + len(eyes)) if eyes else None
+        self._trunk = Trunk(rig, self.trunk, [*uppers, *points], elbows)
+        turned: IntArray = np.array([skeleton.index(name) for name in (*self.trunk, *eyes)], dtype=np.intp)
+        self._held: FloatArray = held.rotations[turned]
+        self._signals = (*SIGNALS, *signals)
+        self._matrix = body_matrix(rig, [*self.trunk, *eyes], self._signals, turns=turns, shifts=shifts)
+        self._hips = len(turned) + len(turns)
+        """Which of the matrix's columns is the hips'."""
+        self._eyes = slice(len(self.trunk), len(turned)) if eyes else None
         self._sight = _sight(rig, eyes)
-        self._root = root
-        self._head = trunk.index("head")
+        self._root = held.root
 
-        # The instrument rides on the head, its mouthpiece on the lips.
-        I_world, X_world = hold.instrument_rotation, hold.instrument_position
-        head = skeleton.index("head")
-        self._instrument_in_head = multiply(conjugate(world[head]), I_world)
-        mouthpiece = instrument_rig.contact("mouthpiece").offset
-
-        # Hands keep their place in the instrument's frame, feet in the world.
-        hands, feet = joints[:2, 2], joints[2:, 2]
-        self._hand_rotations = multiply(conjugate(I_world), world[hands])
-        hand_positions = rotate(conjugate(I_world), positions[hands] - X_world)
-        self._held_places = np.stack([mouthpiece, *hand_positions])
+        feet = joints[2:, 2]
         self._leg_reach: FloatArray = self._limbs.reach[2:] - SOFT_KNEE_M
-        self._feet_rotations, self._feet_positions = world[feet], positions[feet]
+        self._feet_rotations, self._feet_positions = world[feet], held.positions[feet]
         self._limb_parents = [
             self._carrier(rig, int(skeleton.parents[upper])) for upper in joints[:, 0].tolist()
         ]
-
-        right = int(hands[1])
-        self._fingers = PressingFingers(
-            rig, instrument_rig, right, hand_positions[1], self._hand_rotations[1]
-        )
-        to_hand = conjugate(self._hand_rotations[0])
-        self._slides = {
-            slide: SlideFinger(
-                rig,
-                chain,
-                rotate(to_hand, instrument_rig.contact(ring).offset - hand_positions[0]),
-                rotate(to_hand, part.travel),
-                rotate(to_hand, YIELDING_M),
-                rotations,
-            )
-            for slide, (chain, ring) in SLIDE_FINGERS.items()
-            for part in instrument_rig.parts
-            if part.parameter.endswith(f"/{slide}") and part.travel is not None and chain in rig.chains
-        }
         self._twists = TwistHelpers(rig)
-        self.held: FloatArray = same_hemisphere(rotations, skeleton.rest_rotations)
-        """All joints' local rotations in the hold, ``(J, 4)``."""
-        fingers = self._fingers.chains.joints
-        self.moving: IntArray = np.concatenate(
-            [
-                self._turned,
-                *joints.T,
-                fingers.ravel(),
-                *(finger.joints for finger in self._slides.values()),
-                self._twists.joints,
-            ]
-        )
+        own = np.zeros(0, dtype=np.intp) if fingers is None else fingers
+        self.moving: IntArray = np.concatenate([turned, *joints.T, own, self._twists.joints])
         """Indices of the joints that move, ``(M,)``."""
         place = {joint: index for index, joint in enumerate(self.moving.tolist())}
         lost = [joint for joint in self._twists.sources.tolist() if joint not in place]
@@ -156,6 +123,8 @@ class PlayerBody:
             [place[joint] for joint in self._twists.sources.tolist()], dtype=np.intp
         )
         self._moving_rest: FloatArray = skeleton.rest_rotations[self.moving]
+        self.still: FloatArray = same_hemisphere(held.rotations, skeleton.rest_rotations)
+        """All joints' local rotations in the hold, ``(J, 4)``."""
 
     def _drop(self, legs: FloatArray) -> FloatArray:
         """How far the hips must sink for both legs to reach their feet, ``(F,)``, metres.
@@ -179,33 +148,22 @@ class PlayerBody:
             )
         return int(found[0])
 
-    def solve(
-        self,
-        signals: FloatArray,
-        lowered: FloatArray,
-        valves: FloatArray,
-        lifts: FloatArray,
-        slides: Mapping[str, FloatArray],
-        stance: FloatArray | None = None,
-    ) -> Pose:
-        """Poses for a block.
+    def stand(self, signals: Mapping[str, FloatArray], stance: FloatArray | None = None) -> Standing:
+        """Turn trunk and eyes, and keep both feet within reach.
 
         Args:
-            signals: ``(len(body_table.SIGNALS), F)``.
-            lowered: How far the instrument is taken down, 0..1, ``(F,)``.
-            valves: How far down each valve is, ``(F, V)``.
-            lifts: How far each valve's finger is off its cap, ``(F, V)``.
-            slides: How far out each slide of `SLIDE_FINGERS` is, 0..1, ``(F,)``; one that is missing is in.
+            signals: By name, ``(F,)`` each: `SIGNALS`, and those that the body was made with.
             stance: What a way of standing turns the trunk by, under everything else, and shifts the hips,
                 ``(F, trunk joints + 1, 3)``, as `Stances.evaluate` gives it.
         """
-        moved = (signals.T @ self._matrix).reshape(signals.shape[1], -1, 3)
-        hips = self._root + moved[:, -2]
+        rows = stacked(signals, self._signals)
+        moved = (rows.T @ self._matrix).reshape(rows.shape[1], -1, 3)
+        hips = self._root + moved[:, self._hips]
         if stance is None:
-            turns = exp(moved[:, :-2])
+            turns = exp(moved[:, : self._hips])
         else:
             # One exponential for both.
-            turns = exp(np.concatenate([moved[:, :-2], stance[:, :-1]], axis=1))
+            turns = exp(np.concatenate([moved[:, : self._hips], stance[:, :-1]], axis=1))
             hips += stance[:, -1]
         count = len(self._held)
         if self._eyes is not None:
@@ -214,67 +172,76 @@ class PlayerBody:
         if stance is not None:
             trunk = stance.shape[1] - 1
             base = np.repeat(base[None], len(hips), axis=0)
-            base[:, :trunk] = multiply(self._held[:trunk], turns[:, count + 1 :])
+            base[:, :trunk] = multiply(self._held[:trunk], turns[:, self._hips :])
         local = multiply(base, turns[:, :count])
-        shifts = moved[:, -1]
-        world, points, elbows = self._trunk.solve(local[:, : len(self._trunk.joints)], hips)
+        world, points, elbows = self._trunk.solve(local[:, : len(self.trunk)], hips)
         drop = self._drop(points[:, 2:4])
         hips[:, 1] -= drop
         points[..., 1] -= drop[:, None]
+        return Standing(
+            local=local,
+            hips=hips,
+            world=world,
+            limbs=points[:, :4],
+            points=points[:, 4:],
+            elbows=elbows,
+            turns=turns[:, count : self._hips],
+            shifts=moved[:, self._hips + 1 :],
+        )
 
-        instrument = multiply(multiply(world[:, self._head], self._instrument_in_head), turns[:, count])
-        # In the instrument's frame: its mouthpiece, and the hands that hold it.
-        frames = len(hips)
-        held = np.empty((frames, 3, 3))
-        held[:] = self._held_places
-        held[:, 2] += shifts
-        held = rotate(instrument[:, None], held)
-        held[:, 0] = points[:, 4] - held[:, 0]
-        held[:, 1:] += held[:, :1]
-        if lowered.any():
-            instrument, held, elbows = _lower(lowered, points, instrument, held, elbows)
+    def reach(
+        self,
+        standing: Standing,
+        hand_positions: FloatArray,
+        hand_rotations: FloatArray,
+        *,
+        elbows: FloatArray | None = None,
+        fingers: Sequence[FloatArray] = (),
+    ) -> FloatArray:
+        """Bring the hands to their places; the feet are at theirs.
 
+        Args:
+            standing: What `stand` gave.
+            hand_positions: Left and right, in the world, metres, ``(F, 2, 3)``.
+            hand_rotations: In the world, ``(F, 2, 4)``.
+            elbows: Which way the elbows' hinges point, ``(F, 2, 3)``; as `standing` has it by default.
+            fingers: Local rotations of the joints that the instrument moves itself, ``(F, n, 4)`` each, in
+                the order of the body's `fingers`.
+
+        Returns:
+            Local rotations, rest included, of the joints `moving`, ``(F, M, 4)``; others hold still.
+        """
+        frames = len(standing.hips)
         targets = np.empty((frames, 4, 3))
-        targets[:, :2] = held[:, 1:]
+        targets[:, :2] = hand_positions
         targets[:, 2:] = self._feet_positions
         hinges = np.empty((frames, 4, 3))
-        hinges[:, :2] = elbows
+        hinges[:, :2] = standing.elbows if elbows is None else elbows
         hinges[:, 2:] = self._knees
-        limbs = self._limbs.solve(points[:, :4], targets, hinges)
+        limbs = self._limbs.solve(standing.limbs, targets, hinges)
 
         outer = np.empty((frames, 8, 4))  # world rotations: uppers, then ends
         outer[:, :4] = limbs.upper
-        outer[:, 4:6] = multiply(instrument[:, None], self._hand_rotations)
+        outer[:, 4:6] = hand_rotations
         outer[:, 6:] = self._feet_rotations
         inner = np.empty((frames, 8, 4))  # what each of them hangs on
-        inner[:, :4] = world[:, self._limb_parents]
+        inner[:, :4] = standing.world[:, self._limb_parents]
         inner[:, 4:] = multiply(limbs.upper, limbs.lower_local)
         ends = multiply(conjugate(inner), outer)
 
-        used = self._fingers.valves
-        fingers, status = self._fingers.solve(valves[:, used], lifts[:, used], shifts)
-
-        turned = local.shape[1]
+        turned = standing.local.shape[1]
         helpers = len(self.moving) - len(self._twist_sources)
         moving = np.empty((frames, len(self.moving), 4))
-        moving[:, :turned] = local
+        moving[:, :turned] = standing.local
         moving[:, turned : turned + 4] = ends[:, :4]
         moving[:, turned + 4 : turned + 8] = limbs.lower_local
         moving[:, turned + 8 : turned + 12] = ends[:, 4:]
-        pressing = turned + 12 + len(used) * 3
-        moving[:, turned + 12 : pressing] = fingers.reshape(frames, -1, 4)
-        for index, (name, finger) in enumerate(self._slides.items()):
-            out = slides.get(name)
-            begin = pressing + 3 * index
-            moving[:, begin : begin + 3] = finger.held if out is None else finger.solve(out)
+        begin = turned + 12
+        for rotations in fingers:
+            moving[:, begin : begin + rotations.shape[1]] = rotations
+            begin += rotations.shape[1]
         moving[:, helpers:] = self._twists.solve(moving[:, self._twist_sources])
-        return Pose(
-            moving=same_hemisphere(moving, self._moving_rest),
-            root_positions=hips,
-            instrument_rotations=instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0),
-            instrument_positions=held[:, 0],
-            reached=not (limbs.status.any() or status.any()),
-        )
+        return same_hemisphere(moving, self._moving_rest)
 
 
 def _sight(rig: Rig, eyes: Sequence[str]) -> FloatArray:
@@ -294,19 +261,3 @@ def _glance(turn: FloatArray, sight: FloatArray) -> FloatArray:
     up, side = np.sin(half[:, 0]), np.sin(half[:, 1])
     level, ahead = np.cos(half[:, 0]), np.cos(half[:, 1])
     return np.stack([ahead * up, side * level, -side * up, ahead * level], axis=-1)
-
-
-def _lower(
-    lowered: FloatArray, points: FloatArray, instrument: FloatArray, held: FloatArray, elbows: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Turn instrument, hands and elbows down about the line of the shoulders: arms keep their shape."""
-    left, right = points[:, 0], points[:, 1]
-    axis = left - right
-    axis = axis / np.sqrt(dot(axis, axis))[:, None]
-    down = from_axis_angle(axis, LOWERED_RAD * lowered)
-    pivot = (0.5 * (left + right))[:, None]
-    held = pivot + rotate(down[:, None], held - pivot)
-    arms = held[:, 1:] - points[:, :2]
-    arms = arms / np.sqrt(dot(arms, arms))[..., None]
-    out = from_axis_angle(arms, ELBOWS_OUT_RAD * lowered[:, None])
-    return multiply(down, instrument), held, rotate(multiply(out, down[:, None]), elbows)

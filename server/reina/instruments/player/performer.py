@@ -7,44 +7,36 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.kinematics import MotionCurves
-from reina.performance import body_table, face
-from reina.instruments.player.amounts import PLAYER_PARAMETERS, Amounts
+from reina.instruments.player import face
+from reina.instruments.player.amounts import Amounts
 from reina.instruments.player.face import Face
-from reina.performance.frame import Float32Array, SkeletonLayout
-from reina.performance.gesture_planners import GESTURE_PLANNERS
 from reina.instruments.player.idle_motion import IdleMotion
-from reina.instruments.brass.mute import Mute, mute_parameter
-from reina.instruments.player.body import PlayerBody
-from reina.instruments.player.pose_keys import POSE_PARAMETERS, PoseKeys
-from reina.instruments.player.seats import SEATS, Seat
-from reina.instruments.brass.slide_finger import SLIDE_FINGERS
+from reina.instruments.player.instrument_body import BodyMotion, Float32Array
+from reina.instruments.player.pose_keys import PoseKeys
+from reina.instruments.player.rows import stacked
+from reina.instruments.player.skeleton_layout import SkeletonLayout
 from reina.instruments.player.stances import Stances
+from reina.kinematics import MotionCurves
 from reina.rotations import same_hemisphere
 
 if TYPE_CHECKING:
-    from reina.curves import Parameter, ParameterRegistry
-    from reina.instruments import Instrument, PlayedPart
-    from reina.instruments.brass.gestures import Curve
-    from reina.music.score import Score
-    from reina.rotations.arrays import FloatArray, IntArray
-    from reina.skeleton import Hold, Rig
+    from reina.curves import Parameter
+    from reina.instruments.player.engagement import Engagement
+    from reina.kinematics import Curve
+    from reina.rotations.arrays import FloatArray
 
-VIBRATO_HZ = 5.4
-
-
-def player_prefix(number: int) -> str:
-    """What the paths of a cast's player begin with, the first being 0: nothing, then ``players/2/``."""
-    return f"players/{number + 1}/" if number else ""
-
-
-def player_parameters(number: int) -> tuple[Parameter, ...]:
-    """What a show may move of a cast's player, the first being 0."""
-    prefix = player_prefix(number)
-    return tuple(
-        replace(parameter, path=prefix + parameter.path)
-        for parameter in (*PLAYER_PARAMETERS, *POSE_PARAMETERS)
-    )
+GESTURES: tuple[str, ...] = (
+    "raised",
+    "playing",
+    "breath",
+    "inhale",
+    "air",
+    "tongue",
+    "effort",
+    "lean",
+    "turn",
+)
+"""Curves that move every player's trunk and face; those that an instrument does not plan are 0."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +46,7 @@ class PerformerFrames:
     rotations: Float32Array
     """``(F, J, 4)``: the player's joints, then the instrument's, local, rest included."""
     root_positions: FloatArray
-    """``(F, 2, 3)``, metres: the player's, the instrument's."""
+    """``(F, S, 3)``, metres: of each of `Performer.skeletons`."""
     parameters: FloatArray
     """``(F, P)``: the values of `Performer.parameters`."""
 
@@ -63,82 +55,47 @@ class Performer:
     """A part as a player plays it on an instrument; a pure function of song time and of a show's values.
 
     Args:
-        score: The score; its tempo and metre lead the body.
-        played: What the instrument makes of a part.
-        instrument: The instrument.
-        player_rig: The player's rig.
-        instrument_rig: The instrument's.
-        hold: How the player holds it.
-        registry: The show's parameters.
-        number: The player's place in the cast, the first being 0.
-        seat: Where the player stands.
-        seed: Which of many equal ways of moving.
+        engagement: Who plays what.
 
     Raises:
         RigError: The rigs lack something that playing needs.
     """
 
-    def __init__(
-        self,
-        *,
-        score: Score,
-        played: PlayedPart,
-        instrument: Instrument,
-        player_rig: Rig,
-        instrument_rig: Rig,
-        hold: Hold,
-        registry: ParameterRegistry,
-        number: int = 0,
-        seat: Seat = SEATS["middle"],
-        seed: int = 0,
-    ) -> None:
-        self.played = played
+    def __init__(self, engagement: Engagement) -> None:
+        instrument, registry = engagement.instrument, engagement.registry
+        player_rig, rigs = engagement.player_rig, engagement.instrument_rigs
+        self.played = engagement.played
         """The part as it is played."""
         self.instrument = instrument
         """What it is played on."""
-        self.prefix = player_prefix(number)
+        self.prefix = engagement.prefix
         """What the paths of its parameters begin with."""
-        self.seat = seat
+        self.seat = engagement.seat
         """Where the player stands."""
         self._stances = Stances(player_rig)
         self._amounts = Amounts(registry, self.prefix)
         self._pose_keys = PoseKeys(registry, self.prefix)
-        self._idle = IdleMotion(score, seed)
-        self._body = PlayerBody(player_rig, instrument_rig, hold)
-        self._still = np.concatenate([self._body.held, instrument_rig.skeleton.rest_rotations]).astype(
-            np.float32
-        )
-        self._root_rest: FloatArray = player_rig.skeleton.rest_rotations[0]
+        self._idle = IdleMotion(engagement.score, engagement.seed)
         self._face = Face(player_rig)
-        self._mute = Mute(score, played.line, registry, self.prefix)
 
-        curves = GESTURE_PLANNERS[instrument.name](played, seed=seed)
-        valves = [f"valve/{valve + 1}" for valve in range(instrument.valve_count)]
-        lifts = [f"lift/{valve + 1}" for valve in range(instrument.valve_count)]
-        prefix = f"{instrument.name}/"
-        streamed = [parameter.path.removeprefix(prefix) for parameter in instrument.parameters]
-        at_rest: dict[str, Curve] = {
-            name: (np.zeros((0, 3)), 0.0)
-            for name in (*valves, *lifts, *streamed, *_GESTURES)
-            if name not in curves
-        }
-        self._curves = MotionCurves(curves | at_rest)
-        self._valve_rows: IntArray = self._curves.index(valves)
-        self._lift_rows: IntArray = self._curves.index(lifts)
-        self._streamed_rows: IntArray = self._curves.index(streamed)
-        self._slide_rows = {
-            name: self._curves.names.index(name) for name in SLIDE_FINGERS if name in streamed
-        }
-        self._gesture_rows = dict(zip(_GESTURES, self._curves.index(_GESTURES).tolist(), strict=True))
+        planned = instrument.plan_gestures(self.played, seed=engagement.seed)
+        still: dict[str, Curve] = {name: (np.zeros((0, 3)), 0.0) for name in GESTURES if name not in planned}
+        self._curves = MotionCurves(planned | still)
+        self._gesture_rows = dict(zip(GESTURES, self._curves.index(GESTURES).tolist(), strict=True))
+        self._body = instrument.body(engagement, self._curves)
 
-        self.skeletons = (
-            SkeletonLayout(f"{self.prefix}player", player_rig.name, player_rig.skeleton.names, number),
-            SkeletonLayout(
-                f"{self.prefix}{instrument.name}", instrument_rig.name, instrument_rig.skeleton.names, number
-            ),
+        in_frame = {"player": player_rig, **rigs}
+        self.skeletons = tuple(
+            SkeletonLayout(self.prefix + name, rig.name, rig.skeleton.names, engagement.number)
+            for name, rig in in_frame.items()
         )
         """The player's and the instrument's."""
-        own = (*instrument.parameters, mute_parameter(instrument.name), *self._face.parameters)
+        joints = np.cumsum([0, *(len(rig.skeleton.names) for rig in in_frame.values())])
+        self._roots = [
+            (int(first), rig.skeleton.rest_rotations[0])
+            for first, rig in zip(joints, in_frame.values(), strict=False)
+        ]
+        own = (*instrument.parameters, *self._face.parameters)
         self.parameters: tuple[Parameter, ...] = tuple(
             replace(parameter, path=self.prefix + parameter.path) for parameter in own
         )
@@ -155,29 +112,26 @@ class Performer:
         amounts = self._amounts.read(shown)
         curves = self._curves.evaluate(times_s)
         gestures = {name: curves[row] for name, row in self._gesture_rows.items()}
-        valves = curves[self._valve_rows].T
-        lifts = (curves[self._lift_rows] * amounts["finger_lift"]).T
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
-        slides = {name: curves[row] for name, row in self._slide_rows.items()}
-        stood = self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None])
-        signals = self._body_signals(times_s, gestures, amounts, self._pose_keys.read(shown))
-        pose = self._body.solve(signals, lowered, valves, lifts, slides, stood)
-
-        rotations = np.empty((len(times_s), *self._still.shape), dtype=np.float32)
-        rotations[:] = self._still
-        rotations[:, self._body.moving] = pose.moving
-        rotations[:, -1] = pose.instrument_rotations
-        roots = np.stack([pose.root_positions, pose.instrument_positions], axis=1)
+        posed = self._body.solve(
+            BodyMotion(
+                times_s=times_s,
+                shown=shown,
+                curves=curves,
+                amounts=amounts,
+                signals=self._body_signals(times_s, gestures, amounts, self._pose_keys.read(shown)),
+                lowered=lowered,
+                stance=self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None]),
+            )
+        )
+        rotations, positions = posed.rotations, posed.root_positions
         if not self.seat.is_middle:
-            roots = self.seat.place(roots)
-            root = self.seat.turn(rotations[:, 0].astype(np.float64))
-            rotations[:, 0] = same_hemisphere(root, self._root_rest)
-            horn = self.seat.turn(pose.instrument_rotations)
-            rotations[:, -1] = horn * np.where(horn[:, 3:] < 0.0, -1.0, 1.0)
+            positions = self.seat.place(positions)
+            for joint, rest in self._roots:
+                turned = self.seat.turn(rotations[:, joint].astype(np.float64))
+                rotations[:, joint] = same_hemisphere(turned, rest)
         weights = self._face.evaluate(self._face_signals(times_s, gestures, amounts, lowered))
-        mute = self._mute.evaluate(times_s, shown)[:, None]
-        parameters = np.concatenate([curves[self._streamed_rows].T, mute, weights], axis=1)
-        return PerformerFrames(rotations, roots, parameters)
+        return PerformerFrames(rotations, positions, np.concatenate([posed.parameters, weights], axis=1))
 
     def _body_signals(
         self,
@@ -185,15 +139,14 @@ class Performer:
         gestures: dict[str, FloatArray],
         amounts: dict[str, FloatArray],
         keyed: dict[str, FloatArray],
-    ) -> FloatArray:
-        """Rows in the order of `body_table.SIGNALS`."""
+    ) -> dict[str, FloatArray]:
+        """By the names of `body_table.SIGNALS`."""
         idle = self._idle
         resting = 1.0 - gestures["playing"]
         sway = idle.sway(times) * (amounts["sway"] * (0.55 + 0.45 * gestures["playing"]))
         gaze = idle.gaze(times) * amounts["gaze"]
         breath = gestures["breath"] + 0.45 * resting * idle.quiet_breath(times)
-        vibrato = gestures["vibrato"] * np.sin((2.0 * np.pi * VIBRATO_HZ) * times)
-        rows = {
+        return {
             "breath": breath * amounts["breath"],
             "sway_side": sway[0],
             "sway_fore": sway[1],
@@ -203,10 +156,8 @@ class Performer:
             "effort": gestures["effort"] * amounts["lift"],
             "gaze_left": gaze[0],
             "gaze_up": gaze[1],
-            "vibrato": vibrato * amounts["vibrato"],
             **keyed,
         }
-        return _stack([rows[name] for name in body_table.SIGNALS])
 
     def _face_signals(
         self,
@@ -228,24 +179,4 @@ class Performer:
             "content": lowered * amount,
             "blink": self._idle.blink(times) * np.minimum(amounts["blink"], 1.0),
         }
-        return _stack([rows[name] for name in face.SIGNALS])
-
-
-def _stack(rows: list[FloatArray]) -> FloatArray:
-    """As `numpy.stack`, which on many short rows takes several times as long."""
-    return np.concatenate(rows).reshape(len(rows), -1)
-
-
-_GESTURES: tuple[str, ...] = (
-    "raised",
-    "playing",
-    "breath",
-    "inhale",
-    "air",
-    "tongue",
-    "effort",
-    "lean",
-    "turn",
-    "vibrato",
-)
-"""Curves that a body and a face are moved by; those that an instrument does not plan are 0."""
+        return stacked(rows, face.SIGNALS)
