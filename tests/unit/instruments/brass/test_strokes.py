@@ -124,7 +124,7 @@ def test_every_note_has_its_valves_whatever_the_line(notes: list[Note], velocity
             following = notes[index + 1][0]
             last = min(end, following - min(LONGEST_STROKE_S, LARGEST_SHARE * (following - onset)) - 1e-9)
         times = np.linspace(onset, max(last, onset), 9)
-        values = strokes.evaluate(times)
+        values = strokes.evaluate(times).T
         if fingering is not None:
             np.testing.assert_array_equal(values, np.broadcast_to(wanted, values.shape))
         else:
