@@ -6,6 +6,8 @@ Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 from reina.instruments.casting import MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.describe import describe_notes, describe_score
 from reina.instruments.instrument import Instrument
+from reina.instruments.joined_parts import check_parts
+from reina.instruments.line import playable_line
 from reina.instruments.note_fingerings import (
     KeysFingering,
     NoteFingering,
@@ -35,8 +37,10 @@ __all__ = [
     "StrikeFingering",
     "Suitability",
     "ValvesFingering",
+    "check_parts",
     "describe_notes",
     "describe_score",
     "pitch_name",
+    "playable_line",
     "rank_parts",
 ]

@@ -3,7 +3,7 @@
 A package brings one by an entry point of the group ``reina.instruments`` that names an `Instrument`::
 
     [project.entry-points."reina.instruments"]
-    hand_bell = "my_package:HAND_BELL"
+    desk_bell = "my_package:DESK_BELL"
 """
 
 import re
@@ -44,10 +44,13 @@ def discover_instruments() -> dict[str, Instrument]:
             raise InstrumentError(f"{what} cannot be loaded: {error}") from error
         if not isinstance(loaded, Instrument):
             raise InstrumentError(f"{what} is no Instrument; the entry point names one, not its class")
-        if loaded.name != point.name or not _NAME.fullmatch(point.name):
+        name = getattr(loaded, "name", None)
+        if name != point.name or not _NAME.fullmatch(point.name):
             raise InstrumentError(
-                f"{what} is called {loaded.name!r}; both are one name of a-z, 0-9 and _, as hand_bell"
+                f"{what} has the name {name!r}; both are one, of a-z, 0-9 and _, as desk_bell"
             )
+        if not getattr(loaded, "title", ""):
+            raise InstrumentError(f"{what} has no title")
         others = [one.path for one in loaded.parameters if not one.path.startswith(f"{loaded.name}/")]
         if others:
             raise InstrumentError(f"{what} streams {others[0]!r}; its paths begin with {loaded.name}/")

@@ -15,7 +15,7 @@ from reina.instruments.brass.mute import MUTE_CHOICE, mute_parameter
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
 from reina.instruments.instrument import Instrument
-from reina.instruments.joined_parts import check_joined_parts, notes_of_parts
+from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import playable_line
 from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
 from reina.instruments.octaves import fitting_octaves
@@ -25,7 +25,6 @@ from reina.instruments.player.engagement import Engagement
 from reina.instruments.ranking import PartRanking, rank_parts
 from reina.kinematics import Curve, MotionCurves
 from reina.music.arrays import read_only
-from reina.music.errors import NotInScoreError
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
 
@@ -85,11 +84,7 @@ class ValvedBrass(Instrument):
         joined_parts: Sequence[int] = (),
     ) -> BrassPart:
         """As `Instrument.play`."""
-        if not 0 <= part < len(score.parts):
-            raise NotInScoreError(
-                f"there is no part {part}; there are 0 to {len(score.parts) - 1}", location="part"
-            )
-        joined = check_joined_parts(score, part, joined_parts)
+        joined = check_parts(score, part, joined_parts)
         log = WarningLog(MAX_TOLD)
         place = f"part {part}"
         if written:

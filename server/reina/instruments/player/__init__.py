@@ -6,7 +6,14 @@ from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames, BodyMotion, InstrumentBody
 from reina.instruments.player.parameters import player_parameters, player_prefix
 from reina.instruments.player.performer import GESTURES, Performer, PerformerFrames
-from reina.instruments.player.phrasing import Phrases, phrases_of, plan_breath, plan_phrasing
+from reina.instruments.player.phrasing import (
+    Phrases,
+    in_order,
+    movements,
+    phrases_of,
+    plan_breath,
+    plan_phrasing,
+)
 from reina.instruments.player.seats import SEATS, SEATS_FOR, Seat
 from reina.instruments.player.skeleton_layout import SkeletonLayout
 from reina.instruments.player.stance_choice import StanceChoice
@@ -28,6 +35,8 @@ __all__ = [
     "SkeletonLayout",
     "StanceChoice",
     "Standing",
+    "in_order",
+    "movements",
     "phrases_of",
     "plan_breath",
     "plan_phrasing",
