@@ -49,6 +49,7 @@ def test_open_notes_are_those_that_are_fingered_open() -> None:
     ]
     open_onsets = [line.line.onset_s[note] for note, valves in enumerate(fingered) if valves == []]
     assert onsets(score, line, NoteFilter(valves=())) == open_onsets
+    assert onsets(score, line, NoteFilter(valves=(4,))) == [], "notes of other parts press no valve 4"
     for valves in ((1,), (1, 2), (1, 3)):
         expected = [line.line.onset_s[n] for n, pressed in enumerate(fingered) if pressed == list(valves)]
         assert onsets(score, line, NoteFilter(valves=valves)) == expected
