@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING
 import mido
 import numpy as np
 
-from reina.instruments import INSTRUMENTS
-from reina.instruments.player import Engagement, Performer, player_parameters
+from reina.instruments import INSTRUMENTS, Performer, player_parameters
+from reina.instruments.player import Engagement
 from reina.music import read_score
 from reina.performance import Performance
 from reina.protocol import build_manifest, encode_block
@@ -69,15 +69,15 @@ def performance(notes: int, tracks: int = 12) -> Performance:
     instrument = INSTRUMENTS["trumpet"]
     show = Show.from_document({"version": 1, "tracks": documents}, registry)
     performer = Performer(
+        instrument,
         Engagement(
             score=score,
             played=instrument.play(score, 0),
-            instrument=instrument,
             player_rig=load_rig(RIGS / "trumpeter"),
             instrument_rigs={instrument.name: load_rig(RIGS / "trumpet")},
             hold=load_hold(RIGS / "trumpeter", "trumpet"),
             registry=registry,
-        )
+        ),
     )
     plan = show.plan(registry, TimeMap.steady())
     return Performance([performer], plan, duration_s=score.duration_s)

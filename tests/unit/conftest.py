@@ -12,8 +12,8 @@ import pytest
 from hypothesis import settings
 
 from reina.curves import ParameterRegistry
-from reina.instruments import INSTRUMENTS
-from reina.instruments.player import Engagement, Performer, player_parameters
+from reina.instruments import INSTRUMENTS, Performer, player_parameters
+from reina.instruments.player import Engagement
 from reina.music import read_score
 from reina.performance import Performance
 from reina.show import Show, TimeMap
@@ -95,16 +95,16 @@ def perform(player_rig: Rig, trumpet_rig: Rig, hold: Hold, registry: ParameterRe
         ]
         show = Show.from_document({"version": 1, "tracks": [*constant, *tracks]}, registry)
         performer = Performer(
+            instrument,
             Engagement(
                 score=score,
                 played=instrument.play(score, 0),
-                instrument=instrument,
                 player_rig=player_rig,
                 instrument_rigs={instrument.name: trumpet_rig},
                 hold=hold,
                 registry=registry,
                 seed=seed,
-            )
+            ),
         )
         plan = show.plan(registry, TimeMap.steady())
         return Performance([performer], plan, duration_s=score.duration_s)

@@ -15,12 +15,15 @@ from reina.instruments.note_fingerings import (
     StrikeFingering,
     ValvesFingering,
 )
+from reina.instruments.parameters import player_parameters
+from reina.instruments.performer import GESTURES, Performer, PerformerFrames
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking, Suitability, rank_parts
 from reina.instruments.registry import INSTRUMENTS
 
 __all__ = [
+    "GESTURES",
     "INSTRUMENTS",
     "MAX_PLAYERS",
     "Cast",
@@ -32,6 +35,8 @@ __all__ = [
     "Line",
     "NoteFingering",
     "PartRanking",
+    "Performer",
+    "PerformerFrames",
     "PlayedPart",
     "SlideFingering",
     "StrikeFingering",
@@ -42,5 +47,6 @@ __all__ = [
     "describe_score",
     "pitch_name",
     "playable_line",
+    "player_parameters",
     "rank_parts",
 ]

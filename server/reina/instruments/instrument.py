@@ -91,7 +91,7 @@ class Instrument(ABC):
             seed: Varies what no score says.
 
         Returns:
-            Curves by name: its own, and those of `reina.instruments.player.GESTURES` that its player makes;
+            Curves by name: its own, and those of `reina.instruments.GESTURES` that its player makes;
             the others are 0.
         """
 

@@ -13,7 +13,7 @@ from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.player import Performer
+    from reina.instruments.performer import Performer
     from reina.rotations.arrays import FloatArray
     from reina.show import ShowPlan
 

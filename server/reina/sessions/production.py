@@ -18,8 +18,8 @@ from reina.stage import write_default_show
 
 if TYPE_CHECKING:
     from reina.curves import ParameterRegistry
-    from reina.instruments import Casting, Instrument, PartRanking, PlayedPart
-    from reina.instruments.player import Performer, Seat
+    from reina.instruments import Casting, Instrument, PartRanking, Performer, PlayedPart
+    from reina.instruments.player import Seat
     from reina.music import Score, ScoreWarning
     from reina.sessions.stage import Stage
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
-from reina.instruments import INSTRUMENTS, CastError
-from reina.instruments.player import Engagement, Performer, player_parameters
+from reina.instruments import INSTRUMENTS, CastError, Performer, player_parameters
+from reina.instruments.player import Engagement
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
 
@@ -132,10 +132,10 @@ class Stage:
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
+            instrument,
             Engagement(
                 score=score,
                 played=played,
-                instrument=instrument,
                 player_rig=self.rigs[casting.player],
                 instrument_rigs={name: self.rigs[rig] for name, rig in instrument.skeletons.items()},
                 hold=self.holds[casting.player, casting.instrument],
@@ -143,5 +143,5 @@ class Stage:
                 number=number,
                 seat=seat,
                 seed=number,
-            )
+            ),
         )

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reina.instruments import INSTRUMENTS
-from reina.instruments.player import Engagement, Performer, player_parameters
+from reina.instruments import INSTRUMENTS, Performer, player_parameters
+from reina.instruments.player import Engagement
 from reina.music import read_score
 from reina.performance import Performance
 from reina.rotations import to_matrix
@@ -123,15 +123,15 @@ def play(name: str, path: Path, times_s: Array, horn: str = "trumpet") -> Played
     score = read_score(path.read_bytes(), filename=path.name)
     instrument = INSTRUMENTS[horn]
     performer = Performer(
+        instrument,
         Engagement(
             score=score,
             played=instrument.play(score, instrument.rank_parts(score)[0].part),
-            instrument=instrument,
             player_rig=player,
             instrument_rigs={instrument.name: held},
             hold=load_hold(ROOT / "rigs" / name, horn),
             registry=registry,
-        )
+        ),
     )
     plan = show.plan(registry, TimeMap.steady())
     performance = Performance([performer], plan, duration_s=score.duration_s)

@@ -12,8 +12,7 @@ from tests.document_mutations import mutate_document
 from tests.mutations import Format, mutate
 
 from reina.curves.interpolation import BUILT_IN
-from reina.instruments import INSTRUMENTS
-from reina.instruments.player import player_parameters
+from reina.instruments import INSTRUMENTS, player_parameters
 from reina.sessions.production import read_show
 from reina.show import Show, ShowError, TimeMap, Triggers
 from reina.stage import stage_registry

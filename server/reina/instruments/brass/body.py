@@ -100,8 +100,7 @@ class BrassBody:
         pressed = [button.valve for button in horn.buttons]
         if max(pressed, default=0) > valve_count:
             raise RigError(
-                f"{horn.name!r} has a button for valve {max(pressed)}; the {engagement.instrument.name} "
-                f"has {valve_count} valves",
+                f"{horn.name!r} has a button for valve {max(pressed)}; there are {valve_count} valves",
                 location="buttons",
             )
         self._valve_rows: IntArray = curves.index([f"valve/{valve}" for valve in pressed])

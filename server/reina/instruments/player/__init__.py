@@ -1,11 +1,9 @@
 """What players share, whatever they play: phrasing, breath, trunk, legs, face, gaze, idling, stances."""
 
 from reina.instruments.player.body import PlayerBody, Standing
-from reina.instruments.player.engagement import Engagement
+from reina.instruments.player.engagement import Engagement, player_prefix
 from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames, BodyMotion, InstrumentBody
-from reina.instruments.player.parameters import player_parameters, player_prefix
-from reina.instruments.player.performer import GESTURES, Performer, PerformerFrames
 from reina.instruments.player.phrasing import (
     Phrases,
     in_order,
@@ -19,7 +17,6 @@ from reina.instruments.player.skeleton_layout import SkeletonLayout
 from reina.instruments.player.stance_choice import StanceChoice
 
 __all__ = [
-    "GESTURES",
     "SEATS",
     "SEATS_FOR",
     "BodyFrames",
@@ -27,8 +24,6 @@ __all__ = [
     "Engagement",
     "HeldPose",
     "InstrumentBody",
-    "Performer",
-    "PerformerFrames",
     "Phrases",
     "PlayerBody",
     "Seat",
@@ -40,6 +35,5 @@ __all__ = [
     "phrases_of",
     "plan_breath",
     "plan_phrasing",
-    "player_parameters",
     "player_prefix",
 ]

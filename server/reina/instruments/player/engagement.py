@@ -5,29 +5,31 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reina.instruments.player.parameters import player_prefix
 from reina.instruments.player.seats import SEATS, Seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from reina.curves import ParameterRegistry
-    from reina.instruments.instrument import Instrument
     from reina.instruments.played import PlayedPart
     from reina.music.score import Score
     from reina.skeleton import Hold, Rig
 
 
+def player_prefix(number: int) -> str:
+    """What the paths of a cast's player begin with, the first being 0: nothing, then ``players/2/``."""
+    return f"players/{number + 1}/" if number else ""
+
+
 @dataclass(frozen=True, eq=False)
 class Engagement:
-    """Who plays what on which instrument, and where.
+    """Who plays what, on which rigs, and where.
 
     Attributes:
         score: The score; its tempo and metre lead the body.
         played: What the instrument makes of a part.
-        instrument: The instrument.
         player_rig: The player's rig.
-        instrument_rigs: The rig of each of `Instrument.skeletons`, by the skeleton's name.
+        instrument_rigs: The rig of each of `Instrument.skeletons`, by the skeleton's name, its own first.
         hold: How the player holds it.
         registry: The show's parameters.
         number: The player's place in the cast, the first being 0.
@@ -37,7 +39,6 @@ class Engagement:
 
     score: Score
     played: PlayedPart
-    instrument: Instrument
     player_rig: Rig
     instrument_rigs: Mapping[str, Rig]
     hold: Hold
@@ -54,4 +55,4 @@ class Engagement:
     @property
     def instrument_rig(self) -> Rig:
         """The rig of what is held."""
-        return self.instrument_rigs[next(iter(self.instrument.skeletons))]
+        return next(iter(self.instrument_rigs.values()))

@@ -6,16 +6,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from reina.instruments.player.amounts import PLAYER_PARAMETERS
+from reina.instruments.player.engagement import player_prefix
 from reina.instruments.player.pose_keys import POSE_PARAMETERS
 
 if TYPE_CHECKING:
     from reina.curves import Parameter
     from reina.instruments.instrument import Instrument
-
-
-def player_prefix(number: int) -> str:
-    """What the paths of a cast's player begin with, the first being 0: nothing, then ``players/2/``."""
-    return f"players/{number + 1}/" if number else ""
 
 
 def player_parameters(number: int, instrument: Instrument) -> tuple[Parameter, ...]:

@@ -21,6 +21,7 @@ from reina.rotations import same_hemisphere
 
 if TYPE_CHECKING:
     from reina.curves import Parameter
+    from reina.instruments.instrument import Instrument
     from reina.instruments.player.engagement import Engagement
     from reina.kinematics import Curve
     from reina.rotations.arrays import FloatArray
@@ -55,14 +56,15 @@ class Performer:
     """A part as a player plays it on an instrument; a pure function of song time and of a show's values.
 
     Args:
-        engagement: Who plays what.
+        instrument: What is played.
+        engagement: Who plays what, on which rigs, and where.
 
     Raises:
         RigError: The rigs lack something that playing needs.
     """
 
-    def __init__(self, engagement: Engagement) -> None:
-        instrument, registry = engagement.instrument, engagement.registry
+    def __init__(self, instrument: Instrument, engagement: Engagement) -> None:
+        registry = engagement.registry
         player_rig, rigs = engagement.player_rig, engagement.instrument_rigs
         self.played = engagement.played
         """The part as it is played."""
