@@ -45,7 +45,7 @@ WITHOUT_PLAYWRIGHT = (
 
 
 def find_browser() -> Path | None:
-    """Path of a Chromium or Chrome: REINA_BROWSER, then PATH, then where they are installed; None without one."""
+    """Path of a Chromium or Chrome: REINA_BROWSER, PATH, where they are installed; None without one."""
     named = os.environ.get("REINA_BROWSER")
     if named:
         return Path(named)

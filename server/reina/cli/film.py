@@ -38,7 +38,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--show", type=Path, metavar="FILE", help="the show; without one it is written from the music"
     )
-    parser.add_argument("--aspect", choices=("16:9", "1:1", "9:16"), default="16:9", help="the picture's shape")
+    parser.add_argument(
+        "--aspect", choices=("16:9", "1:1", "9:16"), default="16:9", help="the picture's shape"
+    )
     parser.add_argument(
         "--height",
         type=_height,
@@ -46,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="LINES",
         help="of a 16:9 picture, the shorter side of any: 720, 1080, 1440, 2160 (1080)",
     )
-    parser.add_argument("--fps", type=int, choices=(30, 60), default=60, help="pictures a second (60)")
+    parser.add_argument("--fps", type=int, choices=(30, 60), default=60, help="frames a second (60)")
     parser.add_argument(
         "--start", type=_seconds, default=0.0, metavar="TIME", help="from here on, as 62.5 or 1:02.5"
     )
@@ -93,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
         print("reina film: called off; no film was written", file=sys.stderr)
         return 130
     progress.end()
-    print(f"{output}: {made.pictures} pictures of {made.width} × {made.height}, {made.coding}")
+    print(f"{output}: {made.frames} frames of {made.width} × {made.height}, {made.coding}")
     return 0
 
 
@@ -107,7 +109,9 @@ def _commission(arguments: argparse.Namespace) -> Commission:
     if output.is_dir():
         raise InputError(f"{output} is a folder; name a file in it")
     if arguments.end is not None and arguments.end <= arguments.start:
-        raise InputError(f"the film ends at {arguments.end:g} s, not after its start at {arguments.start:g} s")
+        raise InputError(
+            f"the film ends at {arguments.end:g} s, not after its start at {arguments.start:g} s"
+        )
     return Commission(
         start=arguments.start,
         end=arguments.end,
@@ -116,6 +120,7 @@ def _commission(arguments: argparse.Namespace) -> Commission:
         fps=arguments.fps,
         quality=arguments.quality,
         detail=arguments.detail,
+        camera="show",
         sound=not arguments.silent,
         container=container,
     )

@@ -60,6 +60,7 @@ class Commission:
     fps: int
     quality: str
     detail: str
+    camera: str
     sound: bool
     container: str
 
@@ -68,7 +69,7 @@ class Commission:
 class Made:
     """What was made."""
 
-    pictures: int
+    frames: int
     width: int
     height: int
     coding: str
@@ -92,9 +93,7 @@ class FilmPage:
         from playwright.sync_api import TimeoutError as Late
 
         try:
-            self._page.goto(
-                f"{self._address}/s/{self._session['id']}?clean=1&tier=low", timeout=OPENING_MS
-            )
+            self._page.goto(f"{self._address}/s/{self._session['id']}?clean=1&tier=low", timeout=OPENING_MS)
             self._page.wait_for_function(OPEN, timeout=OPENING_MS)
         except Late as error:
             raise InputError(f"the page at {self._address} does not open") from error

@@ -34,7 +34,7 @@ class FilmProgress:
         if phase != "pictures":
             self._say(PHASES.get(phase, phase))
             return
-        text = f"picture {done:.0f} of {of}, {100 * done / of:.0f} %"
+        text = f"frame {done:.0f} of {of}, {100 * done / of:.0f} %"
         if seconds_left is not None and done < of:
             text += f", {length_of_time(seconds_left)} left"
         tenth = int(TENTHS * done / of)

@@ -21,7 +21,9 @@ export interface Encoders {
 }
 
 /** What each container may hold, what more players play first. */
-const HOLDS: Readonly<Record<Container, { readonly video: readonly VideoCodec[]; readonly audio: readonly AudioCodec[] }>> = {
+const HOLDS: Readonly<
+  Record<Container, { readonly video: readonly VideoCodec[]; readonly audio: readonly AudioCodec[] }>
+> = {
   mp4: { video: ["avc", "vp9", "av1"], audio: ["aac", "opus"] },
   webm: { video: ["vp9", "av1"], audio: ["opus"] },
 };

@@ -20,6 +20,8 @@ export interface Commission {
   readonly fps: number;
   readonly quality: Quality;
   readonly detail: Tier;
+  /** The show's cameras, or the view that the page shows. */
+  readonly camera: "show" | "mine";
   readonly sound: boolean;
   /** Null leaves the choice. */
   readonly container: Container | null;
@@ -33,7 +35,7 @@ export interface Client {
 
 /** What was made. */
 export interface Commissioned {
-  readonly pictures: number;
+  readonly frames: number;
   readonly width: number;
   readonly height: number;
   /** `MP4, H.264 and AAC`. */
@@ -43,7 +45,7 @@ export interface Commissioned {
 /**
  * Film the session that is open.
  *
- * @param view held through the film; null films with the show's cameras.
+ * @param mine the view that the page shows.
  * @throws Error in words for a person, when it cannot be made.
  */
 export async function film(
@@ -51,14 +53,14 @@ export async function film(
   commission: Commission,
   client: Client,
   signal: AbortSignal,
-  view: CameraView | null = null,
+  mine: CameraView,
 ): Promise<Commissioned> {
   const { aspect, height, fps, quality, container, sound } = commission;
   const span = { start: commission.start, end: Math.min(commission.end ?? Infinity, session.duration) };
   const fault = faultOf(span, session.duration);
   if (fault !== null) throw new Error(`${fault}; the music lasts ${session.duration.toFixed(2)} s`);
   if (!ASPECTS.includes(aspect)) throw new Error(`The aspect is ${ASPECTS.join(", ")}`);
-  if (!(FPS as readonly number[]).includes(fps)) throw new Error(`A film has ${FPS.join(" or ")} pictures a second`);
+  if (!(FPS as readonly number[]).includes(fps)) throw new Error(`A film has ${FPS.join(" or ")} frames a second`);
   if (!QUALITIES.includes(quality)) throw new Error(`The quality is ${QUALITIES.join(", ")}`);
   if (!(height >= SMALLEST_HEIGHT && height <= LARGEST_HEIGHT)) {
     throw new Error(`The height is ${SMALLEST_HEIGHT} to ${LARGEST_HEIGHT}`);
@@ -66,7 +68,8 @@ export async function film(
   const size = pictureSize(aspect, height);
   const encoders = await askEncoders(size, fps, quality);
   const coding = chooseCoding(encoders, sound, container);
-  if (coding === null) throw new Error(`This browser encodes no ${container ?? "film"} of ${size.width} × ${size.height}`);
+  if (coding === null)
+    throw new Error(`This browser encodes no ${container ?? "film"} of ${size.width} × ${size.height}`);
   const frames = framesOf(span, fps);
   const of = countOf(frames);
   const left = new TimeLeft(of);
@@ -80,7 +83,7 @@ export async function film(
       tier: commission.detail,
       quality,
       coding,
-      view,
+      view: commission.camera === "mine" ? mine : null,
     },
     {
       api: session.api,
@@ -96,5 +99,5 @@ export async function film(
       },
     },
   );
-  return { pictures: of, ...size, coding: codingName(coding) };
+  return { frames: of, ...size, coding: codingName(coding) };
 }

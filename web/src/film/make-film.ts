@@ -7,6 +7,7 @@ import {
   Mp4OutputFormat,
   Output,
   StreamTarget,
+  type StreamTargetChunk,
   WebMOutputFormat,
 } from "mediabunny";
 
@@ -15,6 +16,7 @@ import type { Hello } from "../generated/protocol";
 import type { CameraView, ScoreView, Tier } from "../scene";
 import type { Coding, Quality } from "./coding";
 import type { Destination } from "./destination";
+import { encoderDelay } from "./encoder-delay";
 import { audioQuality, videoQuality } from "./encoders";
 import { FilmStage } from "./film-stage";
 import { readFrames } from "./frames";
@@ -77,7 +79,8 @@ export async function makeFilm(order: FilmOrder, work: FilmWork): Promise<Blob |
 }
 
 async function draw(order: FilmOrder, work: FilmWork): Promise<void> {
-  const { api, signal, onProgress } = work;
+  const { api, signal } = work;
+  const onProgress = (progress: FilmProgress): void => work.onProgress(progress);
   const { fps, first } = order.frames;
   const count = countOf(order.frames);
   const answer = await api.request("GET", `${api.sessionPath(order.session, "manifest")}?fps=${fps}`, { signal });
@@ -116,31 +119,32 @@ async function draw(order: FilmOrder, work: FilmWork): Promise<void> {
 
 /** The file: its picture, its sound and its container. */
 class FilmFile {
+  readonly #coding: Coding;
   readonly #output: Output;
   readonly #picture: CanvasSource;
   readonly #voice: AudioSampleSource | null;
   readonly #sound: FilmSound | null;
-  readonly #pictures: number;
-  /** Samples that are in the file. */
+  /** Samples of the sound that are in the file. */
   #sounded = 0;
+  /** Samples that the encoder puts before the sound, which is sent so much ahead. */
+  #delay = 0;
 
   constructor(order: FilmOrder, canvas: HTMLCanvasElement, sound: FilmSound | null, destination: Destination) {
     const { coding, size, quality, frames } = order;
     const { fps } = frames;
+    this.#coding = coding;
     this.#sound = sound;
-    this.#pictures = countOf(frames);
     // Its own head and index stand first in an MP4, so that it plays while it is still being loaded.
-    const format =
-      coding.container === "mp4" ? new Mp4OutputFormat({ fastStart: "reserve" }) : new WebMOutputFormat();
+    const format = coding.container === "mp4" ? new Mp4OutputFormat({ fastStart: "reserve" }) : new WebMOutputFormat();
     // Called off, mediabunny closes what it writes to; what becomes of the file is the destination's to say.
-    const writable = new WritableStream({ write: (chunk) => destination.write(chunk) });
+    const writable = new WritableStream<StreamTargetChunk>({ write: (chunk) => destination.write(chunk) });
     const target = new StreamTarget(writable, { chunked: true, chunkSize: WRITE_BYTES });
     this.#output = new Output({ format, target });
     this.#picture = new CanvasSource(canvas, {
       codec: coding.video,
       quality: videoQuality(coding.video, size, fps, quality),
     });
-    this.#output.addVideoTrack(this.#picture, { frameRate: fps, maximumPacketCount: this.#pictures });
+    this.#output.addVideoTrack(this.#picture, { frameRate: fps, maximumPacketCount: countOf(frames) });
     this.#voice = null;
     if (coding.audio !== null && sound !== null) {
       this.#voice = new AudioSampleSource({ codec: coding.audio, quality: audioQuality(coding.audio) });
@@ -151,6 +155,12 @@ class FilmFile {
   }
 
   async begin(): Promise<void> {
+    const { audio, container } = this.#coding;
+    if (audio !== null && this.#sound !== null) {
+      this.#delay = await encoderDelay(audio, this.#sound.channels, SAMPLE_RATE);
+      // What stands before an MP4's beginning is taken away by its edit list; WebM has none, and loses these milliseconds.
+      if (container === "webm") this.#sounded = this.#delay;
+    }
     await this.#output.start();
   }
 
@@ -172,7 +182,7 @@ class FilmFile {
         format: "f32-planar",
         numberOfChannels: sound.channels,
         sampleRate: SAMPLE_RATE,
-        timestamp: from / SAMPLE_RATE,
+        timestamp: (from - this.#delay) / SAMPLE_RATE,
       });
       try {
         await voice.add(sample);

@@ -110,7 +110,7 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     film: async (...given) => {
       const session = view();
       if (session === null) throw new Error("No session is open here");
-      return (await import("../film/commissioned-film")).film(session, ...given);
+      return (await import("../film/commissioned-film")).film(session, ...given, stage.currentView());
     },
   };
   return () => delete window.reina;
