@@ -36,15 +36,12 @@ export function piecesOf({ first, end, fps }: FrameSpan, most: number): FrameSpa
   });
 }
 
-/** Shorter is no film, seconds. */
-export const SHORTEST_S = 0.1;
-
 /** What is wrong with a span in a song of this length, or null. */
 export function faultOf({ start, end }: SongSpan, duration: number): string | null {
   if (!Number.isFinite(start) || !Number.isFinite(end)) return "Write the times as minutes and seconds: 1:02.5";
   if (start < 0) return "The film cannot begin before the music does";
   if (start >= duration) return "The film begins after the music has ended";
-  if (end < start + SHORTEST_S) return "The film must end after it begins";
+  if (end <= start) return "The film must end after it begins";
   return null;
 }
 
