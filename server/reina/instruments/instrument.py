@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Protocol
 
+from reina.curves.parameter import Parameter
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
-from reina.keyframes.parameter import Parameter
 from reina.music.score import Score
 
 

@@ -6,7 +6,7 @@ from typing import cast
 import numpy as np
 
 from reina.music.document.fields import LEFT_OUT, Entry, Span, to_number
-from reina.music.document.model import MOST_CHANGES
+from reina.music.document.model import MAX_CHANGES
 from reina.music.document.tonejs import BPM, HEADER, METRE_NUMBER, PPQ, TEMPO, TICKS, TIME_SIGNATURE
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap, TimeSignature
@@ -45,7 +45,7 @@ def _tempo_map(header: Entry, ppq: float, limits: Limits) -> TempoMap:
     bpm = header.number("bpm", BPM)
     length = DEFAULT_SECONDS_PER_BEAT if bpm is None else 60.0 / bpm
     beats, lengths = [beat], [length]
-    tempos = header.entries("tempos", most=MOST_CHANGES)
+    tempos = header.entries("tempos", most=MAX_CHANGES)
     tempos.tell_unknown(TEMPO)
     tempos.tell_missing("bpm")
     columns = (
@@ -73,7 +73,7 @@ def _tempo_map(header: Entry, ppq: float, limits: Limits) -> TempoMap:
 
 
 def _metre_map(header: Entry, ppq: float) -> MetreMap:
-    entries = header.entries("timeSignatures", most=MOST_CHANGES)
+    entries = header.entries("timeSignatures", most=MAX_CHANGES)
     entries.tell_unknown(TIME_SIGNATURE)
     entries.tell_missing("timeSignature")
     signatures: list[TimeSignature] = []
