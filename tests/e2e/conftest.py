@@ -102,7 +102,7 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
 
     Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
     `refusals`. With `sound_waits` the browser lets no sound out before a click or a key; `remembers` is what
-    the page has kept in its storage from an earlier visit, `scripts` run before its own.
+    the page has kept in its storage from an earlier visit.
     """
     opened: list[Opened] = []
 
@@ -114,7 +114,6 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
         refusals: tuple[str, ...] = (),
         sound_waits: bool = False,
         remembers: dict[str, Any] | None = None,
-        scripts: tuple[str, ...] = (),
     ) -> Opened:
         if beside is None:
             context = browser.new_context(viewport={"width": size[0], "height": size[1]})
@@ -124,8 +123,6 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
             context.add_init_script(SOUND_WAITS)
         if remembers is not None:
             context.add_init_script(storing(remembers))
-        for script in scripts:
-            context.add_init_script(script)
         one = Opened(context.new_page(), server.address, refusals)
         opened.append(one)
         one.go(path)

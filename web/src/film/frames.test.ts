@@ -10,7 +10,7 @@ const HELLO = SAMPLE_MANIFEST as Hello;
 /** A server that answers with the frames of each span that it is asked for. */
 function served(asked: string[], fault: (request: number) => Response | Error | null = () => null): ReinaApi {
   return new ReinaApi("/api", (path) => {
-    const { searchParams } = new URL(String(path), "http://server");
+    const { searchParams } = new URL(path instanceof Request ? path.url : path, "http://server");
     asked.push(searchParams.toString());
     const wrong = fault(asked.length);
     if (wrong instanceof Error) return Promise.reject(wrong);
