@@ -89,17 +89,17 @@ def decode(data: bytes) -> Decoded:
     sound: list[NDArray[np.float32]] = []
     starts: list[float] = []
     rate = 1
-    with av.open(io.BytesIO(data)) as container:
+    with av.open(io.BytesIO(data), "r") as container:
         codecs = tuple(stream.codec_context.name for stream in container.streams)
         for frame in container.decode():
             assert frame.time is not None
             if isinstance(frame, av.VideoFrame):
-                pictures.append(frame.to_ndarray(format="rgb24"))
+                pictures.append(np.asarray(frame.to_ndarray(format="rgb24"), np.uint8))
                 times.append(frame.time)
             elif isinstance(frame, av.AudioFrame):
                 rate = frame.sample_rate
                 starts.append(frame.time)
-                sound.append(frame.to_ndarray().mean(axis=0, dtype=np.float32))
+                sound.append(np.asarray(frame.to_ndarray(), np.float32).mean(axis=0))
         return Decoded(
             container=container.format.name,
             codecs=codecs,

@@ -138,8 +138,8 @@ class FilmPage:
                 def tell(told: dict[str, Any]) -> None:
                     progress.tell(told["phase"], told["done"], told["of"], told["secondsLeft"])
 
-                self._page.expose_function("reinaWrites", write)
-                self._page.expose_function("reinaTells", tell)
+                self._page.expose_function("reinaWrites", write)  # pyright: ignore[reportUnknownMemberType]
+                self._page.expose_function("reinaTells", tell)  # pyright: ignore[reportUnknownMemberType]
                 answer: dict[str, Any] = self._page.evaluate(FILM, asdict(commission))
             if "fault" in answer:
                 raise InputError(answer["fault"])
@@ -155,7 +155,7 @@ class FilmPage:
     def _upload(self, files: dict[str, tuple[str, bytes]]) -> dict[str, str]:
         from playwright.sync_api import Error
 
-        form: dict[str, str | float | bool | FilePayload] = {
+        form: dict[str, str | float | bool | bytes | FilePayload] = {
             field: {
                 "name": name,
                 "mimeType": mimetypes.guess_type(name)[0] or "application/octet-stream",
