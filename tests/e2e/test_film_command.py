@@ -7,14 +7,15 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
+import httpx
 import pytest
 from tests.e2e.films import decode
 from tests.integration.scores import scale, song
+from tests.integration.server import serve, upload
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import httpx
     from tests.integration.server import Running
 
 pytestmark = pytest.mark.browser
@@ -70,16 +71,21 @@ def test_a_film_of_a_score_and_its_song(score: Path, tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["scale.mid", "scale.wav", "scale.webm"]
 
 
-def test_a_server_that_runs_is_used_and_left_as_it_was(
-    score: Path, tmp_path: Path, server: Running, client: httpx.Client
-) -> None:
-    before = client.get("/api/v1/sessions").json()
-    output = tmp_path / "scale.mp4"
+def test_a_server_that_runs_is_used_and_left_as_it_was(score: Path, tmp_path: Path) -> None:
+    output, sessions = tmp_path / "scale.mp4", tmp_path / "data" / "sessions"
     picture = ("--height", "144", "--end", "0.2", "--detail", "low", "--silent")
-    done = command(str(score), "-o", str(output), *picture, "--server", server.address)
+    with serve(tmp_path / "data") as running:
+        kept = upload_one(running)
+        done = command(str(score), "-o", str(output), *picture, "--server", running.address)
+        assert [folder.name for folder in sessions.iterdir() if folder.is_dir()] == [kept]
     assert done.stdout == f"{output}: 12 frames of 256 × 144, MP4, H.264, silent\n", done.stderr
     assert decode(output.read_bytes()).codecs == ("h264",)
-    assert client.get("/api/v1/sessions").json() == before
+
+
+def upload_one(running: Running) -> str:
+    """The id of a session that was there before."""
+    with httpx.Client(base_url=running.address, timeout=PATIENCE_S) as client:
+        return upload(client, scale(8), song=("song.wav", song(4.0))).id
 
 
 def test_what_the_server_refuses_is_said_in_its_words(score: Path, tmp_path: Path, server: Running) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 from reina.cli.browser import headless_browser
-from reina.cli.film_page import Commission, FilmPage
+from reina.cli.film_page import Commission, film_page
 from reina.cli.film_progress import FilmProgress
 from reina.cli.own_server import own_server
 from reina.errors import InputError
@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
             # Whatever is missing is told before the long work begins.
             browser = opened.enter_context(headless_browser())
             address = arguments.server or opened.enter_context(own_server())
-            page = opened.enter_context(FilmPage(browser, address, files))
+            page = opened.enter_context(film_page(browser, address, files))
             made = page.film(commission, output, progress)
     except InputError as error:
         progress.end()

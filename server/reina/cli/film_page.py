@@ -7,13 +7,13 @@ import contextlib
 import json
 import mimetypes
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from reina.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
     from pathlib import Path
-    from types import TracebackType
 
     from playwright.sync_api import APIResponse, Browser, FilePayload
 
@@ -75,11 +75,31 @@ class Made:
     coding: str
 
 
-class FilmPage:
+@contextlib.contextmanager
+def film_page(browser: Browser, address: str, files: dict[str, tuple[str, bytes]]) -> Generator[FilmPage]:
     """A session of some files on a server, open in a page; gone from the server at the end.
+
+    Args:
+        browser: Where the page is opened.
+        address: The server's, without a path.
+        files: `score`, `song` and `show`: the file's name and bytes.
 
     Raises:
         InputError: The server is not there or refuses the files, or the page cannot be drawn.
+    """
+    page = FilmPage(browser, address, files)
+    try:
+        page.open()
+        yield page
+    finally:
+        page.close()
+
+
+class FilmPage:
+    """A page of a session of its own, which makes films of it.
+
+    Raises:
+        InputError: The server is not there or refuses the files.
     """
 
     def __init__(self, browser: Browser, address: str, files: dict[str, tuple[str, bytes]]) -> None:
@@ -88,22 +108,25 @@ class FilmPage:
         self._session = self._upload(files)
         self._page = self._context.new_page()
 
-    def __enter__(self) -> Self:
-        """Open the page."""
-        from playwright.sync_api import TimeoutError as Late
+    def open(self) -> None:
+        """Open the session in the page.
+
+        Raises:
+            InputError: The page does not open, or says why it cannot.
+        """
+        from playwright.sync_api import Error
 
         try:
             self._page.goto(f"{self._address}/s/{self._session['id']}?clean=1&tier=low", timeout=OPENING_MS)
             self._page.wait_for_function(OPEN, timeout=OPENING_MS)
-        except Late as error:
-            raise InputError(f"the page at {self._address} does not open") from error
+        except Error as error:
+            raise InputError(
+                f"the page at {self._address} does not open: {error.message.splitlines()[0]}"
+            ) from error
         if not self._page.evaluate("() => Boolean(window.reina?.session)"):
             raise InputError(" ".join(self._page.get_by_role("alert").first.inner_text().split()))
-        return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
         """Remove the session from the server and close the page."""
         from playwright.sync_api import Error
 
