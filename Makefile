@@ -12,7 +12,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test check format assets bench generate lock clean
+.PHONY: help setup serve film test check format assets bench generate lock clean
 
 help: ## Show the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -21,6 +21,8 @@ setup: .venv/.serve web/dist/index.html data/soundfont.sf2 ## Make .venv, build 
 
 serve: setup ## Start Reina and print its address
 	$(BIN)/reina serve
+
+film: setup .venv/.film ## Install what `reina film` drives a browser with
 
 test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
 	$(MAKE) check
@@ -63,6 +65,10 @@ clean: ## Remove everything that was built
 .venv/.serve: .venv/bin/python requirements/serve.txt pyproject.toml
 	$(BIN)/pip install --quiet --require-hashes -r requirements/serve.txt
 	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
+
+.venv/.film: .venv/.serve requirements/film.txt
+	$(BIN)/pip install --quiet --require-hashes -r requirements/film.txt
 	@touch $@
 
 .venv/.node: .venv/bin/python requirements/node.txt

@@ -10,10 +10,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reina.cli.browser import find_browser as installed_browser
+
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-BROWSER_NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome", "chrome")
 
 
 class BrowserNotFoundError(RuntimeError):
@@ -21,15 +21,8 @@ class BrowserNotFoundError(RuntimeError):
 
 
 def find_browser() -> Path | None:
-    """Path of a Chromium or Chrome: REINA_BROWSER, then PATH, then Playwright's own; None without one."""
-    named = os.environ.get("REINA_BROWSER")
-    if named:
-        return Path(named)
-    for name in BROWSER_NAMES:
-        found = shutil.which(name)
-        if found is not None:
-            return Path(found)
-    return _playwright_browser()
+    """Path of a Chromium or Chrome: what `reina film` takes, or Playwright's own; None without one."""
+    return installed_browser() or _playwright_browser()
 
 
 def browser_path() -> Path:

@@ -37,7 +37,7 @@ class Opened:
 
     def go(self, path: str) -> None:
         """Load an address of the server, drawn with the least effort."""
-        self.page.goto(f"{self._address}{path}?tier=low")
+        self.page.goto(f"{self._address}{path}{'&' if '?' in path else '?'}tier=low")
 
     def until_at_rest(self, transport: dict[str, Any]) -> int:
         """Wait until the frame of a paused clock's state is drawn, unblended; returns its index."""

@@ -161,7 +161,7 @@ def test_nothing_overflows_the_window(visit: Visit, size: tuple[int, int]) -> No
     opened = visit(size=size)
     opened.until("window.reina?.session")
     page = opened.page
-    for key in ("p", "s", "?"):
+    for key in ("p", "s", "r", "?"):
         page.keyboard.press(key)
         page.wait_for_timeout(100)
         assert page.evaluate("document.documentElement.scrollWidth") <= size[0]

@@ -143,3 +143,22 @@ def show(intensity: float = 1.0) -> bytes:
     keyframes = [{"key": "k1", "time": 0.0, "value": intensity, "interpolation": "step"}]
     tracks = [{"parameter": "lights/key/intensity", "keyframes": keyframes}]
     return json.dumps({"version": 1, "title": "One light", "time": "seconds", "tracks": tracks}).encode()
+
+
+def clap(*, at_s: float = 1.0, seconds: float = 2.5) -> bytes:
+    """Silence, then a trumpet's short note with a clap of hands."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    ticks_s = 2 * TICKS
+    for channel, name, program, pitch in ((0, "Trumpet", 56, 70), (9, "Drums", 0, 39)):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        track.append(mido.MetaMessage("track_name", name=name))
+        track.append(mido.Message("program_change", program=program, channel=channel))
+        track.append(
+            mido.Message("note_on", note=pitch, velocity=127, channel=channel, time=round(at_s * ticks_s))
+        )
+        track.append(mido.Message("note_off", note=pitch, channel=channel, time=round(0.2 * ticks_s)))
+        track.append(mido.MetaMessage("end_of_track", time=round((seconds - at_s - 0.2) * ticks_s)))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()

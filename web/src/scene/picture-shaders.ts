@@ -100,7 +100,11 @@ vec3 focused() {
 #endif
 void main() {
   vec3 light;
-#ifdef FOCUS
+#ifdef TRANSPARENT
+  // Gathered light is weighed by how much of the pixel is covered; it is toned as if all of it were.
+  vec4 covered = texture2D(picture, vUv);
+  light = covered.rgb / max(covered.a, 1e-4);
+#elif defined(FOCUS)
   light = blur > 0.0 ? focused() : texture2D(picture, vUv).rgb;
 #else
   light = texture2D(picture, vUv).rgb;
@@ -110,4 +114,7 @@ void main() {
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
   gl_FragColor.rgb += (rand(gl_FragCoord.xy) - 0.5) / 255.0;
+#ifdef TRANSPARENT
+  gl_FragColor = vec4(clamp(gl_FragColor.rgb, 0.0, 1.0), 1.0) * clamp(covered.a, 0.0, 1.0);
+#endif
 }`;

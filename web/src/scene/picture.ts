@@ -63,7 +63,8 @@ export class Picture {
   readonly #composite = pass(COMPOSITE_FRAGMENT, this.#uniforms);
   readonly #quad = new FullScreenQuad();
 
-  constructor(renderer: WebGLRenderer, tier: TierSettings) {
+  /** @param transparent whether what is not drawn stays so; then nothing is blurred, for the edges' sake. */
+  constructor(renderer: WebGLRenderer, tier: TierSettings, transparent: boolean) {
     this.#renderer = renderer;
     const wide =
       renderer.extensions.has("EXT_color_buffer_float") || renderer.extensions.has("EXT_color_buffer_half_float");
@@ -77,9 +78,10 @@ export class Picture {
       minFilter: LinearFilter,
       magFilter: LinearFilter,
     });
-    if (tier.depthOfField) this.#gathered.depthTexture = new DepthTexture(16, 16, UnsignedIntType);
+    const focuses = tier.depthOfField && !transparent;
+    if (focuses) this.#gathered.depthTexture = new DepthTexture(16, 16, UnsignedIntType);
     this.#uniforms.depth.value = this.#gathered.depthTexture;
-    this.#composite.defines = tier.depthOfField ? { FOCUS: "" } : {};
+    this.#composite.defines = { ...(focuses ? { FOCUS: "" } : {}), ...(transparent ? { TRANSPARENT: "" } : {}) };
     for (let level = 0; level < LEVELS; level++) {
       this.#levels.push(
         new WebGLRenderTarget(16, 16, {

@@ -12,11 +12,12 @@ export const EXPOSURE = 1.25;
 /**
  * Make the renderer on a canvas.
  *
+ * @param transparent whether what is not drawn lets through what lies behind the canvas.
  * @throws StageUnavailableError where the browser gives no WebGL 2.
  */
-export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings): WebGLRenderer {
+export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings, transparent: boolean): WebGLRenderer {
   const attributes: WebGLContextAttributes = {
-    alpha: false,
+    alpha: transparent,
     // What is drawn into the canvas has its edges smoothed before (picture.ts), or not at all.
     antialias: false,
     powerPreference: "high-performance",

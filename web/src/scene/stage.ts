@@ -24,6 +24,8 @@ import { TIERS, type Tier, type TierSettings } from "./tiers";
 export interface StageOptions {
   readonly tier: Tier;
   readonly reducedMotion: boolean;
+  /** Nothing but the players, on nothing: their picture has no background. */
+  readonly transparent?: boolean;
   onCameraTaken?(taken: boolean): void;
 }
 
@@ -38,6 +40,7 @@ const BELL_NODE = "socket_bell";
 export class Stage {
   readonly #tier: TierSettings;
   readonly #tierName: Tier;
+  readonly #transparent: boolean;
   readonly #canvas: HTMLCanvasElement;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
@@ -70,14 +73,17 @@ export class Stage {
   constructor(canvas: HTMLCanvasElement, options: StageOptions) {
     this.#tierName = options.tier;
     this.#tier = TIERS[options.tier];
+    const transparent = options.transparent ?? false;
+    this.#transparent = transparent;
     this.#canvas = canvas;
-    this.#renderer = createRenderer(canvas, this.#tier);
+    this.#renderer = createRenderer(canvas, this.#tier, transparent);
     const scene = this.#scene;
     scene.matrixWorldAutoUpdate = false;
-    scene.background = this.#background;
+    scene.background = transparent ? null : this.#background;
     scene.fog = this.#fog;
     this.#lights = new StageLights(scene, this.#tier);
     this.#room = createRoom(this.#lights, this.#tier);
+    this.#room.object.visible = !transparent;
     scene.add(this.#room.object);
     this.#blocks = new NoteBlocks(options.tier === "low" ? 4 : 10);
     this.#blocks.uniforms.toKey.value = this.#lights.toKey;
@@ -90,7 +96,7 @@ export class Stage {
       onChange: () => this.#drawSoon(),
     });
     this.#camera.camera.layers.enable(OUTLINE_LAYER);
-    this.#picture = new Picture(this.#renderer, this.#tier);
+    this.#picture = new Picture(this.#renderer, this.#tier, transparent);
     this.#show = new ShowBinding({
       renderer: this.#renderer,
       scene,
@@ -206,14 +212,15 @@ export class Stage {
       this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);
     }
     const { camera } = this.#camera;
-    if (this.#onlyModels) this.#blocks.object.visible = false;
+    if (this.#onlyModels || this.#transparent) this.#blocks.object.visible = false;
+    if (this.#transparent) for (const { cone } of this.#lights.spots) cone.visible = false;
     this.#look.follow(camera);
     this.#blocks.uniforms.pixelAngle.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / this.#height;
     const { shadowMap, info } = this.#renderer;
     info.reset();
     shadowMap.autoUpdate = true;
     const { mirror, floor } = this.#room;
-    if (mirror !== null) {
+    if (mirror !== null && !this.#transparent) {
       mirror.render(this.#renderer, scene, camera, floor);
       shadowMap.autoUpdate = false;
     }

@@ -35,6 +35,7 @@ export class Deck {
   pieceOpen = $state(remembered().pieceOpen);
   showOpen = $state(remembered().showOpen);
   noteNames = $state(remembered().noteNames);
+  filmOpen = $state(false);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** The window has room for one panel at a time. */
@@ -69,6 +70,7 @@ export class Deck {
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
     show: () => this.toggleShow(),
+    film: () => this.toggleFilm(),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
@@ -105,15 +107,27 @@ export class Deck {
   }
 
   togglePiece(open = !this.pieceOpen): void {
-    if (open && this.narrow) this.toggleShow(false);
+    if (open && this.narrow) this.#makeRoom();
     this.pieceOpen = open;
     remember({ pieceOpen: open });
   }
 
   toggleShow(open = !this.showOpen): void {
-    if (open && this.narrow) this.togglePiece(false);
+    if (open && this.narrow) this.#makeRoom();
     this.showOpen = open;
     remember({ showOpen: open });
+  }
+
+  toggleFilm(open = !this.filmOpen): void {
+    if (open && this.narrow) this.#makeRoom();
+    this.filmOpen = open;
+  }
+
+  /** Close the panels, where there is room for one. */
+  #makeRoom(): void {
+    this.toggleShow(false);
+    this.togglePiece(false);
+    this.toggleFilm(false);
   }
 
   nameNotes(noteNames: NoteNames): void {
@@ -123,6 +137,7 @@ export class Deck {
 
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
+    else if (this.filmOpen) this.toggleFilm(false);
     else if (this.showOpen) this.toggleShow(false);
     else if (this.pieceOpen) this.togglePiece(false);
     else return false;

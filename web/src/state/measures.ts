@@ -1,5 +1,6 @@
 import { HEADER_SIZE } from "../generated/protocol";
 import type { ShowMeasures } from "../editor/state/show-measures";
+import type { Client, Commission, Commissioned } from "../film/commissioned-film";
 import type { Stage } from "../scene";
 import type { SessionView } from "./session-view.svelte";
 
@@ -42,6 +43,8 @@ export interface PageMeasures {
   boneQuaternions(): Record<string, [number, number, number, number]>;
   /** A parameter's floats in the frame that was drawn last; null where the session streams none of that path. */
   parameter(path: string): readonly number[] | null;
+  /** Film the open session for a script; throws an Error in words for a person. */
+  film(commission: Commission, client: Client, signal: AbortSignal): Promise<Commissioned>;
 }
 
 declare global {
@@ -104,6 +107,11 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     boneQuaternions: () => stage.boneQuaternions(),
     parameter: (path) => parameterOf(view(), path),
+    film: async (...given) => {
+      const session = view();
+      if (session === null) throw new Error("No session is open here");
+      return (await import("../film/commissioned-film")).film(session, ...given, stage.currentView());
+    },
   };
   return () => delete window.reina;
 }

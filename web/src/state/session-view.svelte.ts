@@ -111,6 +111,10 @@ export class SessionView {
     this.#checking = setInterval(() => this.#check(), CHECK_INTERVAL_MS);
   }
 
+  get api(): ReinaApi {
+    return this.#surroundings.api;
+  }
+
   get canControl(): boolean {
     return this.token !== null;
   }
