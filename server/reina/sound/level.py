@@ -26,7 +26,7 @@ GATE = 10 ** (-10 / 20)
 gates)."""
 ABSOLUTE_GATE = 10 ** (-70 / 20)
 WINDOW = SAMPLE_RATE * 2 // 5
-EXCERPT = 3 * SAMPLE_RATE // BLOCK * BLOCK
+EXCERPT = 2 * SAMPLE_RATE // BLOCK * BLOCK
 EXCERPTS = 3
 
 Samples = NDArray[np.float32]

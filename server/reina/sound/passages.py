@@ -18,7 +18,7 @@ BLOCK = 64
 
 SHORTEST = 10 * SAMPLE_RATE + SAMPLE_RATE // 5
 """A little more than a segment and what it holds of the next: the first segment needs one passage."""
-LONGEST = 20 * SAMPLE_RATE
+LONGEST = 15 * SAMPLE_RATE
 RELEASE = 5 * SAMPLE_RATE
 """How long a released note may still ring, reverberation included."""
 LONGEST_PEDAL = 15 * SAMPLE_RATE
@@ -57,7 +57,7 @@ class Passage:
 
 
 def cut_into_passages(plan: SoundPlan) -> list[Passage]:
-    """Cut a plan every 10 to 20 seconds, where fewest notes sound; rests of that length get no passage."""
+    """Cut a plan every 10 to 15 seconds, where fewest notes sound; rests of that length get no passage."""
     rings_until = _rings_until(plan)
     passages: list[Passage] = []
     for start, end in _stretches(plan):
