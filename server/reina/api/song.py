@@ -15,7 +15,6 @@ from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, WAV_MEDIA_TYPE, wav_of
-from reina.sound.recording.peaks import Peaks
 
 router = APIRouter(tags=["song"])
 
@@ -40,7 +39,9 @@ async def get_song(
     session: Watched,
     format: Annotated[  # noqa: A002
         Literal["wav"] | None,
-        Query(description="A rendered song as WAV instead of FLAC; an uploaded one is always sent as it came."),
+        Query(
+            description="A rendered song as WAV instead of FLAC; an uploaded one is always sent as it came."
+        ),
     ] = None,
 ) -> Response:
     """The audio; while the server still makes it from the score, how far it is."""
@@ -112,13 +113,15 @@ async def get_peaks(
 ) -> Response:
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
     path = _song_path(session)
-    peaks: Peaks | None
     if path is not None:
         peaks = await store.decoder.peaks(path)
         if peaks is None:
             return Response(status_code=204)
-    elif session.song.request is None or (peaks := session.song.request.peaks) is None:
-        return _under_way(session)
+    else:
+        request = session.song.request
+        peaks = None if request is None else request.peaks
+        if peaks is None:
+            return _under_way(session)
     drawn = peaks.reduced(points)
     answer = SongPeaks(
         duration_s=drawn.duration_s,

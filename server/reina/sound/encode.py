@@ -21,7 +21,7 @@ Samples = NDArray[np.int16]
 
 
 def opus(samples: Samples) -> bytes:
-    """Ogg Opus of samples at 48 kHz, (F, 2); a decoder that honours its pre-skip gives F samples, in place."""
+    """Ogg Opus of samples at 48 kHz, (F, 2); whoever honours its pre-skip decodes F samples, in place."""
     written = io.BytesIO()
     with soundfile.SoundFile(written, "w", SAMPLE_RATE, 2, subtype="OPUS", format="OGG") as file:
         for first in range(0, len(samples), PIECE):

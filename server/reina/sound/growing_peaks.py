@@ -25,10 +25,13 @@ class GrowingPeaks:
         self._pairs = np.zeros((2, -(-frames // STRETCH)), dtype="<i2")
 
     def measure(self, first: int, samples: NDArray[np.int16]) -> str:
-        """Take in (F, 2) samples that begin at `first`, a multiple of STRETCH; returns them as text for `put`."""
+        """Take in (F, 2) samples from `first` on, a multiple of STRETCH; returns them as text for `put`."""
         starts = np.arange(0, len(samples), STRETCH)
         pairs = np.stack(
-            (np.minimum.reduceat(samples.min(axis=1), starts), np.maximum.reduceat(samples.max(axis=1), starts))
+            (
+                np.minimum.reduceat(samples.min(axis=1), starts),
+                np.maximum.reduceat(samples.max(axis=1), starts),
+            )
         ).astype("<i2")
         self._put(first, pairs)
         return base64.b64encode(pairs.tobytes()).decode()

@@ -1,8 +1,8 @@
 """How loud a song is: one gain, known before its first passage is rendered, and a limit for its peaks.
 
 Segments are heard before the whole is rendered, so the gain cannot wait for the whole. It is measured on
-excerpts, those where by the plan the most is played. What then still comes near full scale is limited sample by sample,
-by a curve that knows no time: so each segment is the same whenever and in whatever order it is made.
+excerpts, those where by the plan the most is played. What then still comes near full scale is limited
+sample by sample, by a curve that knows no time: so a segment is the same in whatever order it is made.
 """
 
 from collections.abc import Iterator, Sequence
@@ -41,7 +41,7 @@ def choose_excerpts(plan: SoundPlan) -> Iterator[list[Passage]]:
     on, off = plan.notes["on"].astype(np.int64), plan.notes["off"].astype(np.int64)
     energy = np.zeros(int(off.max()) // EXCERPT + 1)
     strength = plan.notes["velocity"].astype(np.float64) ** 2
-    # What lies in a stretch is at most its length; a note of several stretches counts in those it begins and ends in.
+    # A note of several stretches counts in those that it begins and ends in.
     first, last = on // EXCERPT, (off - 1) // EXCERPT
     np.add.at(energy, first, strength * (np.minimum(off, (first + 1) * EXCERPT) - on))
     np.add.at(energy, last, np.where(last > first, strength * (off - last * EXCERPT), 0))
@@ -50,7 +50,13 @@ def choose_excerpts(plan: SoundPlan) -> Iterator[list[Passage]]:
         sounds = (on < start + EXCERPT) & (off > start)
         if np.any(sounds):
             yield [
-                Passage(port, start, start + EXCERPT, EXCERPT, np.flatnonzero(sounds & (plan.notes["port"] == port)))
+                Passage(
+                    port,
+                    start,
+                    start + EXCERPT,
+                    EXCERPT,
+                    np.flatnonzero(sounds & (plan.notes["port"] == port)),
+                )
                 for port in np.unique(plan.notes["port"][sounds]).tolist()
             ]
 

@@ -307,8 +307,7 @@ class SongRenderer:
                     f"rendering {plan.duration_s:.0f} s of sound {took} and was stopped"
                 ) from error
             finally:
-                if not path.is_file():
-                    _remove(path.parent)
+                _remove_unfinished(path)
 
     async def _run(self, rendering: _Rendering, plan: SoundPlan, soundfont: Path, path: Path) -> None:
         counts = (str(len(plan.notes)), str(len(plan.controls)))
@@ -359,6 +358,11 @@ def _remove(entry: Path) -> None:
         shutil.rmtree(entry, ignore_errors=True)
     else:
         entry.unlink(missing_ok=True)
+
+
+def _remove_unfinished(song: Path) -> None:
+    if not song.is_file():
+        _remove(song.parent)
 
 
 async def _send(process: Process, rendering: _Rendering, data: bytes) -> None:

@@ -32,7 +32,7 @@ class Segments:
         return -(-self.frames // SEGMENT)
 
     def held(self, number: int) -> range:
-        """The samples that a segment holds, overlaps included; before the song and after it there is silence."""
+        """The samples that a segment holds, overlaps included; silence before the song and after it."""
         end = min((number + 1) * SEGMENT, self.frames)
         return range(number * SEGMENT - OVERLAP, end + OVERLAP)
 
