@@ -83,6 +83,8 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
     """
     _song_path(session)
     request = session.song.request
+    if request is None and session.song.source == "rendered":
+        return _under_way(session)
     if request is None or request.rendering_id != rendering:
         state = session.song_state()
         present = "none" if state.segments is None else state.segments.href
