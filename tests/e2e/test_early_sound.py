@@ -51,7 +51,7 @@ def test_the_sound_is_heard_from_where_it_is_rendered(
     assert ahead is not None
     assert abs(ahead) < 0.06
     # Over a join and to far ahead: what is asked for comes first, and little is kept.
-    for place in (9.0, 19.2, 300.0, 420.0, 120.0, 540.0, 60.0):
+    for place in (9.0, 19.2, 300.0, 60.0):
         answer = client.post(
             f"/api/v1/sessions/{opened.session}/transport",
             json={"action": "seek", "song_time_s": place},
@@ -59,9 +59,9 @@ def test_the_sound_is_heard_from_where_it_is_rendered(
         )
         assert answer.status_code == 200
         opened.until(
-            "(place) => window.reina.songTime > place + 1.5 && window.reina.songTime < place + 30"
+            "([place, epoch]) => window.reina.epoch >= epoch && window.reina.songTime > place + 1.5"
             " && window.reina.sound === 'ready' && window.reina.soundLevel > 0.01",
-            place,
+            [place, answer.json()["epoch"]],
         )
         assert opened.measure("soundHeld") < MAX_HELD_S
     page.keyboard.press("Space")
@@ -119,11 +119,13 @@ def test_little_is_loaded_before_the_first_picture_and_less_the_second_time(
     opened.until("window.reina.sound !== 'coming' && window.reina.sound !== 'silent'")
     opened.until("document.querySelector('#poster') === null")
     opened.until("window.reina.soundShare === null")
-    address = f"/s/{opened.session}"
+    address = opened.page.url
     opened.page.goto("about:blank")
     again = Traffic(opened.page)
-    opened.go(address)
-    assert opened.page.locator("#poster img").get_attribute("src", timeout=2000).startswith("data:image/jpeg")
+    opened.page.goto(address, wait_until="commit")
+    kept = opened.page.locator("#poster img").get_attribute("src")
+    assert kept is not None
+    assert kept.startswith("data:image/jpeg")
     opened.until_drawn()
     opened.until("window.reina.sound !== 'coming' && window.reina.sound !== 'silent'")
     assert sum(again.sizes.values()) < 50_000
