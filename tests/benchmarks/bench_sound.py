@@ -6,6 +6,7 @@ python tests/benchmarks/bench_sound.py
 from __future__ import annotations
 
 import asyncio
+import resource
 import shutil
 import tempfile
 import time
@@ -19,7 +20,8 @@ from reina.sound.font import REPOSITORY
 from reina.sound.plan import PlayedParts
 from reina.sound.renderer import SongRenderer, SongRequest, find_soundfont
 
-MARCH = REPOSITORY / "examples" / "scores" / "prince-of-denmarks-march.mid"
+EXAMPLES = REPOSITORY / "examples" / "scores"
+SCORES = ("taps.mid", "carnival-of-venice.mid", "prince-of-denmarks-march.mid")
 
 
 def at_random(parts: int, notes: int, seconds: float) -> Score:
@@ -39,6 +41,12 @@ def at_random(parts: int, notes: int, seconds: float) -> Score:
     return a_score(sorted(rows, key=lambda row: row[1]), kinds)
 
 
+def processor_time() -> float:
+    """Seconds that renderers which have ended took."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 async def arrived(request: SongRequest, number: int) -> float:
     """Wait for a segment; returns the seconds that it took."""
     begun = time.perf_counter()
@@ -50,6 +58,7 @@ async def arrived(request: SongRequest, number: int) -> float:
 async def measure(name: str, score: Score, folder: Path) -> None:
     """Render a score and print its figures."""
     renderer = SongRenderer(folder, soundfont=find_soundfont(REPOSITORY / "data"))
+    used = processor_time()
     begun = time.perf_counter()
     request = await renderer.request(score, [PlayedParts((0,))])
     await arrived(request, 0)
@@ -65,14 +74,14 @@ async def measure(name: str, score: Score, folder: Path) -> None:
         flush=True,
     )
     await renderer.aclose()
+    print(f"{name}: {processor_time() - used:.1f} s of processor time", flush=True)
 
 
 if __name__ == "__main__":
     data = Path(tempfile.mkdtemp())
     try:
-        asyncio.run(
-            measure("march, 4 parts, 69 s", read_score(MARCH.read_bytes(), filename=MARCH.name), data)
-        )
+        for file in SCORES:
+            asyncio.run(measure(file, read_score((EXAMPLES / file).read_bytes(), filename=file), data))
         asyncio.run(measure("12 parts, 20 minutes, 30,000 notes", at_random(12, 30_000, 1200.0), data))
     finally:
         shutil.rmtree(data)
