@@ -61,6 +61,8 @@ FILLED = {
     "folder": "scores",
     "path": "camera/fov",
     "key": "k1",
+    "rendering": "0123456789abcdef",
+    "number": "0",
 }
 
 

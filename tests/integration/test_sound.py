@@ -2,20 +2,21 @@
 
 import asyncio
 import json
-import wave
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
+import soundfile
 from numpy.typing import NDArray
 
 from reina.music import Score, read_score
 from reina.sound import passages as sound_passages
 from reina.sound.font import REPOSITORY
 from reina.sound.plan import PlayedParts, plan_sound
-from reina.sound.render import render_plan
+from reina.sound.render import Wanted, render_plan
+from reina.sound.rendered import SONG
 from reina.sound.renderer import SongRenderer, find_soundfont
 
 RATE = 48000
@@ -60,13 +61,13 @@ def listen(data_dir: Path, score: Score, played: Sequence[PlayedParts] = ()) -> 
         finally:
             await renderer.aclose()
 
-    return read_wav(asyncio.run(render()))
+    return read_song(asyncio.run(render()))
 
 
-def read_wav(path: Path) -> Samples:
-    with wave.open(str(path)) as file:
-        assert file.getframerate() == RATE
-        return np.frombuffer(file.readframes(file.getnframes()), dtype="<i2").reshape(-1, 2) / 32768
+def read_song(path: Path) -> Samples:
+    samples, rate = soundfile.read(path)
+    assert rate == RATE
+    return samples
 
 
 def band_db(sound: Samples, low_hz: float, high_hz: float) -> float:
@@ -105,11 +106,14 @@ def test_passages_add_up_to_the_whole(data_dir: Path, monkeypatch: pytest.Monkey
     for name, shortest, longest in (("cut", 5 * RATE, 10 * RATE), ("whole", 1000 * RATE, 2000 * RATE)):
         monkeypatch.setattr(sound_passages, "SHORTEST", shortest)
         monkeypatch.setattr(sound_passages, "LONGEST", longest)
-        shares: list[float] = []
-        render_plan(plan, soundfont, data_dir / f"{name}.wav", shares.append)
+        told: list[dict[str, object]] = []
+        song = data_dir / name / SONG
+        song.parent.mkdir()
+        render_plan(plan, soundfont, song, told.append, Wanted())
+        shares = [cast("float", message["progress"]) for message in told if "progress" in message]
         assert shares == sorted(shares)
-        assert (len(shares) == 2) == (name == "whole")
-        sounds.append(read_wav(data_dir / f"{name}.wav"))
+        assert shares[-1] == 1
+        sounds.append(read_song(song))
     length = min(len(sound) for sound in sounds)
     difference = sounds[0][:length] - sounds[1][:length]
     assert np.sqrt((difference**2).mean() / (sounds[1] ** 2).mean()) < 0.002

@@ -211,16 +211,17 @@ def test_peaks_fill_the_song(owned: Owned) -> None:
     assert owned.client.get(f"{owned.path}/song/peaks", params={"points": 0}).status_code == 422
 
 
-def test_peaks_come_when_the_song_has_been_made(client: httpx.Client) -> None:
+def test_peaks_grow_while_the_song_is_made(client: httpx.Client) -> None:
     session = upload(client, scale(4, bpm=123.0))
     try:
         path = f"{session.path}/song/peaks"
         until = time.monotonic() + 60
         first = answer = client.get(path)
-        while answer.status_code == 202 and time.monotonic() < until:
+        while (answer.status_code == 202 or not answer.json()["complete"]) and time.monotonic() < until:
             time.sleep(0.2)
             answer = client.get(path)
         assert answer.status_code == 200, answer.text
+        assert answer.json()["complete"]
         assert max(answer.json()["highest"]) > 0.05, "it sounds"
         if first.status_code == 202:
             assert first.json()["status"] == "rendering"

@@ -143,14 +143,59 @@ def test_a_score_without_a_song_is_rendered_as_it_is_played(client: httpx.Client
     href = session.body["song"]["href"]
     answer = rendered(client, href)
     assert answer.status_code == 200
-    assert answer.headers["content-type"] == "audio/wav"
-    assert answer.content[:4] == b"RIFF"
+    assert answer.headers["content-type"] == "audio/flac"
+    assert answer.content[:4] == b"fLaC"
+    wav = client.get(href, params={"format": "wav"})
+    assert wav.headers["content-type"] == "audio/wav"
+    assert wav.content[:4] == b"RIFF"
+    assert int(wav.headers["content-length"]) == len(wav.content) > len(answer.content)
     moved = session.change("PATCH", json={"transposition": 3}).json()["song"]
     assert moved["href"] != href
     assert rendered(client, moved["href"]).content != answer.content
     back = session.change("PATCH", json={"transposition": 0}).json()["song"]
     assert back["href"] == href
     assert rendered(client, href).content == answer.content
+    session.change("DELETE").raise_for_status()
+
+
+def test_a_song_is_heard_in_segments_while_it_is_rendered(client: httpx.Client) -> None:
+    session = upload(client, scale(600, bpm=101.0))
+    state = session.body["song"]
+    deadline = time.monotonic() + 60
+    while state["segments"] is None:
+        assert time.monotonic() < deadline
+        state = client.get(f"{session.path}/song/state").raise_for_status().json()
+    segments = state["segments"]
+    assert segments["count"] == -(-segments["song_s"] // segments["segment_s"])
+    first = rendered(client, f"{segments['href']}/0")
+    assert first.headers["content-type"] == segments["media_type"] == "audio/ogg"
+    assert "immutable" in first.headers["cache-control"]
+    assert first.content[:4] == b"OggS"
+    # Whoever seeks is given that place next: of what lies before it, little is rendered by then.
+    late = rendered(client, f"{segments['href']}/{segments['count'] - 2}")
+    assert late.status_code == 200
+    assert late.content != first.content
+    peaks = client.get(f"{session.path}/song/peaks", params={"points": segments["count"]}).json()
+    assert peaks["highest"][0] > 0.05
+    assert peaks["highest"][-2] > 0.05
+    again = client.get(f"{segments['href']}/0", headers={"If-None-Match": first.headers["etag"]})
+    assert again.status_code == 304
+    assert client.get(f"{segments['href']}/{segments['count']}").status_code == 404
+    assert client.get(f"{segments['href']}/-1").status_code == 404
+    session.change("PATCH", json={"transposition": 3}).raise_for_status()
+    gone = client.get(f"{segments['href']}/0")
+    assert gone.status_code == 410
+    assert gone.json()["title"] == "The sound is another now"
+    session.change("DELETE").raise_for_status()
+
+
+def test_an_uploaded_song_has_no_segments_and_is_not_converted(client: httpx.Client) -> None:
+    session = upload(client, scale(2), song=("s.wav", song()))
+    assert session.body["song"]["segments"] is None
+    assert client.get(f"{session.path}/song/state").json() == session.body["song"]
+    assert client.get(f"{session.path}/song/segments/0123456789abcdef/0").status_code == 410
+    assert client.get(f"{session.path}/song", params={"format": "wav"}).content == song()
+    assert client.get(f"{session.path}/song", params={"format": "mp3"}).status_code == 422
     session.change("DELETE").raise_for_status()
 
 

@@ -1,48 +1,110 @@
 """A session's sound."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
-from fastapi.responses import FileResponse, JSONResponse
+from fastapi.responses import FileResponse, JSONResponse, StreamingResponse
+from starlette.concurrency import run_in_threadpool
 
 from reina.api.http.access import Store, Watched
-from reina.api.http.files import ServedFile
+from reina.api.http.files import IMMUTABLE, ServedFile
 from reina.api.http.problems import ProblemError
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
+from reina.sound.encode import SEGMENT_MEDIA_TYPE, WAV_MEDIA_TYPE, wav_of
 
 router = APIRouter(tags=["song"])
 
 MAX_PEAKS = 20_000
 PEAK_DIGITS = 4
+SEGMENT_PATIENCE_S = 1.0
+"""How long a request waits for a segment that is not there yet; then it is told how far the rendering is."""
 # What was uploaded as sound is never to be taken for a page.
-HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
+NOSNIFF = {"X-Content-Type-Options": "nosniff"}
+HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
 
 
 @router.get(
     "/sessions/{session_id}/song",
     response_class=FileResponse,
     responses={
-        200: {"content": {"audio/*": {}}, "description": "The song; ranges may be asked for."},
+        200: {"content": {"audio/*": {}}, "description": "The song; ranges may be asked for, but of a WAV."},
         202: {"model": SongState, "description": "It is still being made."},
     },
 )
-async def get_song(session: Watched) -> Response:
+async def get_song(
+    session: Watched,
+    format: Annotated[  # noqa: A002
+        Literal["wav"] | None,
+        Query(
+            description="A rendered song as WAV instead of FLAC; an uploaded one is always sent as it came."
+        ),
+    ] = None,
+) -> Response:
     """The audio; while the server still makes it from the score, how far it is."""
     path = _song_path(session)
     if path is None:
         return _under_way(session)
+    if format == "wav" and session.song.media_type != WAV_MEDIA_TYPE:
+        if session.song.source == "uploaded":
+            raise ProblemError(
+                422,
+                "not-converted",
+                "The song is no WAV",
+                f"it was uploaded as {session.song.media_type} and is sent as it came: leave `format` out",
+            )
+        return await run_in_threadpool(_as_wav, path)
     return ServedFile(path, media_type=session.song.media_type, headers=HEADERS)
+
+
+@router.get("/sessions/{session_id}/song/state")
+async def get_song_state(session: Watched) -> SongState:
+    """How far the sound is, and where its segments are."""
+    _song_path(session)
+    return session.song_state()
+
+
+@router.get(
+    "/sessions/{session_id}/song/segments/{rendering}/{number}",
+    response_class=FileResponse,
+    responses={
+        200: {"content": {SEGMENT_MEDIA_TYPE: {}}, "description": "The segment, with its overlaps."},
+        202: {"model": SongState, "description": "It is not rendered yet; it is the next to be."},
+        410: {"description": "The sound is another now; `song/state` says where its segments are."},
+    },
+)
+async def get_segment(session: Watched, rendering: str, number: int) -> Response:
+    """A segment of a rendered song, to be heard before the whole is rendered.
+
+    One that is not there yet is rendered next, and the rest after it; the answer waits for it for a second.
+    """
+    _song_path(session)
+    request = session.song.request
+    if request is None and session.song.source == "rendered":
+        return _under_way(session)
+    if request is None or request.rendering_id != rendering:
+        state = session.song_state()
+        present = "none" if state.segments is None else state.segments.href
+        raise ProblemError(410, "another-sound", "The sound is another now", f"its segments: {present}")
+    if not 0 <= number < request.segments.count:
+        raise ProblemError(
+            404, "unknown-segment", "Not Found", f"the song's segments are 0 to {request.segments.count - 1}"
+        )
+    path = await request.segment(number, within_s=SEGMENT_PATIENCE_S)
+    if path is None:
+        _song_path(session)
+        return _under_way(session)
+    return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=NOSNIFF)
 
 
 @router.get(
     "/sessions/{session_id}/song/peaks",
     response_model=SongPeaks,
     responses={
-        202: {"model": SongState, "description": "The song is still being made."},
+        202: {"model": SongState, "description": "The song is still being planned."},
         204: {"description": "The server does not decode M4A and WebM; the page, which plays them, does."},
     },
 )
@@ -53,16 +115,21 @@ async def get_peaks(
 ) -> Response:
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
     path = _song_path(session)
-    if path is None:
-        return _under_way(session)
-    peaks = await store.decoder.peaks(path)
-    if peaks is None:
-        return Response(status_code=204)
+    if path is not None:
+        peaks = await store.decoder.peaks(path)
+        if peaks is None:
+            return Response(status_code=204)
+    else:
+        request = session.song.request
+        peaks = None if request is None else request.peaks
+        if peaks is None:
+            return _under_way(session)
     drawn = peaks.reduced(points)
     answer = SongPeaks(
         duration_s=drawn.duration_s,
         lowest=np.round(drawn.lowest, PEAK_DIGITS).tolist(),
         highest=np.round(drawn.highest, PEAK_DIGITS).tolist(),
+        complete=path is not None,
     )
     return Response(answer.model_dump_json(), media_type="application/json", headers=HEADERS)
 
@@ -81,6 +148,18 @@ def _song_path(session: Session) -> Path | None:
     if song.error is not None:
         raise ProblemError(502, "no-song", "There is no sound", f"no song could be made: {song.error}")
     return song.path
+
+
+def _as_wav(path: Path) -> Response:
+    """A rendered song as WAV, decoded while it is sent."""
+    size, content = wav_of(path)
+    headers = {
+        "Content-Length": str(size),
+        "ETag": f'"{path.parent.name[:24]}-wav"',
+        "Accept-Ranges": "none",
+        **HEADERS,
+    }
+    return StreamingResponse(content, media_type=WAV_MEDIA_TYPE, headers=headers)
 
 
 def _under_way(session: Session) -> Response:

@@ -10,6 +10,21 @@ from reina.protocol.notes import WireNote
 from reina.protocol.transport import TransportState
 
 
+class SongSegments(WireModel):
+    """A rendered song in segments of one length, each of which can be had as soon as it is rendered."""
+
+    href: str
+    """A segment stands at `{href}/{number}`, from 0 on, and never changes."""
+    media_type: str
+    count: int
+    segment_s: float
+    """Segment n begins at n times this song time; the last is shorter."""
+    overlap_s: float
+    """How much each holds beside: of the sound before it, and again of the sound after it."""
+    song_s: float
+    """How long the whole lasts."""
+
+
 class SongState(WireModel):
     """The sound that goes with the score."""
 
@@ -21,6 +36,8 @@ class SongState(WireModel):
     media_type: str
     progress: float
     """0 to 1; 1 once it is ready."""
+    segments: SongSegments | None
+    """Null for an uploaded song, and until a rendered one is planned."""
 
 
 class StreamLinks(WireModel):

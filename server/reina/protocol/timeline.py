@@ -73,3 +73,5 @@ class SongPeaks(WireModel):
     """-1..1, a number a stretch."""
     highest: list[float]
     """-1..1."""
+    complete: bool
+    """False while the song is being rendered: what is missing stands as silence, and comes."""

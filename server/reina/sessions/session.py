@@ -109,7 +109,7 @@ class Session:
         else:
             played = ((one.parts, one.transposition) for one in production.sounding)
             href = rendering_href(self.id, production.score.sequence, played)
-        return song_state(self.song, href)
+        return song_state(self.song, href, f"{session_links(self.id).song}/segments")
 
     def hello(self, state: ClockState | None = None) -> Hello:
         """What a viewer hears first.

@@ -7,8 +7,11 @@ import logging
 from typing import TYPE_CHECKING, Literal
 
 from reina.errors import InputError
-from reina.protocol.messages import SongState
-from reina.sound.renderer import SONG_MEDIA_TYPE, SongRenderer, SongRequest, SoundError
+from reina.protocol.messages import SongSegments, SongState
+from reina.sound.encode import SEGMENT_MEDIA_TYPE, SONG_MEDIA_TYPE
+from reina.sound.events import SAMPLE_RATE
+from reina.sound.renderer import SongRenderer, SongRequest, SoundError
+from reina.sound.segments import OVERLAP, SEGMENT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -26,6 +29,7 @@ class UploadedSong:
 
     source: Literal["uploaded", "rendered"] = "uploaded"
     error: str | None = None
+    request: SongRequest | None = None
 
     def __init__(self, folder: Path, record: SongRecord) -> None:
         self.path: Path | None = folder / record.file
@@ -61,13 +65,14 @@ class RenderedSong:
     ) -> None:
         self.path: Path | None = None
         self.error: str | None = None
-        self._request: SongRequest | None = None
+        self.request: SongRequest | None = None
+        """What is there of it; None until it is planned."""
         self._making = asyncio.create_task(self._make(renderer, score, played, ready))
 
     @property
     def progress(self) -> float:
         """Share of the work that is done, 0 to 1."""
-        return self._request.progress if self._request else 0.0
+        return self.request.progress if self.request else 0.0
 
     def close(self) -> None:
         """Give it up, unless it is there."""
@@ -77,14 +82,14 @@ class RenderedSong:
         self, renderer: SongRenderer, score: Score, played: Sequence[PlayedParts], ready: Callable[[], None]
     ) -> None:
         try:
-            self._request = await renderer.request(score, played)
-            self.path = await self._request.wait()
+            self.request = await renderer.request(score, played)
+            self.path = await self.request.wait()
         except (SoundError, InputError) as error:
             self.error = str(error)
             _log.warning("no song for the score %r: %s", score.title, error)
         except asyncio.CancelledError:
-            if self._request:
-                self._request.cancel()
+            if self.request:
+                self.request.cancel()
             raise
         except Exception as error:
             # Whoever waits for the song is to hear that there will be none, whatever went wrong.
@@ -96,8 +101,14 @@ class RenderedSong:
 Song = UploadedSong | RenderedSong
 
 
-def song_state(song: Song, href: str) -> SongState:
-    """What the wire says of a song."""
+def song_state(song: Song, href: str, segments_href: str) -> SongState:
+    """What the wire says of a song.
+
+    Args:
+        song: The song.
+        href: Where the whole of it is.
+        segments_href: Below which its segments are, whatever the rendering.
+    """
     status: Literal["ready", "rendering", "failed"] = "rendering"
     if song.error is not None:
         status = "failed"
@@ -109,4 +120,16 @@ def song_state(song: Song, href: str) -> SongState:
         source=song.source,
         media_type=song.media_type,
         progress=1.0 if status == "ready" else min(song.progress, 0.99),
+        segments=None if song.request is None else _segments(song.request, segments_href),
+    )
+
+
+def _segments(request: SongRequest, segments_href: str) -> SongSegments:
+    return SongSegments(
+        href=f"{segments_href}/{request.rendering_id}",
+        media_type=SEGMENT_MEDIA_TYPE,
+        count=request.segments.count,
+        segment_s=SEGMENT / SAMPLE_RATE,
+        overlap_s=OVERLAP / SAMPLE_RATE,
+        song_s=request.segments.frames / SAMPLE_RATE,
     )

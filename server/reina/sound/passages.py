@@ -1,7 +1,7 @@
 """Cuts a plan into passages that can be rendered one by one and added up.
 
-A synthesizer adds voices, so that the sum of the passages is the whole. Rendering in passages gives a true
-measure of progress and keeps memory small however long the score is.
+A synthesizer adds voices, so that the sum of the passages is the whole. Rendering in passages lets a song be
+heard before all of it is rendered, from any place, and keeps memory small however long the score is.
 """
 
 from collections.abc import Iterator
@@ -16,8 +16,9 @@ from reina.sound.midi import write_midi
 BLOCK = 64
 """The synthesizer acts on events once in so many samples."""
 
-SHORTEST = 20 * SAMPLE_RATE
-LONGEST = 40 * SAMPLE_RATE
+SHORTEST = 10 * SAMPLE_RATE + SAMPLE_RATE // 5
+"""A little more than a segment and what it holds of the next: the first segment needs one passage."""
+LONGEST = 15 * SAMPLE_RATE
 RELEASE = 5 * SAMPLE_RATE
 """How long a released note may still ring, reverberation included."""
 LONGEST_PEDAL = 15 * SAMPLE_RATE
@@ -56,7 +57,7 @@ class Passage:
 
 
 def cut_into_passages(plan: SoundPlan) -> list[Passage]:
-    """Cut a plan every 20 to 40 seconds, where fewest notes sound; rests of that length get no passage."""
+    """Cut a plan every 10 to 15 seconds, where fewest notes sound; rests of that length get no passage."""
     rings_until = _rings_until(plan)
     passages: list[Passage] = []
     for start, end in _stretches(plan):

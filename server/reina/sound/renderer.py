@@ -1,7 +1,7 @@
 """Makes the sound of scores that come without a song: rendered once, kept, shared.
 
 The rendering runs in a process of its own (`reina.sound.render`), so that neither its time nor its
-memory is the server's. docs/sound.md says how it sounds and why the result is WAV.
+memory is the server's. Segments can be had while the rest is rendered. docs/sound.md says how it sounds.
 """
 
 import asyncio
@@ -10,6 +10,7 @@ import functools
 import json
 import logging
 import os
+import shutil
 import sys
 from asyncio.subprocess import PIPE, Process
 from collections.abc import Collection, Sequence
@@ -18,11 +19,14 @@ from pathlib import Path
 from reina.music.score import Score
 from reina.sound.events import SoundPlan
 from reina.sound.font import MissingSoundfontError, SoundError, find_soundfont, soundfont_id
+from reina.sound.growing_peaks import GrowingPeaks
+from reina.sound.passages import cut_into_passages
 from reina.sound.plan import PlayedParts, plan_sound
-from reina.sound.recording.peaks import peaks_path
+from reina.sound.recording.peaks import Peaks
+from reina.sound.rendered import SONG, segment_path
+from reina.sound.segments import SEGMENT, Segments, cut_into_segments
 
 __all__ = [
-    "SONG_MEDIA_TYPE",
     "MissingSoundfontError",
     "SongRenderer",
     "SongRequest",
@@ -30,11 +34,11 @@ __all__ = [
     "find_soundfont",
 ]
 
-SONG_MEDIA_TYPE = "audio/wav"
-RENDERING_VERSION = "1"
+RENDERING_VERSION = "2"
 """Raised with every change of how a plan becomes sound, so that songs rendered before are not taken for new
 ones."""
 
+RENDERING_ID_LENGTH = 16
 TIMEOUT_S = 900.0
 STDERR_TOLD = 400
 """How many characters of a crashed renderer's complaint are passed on, from its end."""
@@ -46,13 +50,42 @@ class SongRequest:
     """One asker's share in the rendering of a song.
 
     Attributes:
-        path: Where the song lies once it is ready.
+        path: Where the whole song lies once it is ready, as FLAC.
+        segments: How it is cut into segments.
     """
 
-    def __init__(self, path: Path, rendering: "_Rendering | None" = None) -> None:
+    def __init__(self, path: Path, segments: Segments, rendering: "_Rendering | None" = None) -> None:
         self.path = path
+        self.segments = segments
         self._rendering = rendering
         self._cancelled = False
+
+    @property
+    def rendering_id(self) -> str:
+        """What names this rendering: another sound has another name."""
+        return self.path.parent.name[:RENDERING_ID_LENGTH]
+
+    @property
+    def peaks(self) -> Peaks | None:
+        """The peaks of what is there so far; None once the song is ready, whose peaks lie beside it."""
+        return None if self._rendering is None or self.ready else self._rendering.peaks.peaks()
+
+    async def segment(self, number: int, *, within_s: float) -> Path | None:
+        """A segment's file, Ogg Opus; where it is missing it is made next. None if it is not there in time.
+
+        Args:
+            number: Which, 0 to `segments.count` - 1.
+            within_s: How long to wait for it.
+        """
+        path = segment_path(self.path, number)
+        if self._rendering is None or self.ready:
+            return path
+        self._rendering.want(number)
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(within_s):
+                while number not in self._rendering.there and not self._rendering.task.done():
+                    await self._rendering.news.wait()
+        return path if self.ready or number in self._rendering.there else None
 
     @property
     def progress(self) -> float:
@@ -100,16 +133,55 @@ class SongRequest:
 
 
 class _Rendering:
-    """A rendering that is under way or waits for its turn."""
+    """A rendering that is under way or waits for its turn.
 
-    def __init__(self) -> None:
+    Attributes:
+        there: The segments that can be had.
+        news: Set, and replaced, when there are more of them, and at the end.
+    """
+
+    def __init__(self, segments: Segments) -> None:
         self.progress = 0.0
         self.askers = 0
+        self.there: set[int] = set()
+        self.peaks = GrowingPeaks(segments.frames)
+        self.news = asyncio.Event()
         self.task: asyncio.Task[None]
+        self._wanted: int | None = None
+        self._process: Process | None = None
+
+    def want(self, number: int) -> None:
+        """Have a segment made next, unless it is there or was wanted last."""
+        if number not in self.there and number != self._wanted:
+            self._wanted = number
+            self._pass_on()
+
+    def begun_by(self, process: Process) -> None:
+        """What is wanted goes to this process from now on: the plan has been sent."""
+        self._process = process
+        self._pass_on()
+
+    def add(self, number: int, peaks: str) -> None:
+        """A segment can be had."""
+        self.peaks.put(number * SEGMENT, peaks)
+        self.there.add(number)
+        self.tell()
+
+    def tell(self) -> None:
+        """Wake those who wait for news."""
+        news, self.news = self.news, asyncio.Event()
+        news.set()
+
+    def _pass_on(self) -> None:
+        process, wanted = self._process, self._wanted
+        if process is not None and process.stdin is not None and wanted is not None:
+            # A few bytes, which the pipe takes at once; one that has ended needs none.
+            with contextlib.suppress(ConnectionError, RuntimeError):
+                process.stdin.write(b"%d\n" % wanted)
 
 
 class SongRenderer:
-    """Renders scores into `<data_dir>/songs/<digest>.wav`; the same score is rendered once.
+    """Renders scores into `<data_dir>/songs/<digest>/`; the same score is rendered once.
 
     Args:
         data_dir: The server's data folder.
@@ -123,7 +195,7 @@ class SongRenderer:
         data_dir: Path,
         *,
         soundfont: Path | None = None,
-        most_at_once: int = 1,
+        most_at_once: int = 2,
         timeout_s: float = TIMEOUT_S,
     ) -> None:
         self._data_dir = data_dir
@@ -145,22 +217,23 @@ class SongRenderer:
             InputError: The score is longer than an hour.
             MissingSoundfontError: There is nothing to render with.
         """
-        plan = await asyncio.to_thread(plan_sound, score, played)
+        plan, segments = await asyncio.to_thread(_plan, score, played)
         soundfont = self._soundfont or find_soundfont(self._data_dir)
         identity = await asyncio.to_thread(soundfont_id, soundfont)
-        path = self._songs / f"{plan.digest(RENDERING_VERSION, identity)}.wav"
+        path = self._songs / plan.digest(RENDERING_VERSION, identity) / SONG
         if await asyncio.to_thread(path.is_file):
             # The time of the last use is what `prune` goes by.
             os.utime(path)
-            return SongRequest(path)
+            return SongRequest(path, segments)
         rendering = self._renderings.get(path)
         if rendering is None or rendering.task.cancelling():
-            rendering = self._renderings[path] = _Rendering()
-            rendering.task = asyncio.create_task(self._render(rendering, plan, soundfont, path))
+            before = rendering.task if rendering else None
+            rendering = self._renderings[path] = _Rendering(segments)
+            rendering.task = asyncio.create_task(self._render(rendering, plan, soundfont, path, before))
             self._tasks.add(rendering.task)
-            rendering.task.add_done_callback(functools.partial(self._ended, path))
+            rendering.task.add_done_callback(functools.partial(self._ended, path, rendering))
         rendering.askers += 1
-        return SongRequest(path, rendering)
+        return SongRequest(path, segments, rendering)
 
     async def aclose(self) -> None:
         """Stop every rendering and wait until its process is gone."""
@@ -174,38 +247,57 @@ class SongRenderer:
     def prune(self, most_bytes: int, *, in_use: Collection[Path] = ()) -> int:
         """Remove the songs that were not asked for the longest until the rest fits; return the bytes freed.
 
+        What is no whole song and is not being rendered goes in any case: what a server that was killed, or an
+        earlier version, has left.
+
         Args:
             most_bytes: How large the rendered songs may be together.
             in_use: Songs that stay in any case.
         """
-        songs: list[tuple[Path, os.stat_result]] = []
-        for song in self._songs.glob("*.wav"):
-            with contextlib.suppress(FileNotFoundError):  # removed meanwhile
-                songs.append((song, song.stat()))
-        total = freed = sum(stat.st_size for _, stat in songs)
-        for song, stat in sorted(songs, key=lambda entry: entry[1].st_mtime):
+        songs: list[tuple[float, int, Path]] = []
+        freed = 0
+        for entry in self._songs.iterdir() if self._songs.is_dir() else ():
+            with contextlib.suppress(FileNotFoundError, NotADirectoryError):  # removed meanwhile
+                song = entry / SONG
+                if song.is_file():
+                    songs.append((song.stat().st_mtime, _size(entry), song))
+                elif song not in self._renderings:
+                    freed += _size(entry)
+                    _remove(entry)
+        total = sum(size for _, size, _ in songs)
+        for _, size, song in sorted(songs):
             if total > most_bytes and song not in in_use:
                 self.discard(song)
-                total -= stat.st_size
-        return freed - total
+                total -= size
+                freed += size
+        return freed
 
     def discard(self, path: Path | None) -> None:
         """Remove a song that nobody needs any more; None, and one that is gone already, are no error."""
         if path is not None:
-            path.unlink(missing_ok=True)
-            peaks_path(path).unlink(missing_ok=True)
+            _remove(path.parent)
 
-    def _ended(self, path: Path, task: asyncio.Task[None]) -> None:
+    def _ended(self, path: Path, rendering: _Rendering, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)
-        rendering = self._renderings.get(path)
-        if rendering is not None and rendering.task is task:
+        rendering.tell()
+        if self._renderings.get(path) is rendering:
             del self._renderings[path]
         if not task.cancelled() and (error := task.exception()) is not None:
-            log.error("rendering %s failed: %s", path.name, error)
+            log.error("rendering %s failed: %s", path.parent.name, error)
 
-    async def _render(self, rendering: _Rendering, plan: SoundPlan, soundfont: Path, path: Path) -> None:
+    async def _render(
+        self,
+        rendering: _Rendering,
+        plan: SoundPlan,
+        soundfont: Path,
+        path: Path,
+        before: asyncio.Task[None] | None,
+    ) -> None:
+        if before is not None:
+            # One that was given up still has the folder.
+            await asyncio.wait([before])
         async with self._turns:
-            self._songs.mkdir(parents=True, exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             try:
                 async with asyncio.timeout(self._timeout_s):
                     await self._run(rendering, plan, soundfont, path)
@@ -214,6 +306,8 @@ class SongRenderer:
                 raise SoundError(
                     f"rendering {plan.duration_s:.0f} s of sound {took} and was stopped"
                 ) from error
+            finally:
+                _remove_unfinished(path)
 
     async def _run(self, rendering: _Rendering, plan: SoundPlan, soundfont: Path, path: Path) -> None:
         counts = (str(len(plan.notes)), str(len(plan.controls)))
@@ -222,7 +316,7 @@ class SongRenderer:
             "-m",
             "reina.sound.render",
             str(soundfont),
-            str(path),
+            str(path.parent),
             *counts,
             stdin=PIPE,
             stdout=PIPE,
@@ -230,7 +324,7 @@ class SongRenderer:
         )
         try:
             _, complaint, error = await asyncio.gather(
-                _send(process, plan.notes.tobytes() + plan.controls.tobytes()),
+                _send(process, rendering, plan.notes.tobytes() + plan.controls.tobytes()),
                 _read(process),
                 _follow(process, rendering),
             )
@@ -241,7 +335,7 @@ class SongRenderer:
             # Until its pipes are read to their ends the loop keeps them open.
             await process.communicate()
             # What a process that was killed leaves behind; its own clean-up does not run.
-            for partial in self._songs.glob(f"{path.name}.{process.pid}.*partial"):
+            for partial in path.parent.glob(f"*.{process.pid}.partial"):
                 partial.unlink(missing_ok=True)
         if error is not None:
             raise SoundError(f"the score could not be rendered: {error}")
@@ -249,11 +343,34 @@ class SongRenderer:
             raise SoundError(f"the renderer ended with status {status}: {complaint[-STDERR_TOLD:].strip()}")
 
 
-async def _send(process: Process, data: bytes) -> None:
+def _plan(score: Score, played: Sequence[PlayedParts]) -> tuple[SoundPlan, Segments]:
+    plan = plan_sound(score, played)
+    return plan, cut_into_segments(cut_into_passages(plan))
+
+
+def _size(entry: Path) -> int:
+    files = entry.iterdir() if entry.is_dir() else (entry,)
+    return sum(file.stat().st_size for file in files)
+
+
+def _remove(entry: Path) -> None:
+    if entry.is_dir():
+        shutil.rmtree(entry, ignore_errors=True)
+    else:
+        entry.unlink(missing_ok=True)
+
+
+def _remove_unfinished(song: Path) -> None:
+    if not song.is_file():
+        _remove(song.parent)
+
+
+async def _send(process: Process, rendering: _Rendering, data: bytes) -> None:
     """Write the plan; standard input stays open, whose end would tell the process that the server is gone."""
     if process.stdin is not None:
         with contextlib.suppress(ConnectionError):
             process.stdin.write(data)
+            rendering.begun_by(process)
             await process.stdin.drain()
 
 
@@ -262,13 +379,18 @@ async def _read(process: Process) -> str:
 
 
 async def _follow(process: Process, rendering: _Rendering) -> str | None:
-    """Keep the progress until the process is done; return its complaint if it has one."""
+    """Keep what is there until the process is done; return its complaint if it has one."""
     error: str | None = None
     while process.stdout is not None and (line := await process.stdout.readline()):
         message: dict[str, object] = json.loads(line)
-        if isinstance(share := message.get("progress"), float | int):
-            # Only when the file is in its place is all of it done.
-            rendering.progress = min(float(share), 0.99)
-        if isinstance(complaint := message.get("error"), str):
-            error = complaint
+        match message:
+            case {"progress": float(share)}:
+                # Only when the file is in its place is all of it done.
+                rendering.progress = min(share, 0.99)
+            case {"segment": int(number), "peaks": str(peaks)}:
+                rendering.add(number, peaks)
+            case {"error": str(complaint)}:
+                error = complaint
+            case _:
+                pass
     return error

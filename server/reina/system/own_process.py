@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Callable
 
 NICENESS = 5
 """They yield to the server, whose frames are due."""
@@ -20,6 +21,25 @@ def end_with_parent() -> None:
     # Past Python's buffer, whose lock a waiting reader would still hold when the process ends.
     while os.read(sys.stdin.fileno(), 1):
         pass
+    os._exit(2)
+
+
+def read_from_parent(count: int) -> bytes:
+    """Read so many bytes from standard input and none more, so that `follow_parent` misses nothing."""
+    parts: list[bytes] = []
+    while count and (part := os.read(sys.stdin.fileno(), min(count, 1 << 20))):
+        parts.append(part)
+        count -= len(part)
+    return b"".join(parts)
+
+
+def follow_parent(take: Callable[[int], None]) -> None:
+    """Hand on the numbers that come on standard input, one a line; end the process when it is closed."""
+    pending = b""
+    while part := os.read(sys.stdin.fileno(), 256):
+        *lines, pending = (pending + part).split(b"\n")
+        for line in lines:
+            take(int(line))
     os._exit(2)
 
 

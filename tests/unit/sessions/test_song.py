@@ -38,4 +38,4 @@ def test_any_failure_is_told_as_one(
     song = asyncio.run(make())
     assert song.error is not None
     assert told in song.error
-    assert song_state(song, "/song").status == "failed"
+    assert song_state(song, "/song", "/song/segments").status == "failed"

@@ -89,7 +89,7 @@ class Desk:
         return session
 
     def songs(self) -> list[Path]:
-        return sorted((self.data_dir / "songs").glob("*.wav"))
+        return sorted((self.data_dir / "songs").glob("*/song.flac"))
 
 
 async def until(met: Callable[[], bool]) -> None:

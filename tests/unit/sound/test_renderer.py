@@ -2,19 +2,24 @@
 
 import asyncio
 import hashlib
-import wave
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 import pytest
+import soundfile
 from tests.unit.sound.material import CLICK_HZ, Row, a_score, write_click_soundfont
 
 from reina.errors import InputError
 from reina.music import Score
+from reina.sound.encode import wav_of
+from reina.sound.events import SAMPLE_RATE
+from reina.sound.recording.peaks import read_peaks
 from reina.sound.recording.probe import probe_recording
+from reina.sound.rendered import SONG, segment_path
 from reina.sound.renderer import MissingSoundfontError, SongRenderer, SongRequest, SoundError
+from reina.sound.segments import OVERLAP, SEGMENT
 
 SHORT = a_score([(0, 0.5, 0.15, 60, 1.0), (0, 1.25, 0.15, 60, 1.0)])
 
@@ -72,12 +77,12 @@ def test_a_score_becomes_a_song_whose_time_is_the_score_s(tmp_path: Path, soundf
         return path
 
     path = with_renderer(tmp_path, soundfont, use)
-    assert path.parent == tmp_path / "songs"
-    assert files(tmp_path) == [path.name]
+    assert path.parent.parent == tmp_path / "songs"
+    assert files(tmp_path) == ["0.opus", SONG, "song.peaks"]
     info, _ = probe_recording(path.read_bytes())
-    assert (info.format, info.sample_rate, info.channels) == ("WAV", 48000, 2)
-    with wave.open(str(path)) as file:
-        sound = np.frombuffer(file.readframes(file.getnframes()), dtype="<i2").reshape(-1, 2)[:, 0] / 32768
+    assert (info.format, info.sample_rate, info.channels) == ("FLAC", 48000, 2)
+    samples, _ = soundfile.read(path)
+    sound = samples[:, 0]
     for onset_s in (0.5, 1.25):
         begin = round((onset_s - 0.2) * 48000)
         around = np.abs(sound[begin : begin + 48000 // 2])
@@ -146,13 +151,15 @@ def test_it_stops_when_nobody_waits_any_more(tmp_path: Path, soundfont: Path) ->
         assert not (await renderer.request(long_score())).ready
 
     with_renderer(tmp_path, soundfont, use)
-    assert len(files(tmp_path)) == 1
+    assert [path.name for path in (tmp_path / "songs").glob("*/*.flac")] == [SONG]
 
 
 def test_closing_leaves_no_process_and_nothing_half_made(tmp_path: Path, soundfont: Path) -> None:
     async def use(renderer: SongRenderer) -> None:
-        running, waiting = await renderer.request(long_score()), await renderer.request(long_score(61))
+        running, other = await renderer.request(long_score()), await renderer.request(long_score(61))
+        waiting = await renderer.request(long_score(62))
         await until_it_runs(running)
+        await until_it_runs(other)
         await renderer.aclose()
         assert waiting.progress == 0
         assert running.error is not None
@@ -208,10 +215,111 @@ def test_prune_removes_what_was_not_asked_for_the_longest(tmp_path: Path, soundf
             await (await renderer.request(a_score([(0, 0.5, 0.1, 60, velocity)]))).wait()
             for velocity in (0.3, 0.6, 0.9)
         ]
-        sizes = [path.stat().st_size for path in paths]
+        sizes = [size(path) for path in paths]
         await renderer.request(a_score([(0, 0.5, 0.1, 60, 0.3)]))
         freed = renderer.prune(sizes[0] + sizes[2], in_use=[paths[2]])
         assert freed == sizes[1]
         assert [path.exists() for path in paths] == [True, False, True]
 
     with_renderer(tmp_path, soundfont, use)
+
+
+def size(song: Path) -> int:
+    return sum(path.stat().st_size for path in song.parent.iterdir())
+
+
+def test_prune_removes_what_is_no_whole_song_but_nothing_that_is_being_rendered(
+    tmp_path: Path, soundfont: Path
+) -> None:
+    songs = tmp_path / "songs"
+    (songs / "half").mkdir(parents=True)
+    for left in ("half/0.opus", "earlier.wav", "earlier.peaks"):
+        (songs / left).write_bytes(b"12345")
+
+    async def use(renderer: SongRenderer) -> None:
+        request = await renderer.request(long_score())
+        await until_it_runs(request)
+        assert renderer.prune(0) == 15
+        assert [entry.name for entry in songs.iterdir()] == [request.path.parent.name]
+        request.cancel()
+
+    with_renderer(tmp_path, soundfont, use)
+
+
+async def arrived(request: SongRequest, number: int) -> Path:
+    for _ in range(60):
+        if (path := await request.segment(number, within_s=1)) is not None:
+            return path
+    raise TimeoutError
+
+
+def test_the_first_segment_can_be_had_long_before_the_whole(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        request = await renderer.request(long_score())
+        path = await arrived(request, 0)
+        assert not request.ready
+        assert request.progress < 0.05, "of an hour ten seconds are rendered, and little more"
+        samples, rate = soundfile.read(path)
+        assert (rate, len(samples)) == (SAMPLE_RATE, SEGMENT + 2 * OVERLAP)
+        peaks = request.peaks
+        assert peaks is not None
+        begun = peaks.highest[: 200 * 10]
+        assert begun.max() > 0.1
+        assert not peaks.highest[len(peaks.highest) // 2 :].any()
+        request.cancel()
+
+    with_renderer(tmp_path, soundfont, use)
+
+
+def test_a_segment_that_is_asked_for_is_rendered_next(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        request = await renderer.request(long_score())
+        await arrived(request, 0)
+        await arrived(request, 300)
+        assert request.progress < 0.2, "what lies between is left for later"
+        assert await request.segment(200, within_s=0) is None
+        request.cancel()
+
+    with_renderer(tmp_path, soundfont, use)
+
+
+def test_segments_in_any_order_are_the_whole(tmp_path: Path, soundfont: Path) -> None:
+    score = a_score([(0, at * 0.5, 0.4, 60 + at % 5, 0.5) for at in range(90)])
+
+    async def backwards(renderer: SongRenderer) -> Path:
+        request = await renderer.request(score)
+        for number in reversed(range(request.segments.count)):
+            await arrived(request, number)
+        return await request.wait()
+
+    async def onwards(renderer: SongRenderer) -> Path:
+        return await (await renderer.request(score)).wait()
+
+    one = with_renderer(tmp_path / "1", soundfont, backwards)
+    two = with_renderer(tmp_path / "2", soundfont, onwards)
+    assert one.read_bytes() == two.read_bytes()
+    whole, _ = soundfile.read(one)
+    peaks = read_peaks(one)
+    assert peaks is not None
+    assert peaks.duration_s == len(whole) / SAMPLE_RATE
+    assert peaks.highest.max() == pytest.approx(whole.max(), abs=1e-4)
+    for number in range(-(-len(whole) // SEGMENT)):
+        segment, _ = soundfile.read(segment_path(one, number))
+        core, meant = segment[OVERLAP:-OVERLAP], whole[number * SEGMENT : (number + 1) * SEGMENT]
+        assert len(core) == len(meant)
+        if meant.any():
+            assert ((core - meant) ** 2).mean() < 0.03 * (meant**2).mean()
+
+
+def test_the_whole_can_be_taken_away_as_wav(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> Path:
+        return await (await renderer.request(SHORT)).wait()
+
+    path = with_renderer(tmp_path, soundfont, use)
+    claimed, content = wav_of(path)
+    wav = b"".join(content)
+    assert len(wav) == claimed
+    info, _ = probe_recording(wav)
+    assert (info.format, info.warnings) == ("WAV", ())
+    samples, _ = soundfile.read(path, dtype="int16")
+    assert wav[44:] == samples.astype("<i2").tobytes()

@@ -391,6 +391,8 @@ export interface SongPeaks {
   lowest: number[]
   /** -1..1. */
   highest: number[]
+  /** False while the song is being rendered: what is missing stands as silence, and comes. */
+  complete: boolean
 }
 
 /** The bundled shows, each to be fetched and put into a session of one's own. */
@@ -677,6 +679,20 @@ export interface SlideFingering {
   extension_m: number
 }
 
+/** A rendered song in segments of one length, each of which can be had as soon as it is rendered. */
+export interface SongSegments {
+  /** A segment stands at {href}/{number}, from 0 on, and never changes. */
+  href: string
+  media_type: string
+  count: number
+  /** Segment n begins at n times this song time; the last is shorter. */
+  segment_s: number
+  /** How much each holds beside: of the sound before it, and again of the sound after it. */
+  overlap_s: number
+  /** How long the whole lasts. */
+  song_s: number
+}
+
 /** The sound that goes with the score. */
 export interface SongState {
   /** Another one whenever the sound is another: what was fetched from it before may be kept. */
@@ -687,6 +703,8 @@ export interface SongState {
   media_type: string
   /** 0 to 1; 1 once it is ready. */
   progress: number
+  /** Null for an uploaded song, and until a rendered one is planned. */
+  segments: SongSegments | null
 }
 
 /** Where a viewer finds what the stream does not carry. */

@@ -1,2 +1,3 @@
-export { loadSong } from "./song-loader";
+export { loadSegment, loadWhole, plannedSong, songState } from "./song-loader";
 export { SongPlayer, type SongTime, type SoundState } from "./song-player";
+export { SegmentedSong, WholeSong } from "./song-source";

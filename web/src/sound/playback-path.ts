@@ -8,12 +8,12 @@ interface Leg {
   readonly rate: number;
 }
 
-/** Where in the song one scheduled AudioBufferSource is at any context time, through every change of its rate. */
+/** Where in the song what was scheduled is at any context time, through every change of its rate. */
 export class PlaybackPath {
   readonly #legs: Leg[];
   readonly #loop: Loop | null;
 
-  /** @param loop the source's loop; null where it plays on to its end */
+  /** @param loop the loop it goes round in; null where it plays on to the song's end */
   constructor(from: number, position: number, rate: number, loop: Loop | null) {
     this.#legs = [{ from, position, rate }];
     this.#loop = loop;
@@ -23,6 +23,22 @@ export class PlaybackPath {
   changeRate(from: number, rate: number): void {
     this.#legs.push({ from, position: this.#unfolded(from), rate });
     if (this.#legs.length > 4) this.#legs.shift();
+  }
+
+  /** Every change of rate from a context time on, in order. */
+  changesFrom(contextTime: number): readonly { readonly from: number; readonly rate: number }[] {
+    return this.#legs.filter(({ from }) => from > contextTime);
+  }
+
+  rateAt(contextTime: number): number {
+    return this.#legAt(contextTime).rate;
+  }
+
+  /** The context time at which so much of the song will have passed, seconds, counted on over the loop's end. */
+  timeAt(unfolded: number): number {
+    let leg = this.#first;
+    for (const each of this.#legs) if (each.position <= unfolded) leg = each;
+    return leg.from + (unfolded - leg.position) / leg.rate;
   }
 
   /** Place in the song at a context time, seconds. */
@@ -39,9 +55,20 @@ export class PlaybackPath {
   }
 
   #unfolded(contextTime: number): number {
-    let leg = this.#legs[0];
+    const leg = this.#legAt(contextTime);
+    return leg.position + (contextTime - leg.from) * leg.rate;
+  }
+
+  #legAt(contextTime: number): Leg {
+    let leg = this.#first;
     for (const each of this.#legs) if (each.from <= contextTime) leg = each;
-    return leg === undefined ? 0 : leg.position + (contextTime - leg.from) * leg.rate;
+    return leg;
+  }
+
+  get #first(): Leg {
+    const [first] = this.#legs;
+    if (first === undefined) throw new Error("a path has a beginning");
+    return first;
   }
 }
 

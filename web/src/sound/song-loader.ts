@@ -1,20 +1,49 @@
-import type { SongState } from "../generated/protocol";
+import type { SongSegments, SongState } from "../generated/protocol";
 import { ProblemError, type ReinaApi } from "../connection";
 
-const POLL_S = 0.5;
+const PAUSE_S = 0.2;
+
+/** How far the server is with a song, asked for until its segments can be had or the whole is there. */
+export async function plannedSong(
+  api: ReinaApi,
+  session: string,
+  known: SongState,
+  signal: AbortSignal,
+): Promise<SongState> {
+  let song = known;
+  while (song.status === "rendering" && song.segments === null) {
+    await pause(PAUSE_S, signal);
+    song = await songState(api, session, signal);
+  }
+  return song;
+}
 
 /**
- * The bytes of a session's song; while the server is still making it, asks again until it is there.
+ * How far the server is with a song.
  *
- * @param onProgress told the share that is done, 0…1
- * @throws ProblemError when the server has none, or failed to make one
+ * @throws ProblemError when it has none, or failed to make one
  */
-export async function loadSong(
+export async function songState(api: ReinaApi, session: string, signal: AbortSignal): Promise<SongState> {
+  const response = await api.request("GET", api.sessionPath(session, "song/state"), { signal });
+  return (await response.json()) as SongState;
+}
+
+/** The bytes of a segment; one that is not rendered yet is waited for. */
+export async function loadSegment(
   api: ReinaApi,
-  href: string,
+  { href }: SongSegments,
+  segment: number,
   signal: AbortSignal,
-  onProgress: (share: number) => void,
 ): Promise<ArrayBuffer> {
+  return whenMade(api, `${href}/${segment}`, signal);
+}
+
+/** The bytes of a whole song; one that is still being made is waited for. */
+export async function loadWhole(api: ReinaApi, href: string, signal: AbortSignal): Promise<ArrayBuffer> {
+  return whenMade(api, href, signal);
+}
+
+async function whenMade(api: ReinaApi, href: string, signal: AbortSignal): Promise<ArrayBuffer> {
   for (;;) {
     const response = await api.request("GET", href, { signal });
     if (response.status !== 202) return response.arrayBuffer();
@@ -22,8 +51,7 @@ export async function loadSong(
     if (song.status === "failed") {
       throw new ProblemError({ status: 502, title: "The sound could not be made", detail: "", errors: [] });
     }
-    onProgress(song.progress ?? 0);
-    await pause(POLL_S, signal);
+    await pause(PAUSE_S, signal);
   }
 }
 

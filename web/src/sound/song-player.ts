@@ -2,6 +2,9 @@ import type { TransportState } from "../generated/protocol";
 import { DriftWatch } from "./drift";
 import { heardContextTime } from "./heard-time";
 import { PlaybackPath } from "./playback-path";
+import { segmentAt, segmentsAhead } from "./song-parts";
+import type { SongSource } from "./song-source";
+import { Voice } from "./voice";
 
 /** What the player needs to know of time. */
 export interface SongTime {
@@ -12,18 +15,13 @@ export interface SongTime {
 }
 
 export type SoundState =
-  /** Nothing to play yet. */
+  /** Nothing to play. */
   | "silent"
+  /** There is a song, but not yet what it sounds like at this place. */
+  | "coming"
   /** The browser wants a click or a key before it lets sound out. */
   | "blocked"
   | "ready";
-
-interface Voice {
-  readonly source: AudioBufferSourceNode;
-  readonly gain: GainNode;
-  readonly path: PlaybackPath;
-  readonly rate: number;
-}
 
 /** From planning a start to its sound being computed. */
 const LEAD_S = 0.06;
@@ -35,24 +33,28 @@ const SHORTEST_START_S = 0.25;
 /** After a start the output timestamp needs a moment to be true. */
 const SETTLE_S = 0.6;
 const VOLUME_GLIDE_S = 0.03;
+/** How many segments are decoded before they are needed. */
+const SEGMENTS_AHEAD = 2;
+/** What browsers compute at once; a source's rate changes between such quanta only. */
+const QUANTUM = 128;
 
 /**
- * Plays the decoded song so that what is heard at any moment is the song time that the server's clock says.
+ * Plays the song so that what is heard at any moment is the song time that the server's clock says.
  *
- * One AudioBufferSource is scheduled for each play, seek, rate or loop; `check`, called every tenth of a second or so,
- * measures what is really heard and brings it back when it has drifted.
+ * A voice is started for each play, seek, rate or loop; `check`, called every tenth of a second or so, measures what
+ * is really heard, brings it back when it has drifted, and asks for what will be needed.
  */
 export class SongPlayer {
   readonly #context: AudioContext;
   readonly #master: GainNode;
+  readonly #meter: AnalyserNode;
   readonly #time: SongTime;
   readonly #onState: (state: SoundState) => void;
   readonly #drift = new DriftWatch();
-  #song: AudioBuffer | null = null;
+  #song: SongSource | null = null;
   #transport: TransportState | null = null;
   #voice: Voice | null = null;
   #scrubbed: GainNode | null = null;
-  #songs = 0;
   #checkFrom = 0;
   #state: SoundState = "silent";
   #volume = 1;
@@ -64,36 +66,57 @@ export class SongPlayer {
     this.#context = context;
     this.#master = context.createGain();
     this.#master.connect(context.destination);
+    this.#meter = context.createAnalyser();
+    this.#master.connect(this.#meter);
     context.onstatechange = () => {
       this.#tellState();
       this.#restart();
     };
   }
 
-  /** Seconds of the song that is loaded; 0 without one. */
-  get songDuration(): number {
-    return this.#song?.duration ?? 0;
+  /** The highest sample that left the page in the last moments, 0…1. */
+  get level(): number {
+    const samples = new Float32Array(this.#meter.fftSize);
+    this.#meter.getFloatTimeDomainData(samples);
+    return samples.reduce((highest, sample) => Math.max(highest, Math.abs(sample)), 0);
+  }
+
+  /** Seconds of sound that are decoded. */
+  get held(): number {
+    return this.#song?.heldSeconds ?? 0;
   }
 
   /**
-   * Decode and take a song; null takes it away. What plays goes over to it.
+   * Decode a file.
    *
-   * @throws DOMException when the browser cannot decode it
+   * @throws DOMException when the browser cannot
    */
-  async setSong(bytes: ArrayBuffer | null): Promise<void> {
-    const turn = ++this.#songs;
-    const song = bytes === null ? null : await this.#context.decodeAudioData(bytes);
-    // Decoding takes a moment; what was set meanwhile counts.
-    if (turn !== this.#songs) return;
+  decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
+    return this.#context.decodeAudioData(bytes);
+  }
+
+  /** Take a song; null takes it away. What plays goes over to it. */
+  setSong(song: SongSource | null): void {
+    this.#song?.close();
     this.#song = song;
+    this.#want();
     this.#tellState();
     this.#restart();
+  }
+
+  /** A segment of the song has been decoded. */
+  segmentCame(): void {
+    this.#tellState();
+    if (this.#voice === null) this.#startWhereSilent();
+    else this.#voice.extend();
   }
 
   /** The transport changed: play, pause or move accordingly. */
   follow(transport: TransportState): void {
     const before = this.#transport;
     this.#transport = transport;
+    this.#want();
+    this.#tellState();
     // An edit of the show raises the epoch too; the sound need not stutter for it.
     if (before !== null && this.#voice !== null && sameMotion(before, transport)) return;
     this.#restart();
@@ -109,14 +132,21 @@ export class SongPlayer {
     const now = this.#context.currentTime;
     this.#scrubbed?.gain.cancelScheduledValues(now);
     this.#scrubbed?.gain.setTargetAtTime(0, now, FADE_S / 3);
-    const source = new AudioBufferSourceNode(this.#context, { buffer: this.#song });
+    const song = this.#song;
+    const segment = segmentAt(Math.max(position, 0), song);
+    const buffer = song.at(segment);
+    if (buffer === null) {
+      song.want([segment]);
+      return;
+    }
+    const source = new AudioBufferSourceNode(this.#context, { buffer });
     const gain = new GainNode(this.#context, { gain: 0 });
     gain.gain.setValueAtTime(0, now);
     gain.gain.linearRampToValueAtTime(1, now + FADE_S);
     gain.gain.setValueAtTime(1, now + SCRUB_S - FADE_S);
     gain.gain.linearRampToValueAtTime(0, now + SCRUB_S);
     source.connect(gain).connect(this.#master);
-    source.start(now, Math.max(position, 0), SCRUB_S);
+    source.start(now, Math.max(position, 0) - segment * song.segmentLength + song.overlap, SCRUB_S);
     this.#scrubbed = gain;
     source.onended = () => {
       gain.disconnect();
@@ -141,7 +171,9 @@ export class SongPlayer {
   /** The song time that is heard now, seconds; null when none is. */
   heardSongTime(): number | null {
     const voice = this.#voice;
-    return voice === null || this.#context.state !== "running" ? null : voice.path.positionAt(this.#heard());
+    if (voice === null || this.#context.state !== "running") return null;
+    const heard = this.#heard();
+    return heard < voice.until ? voice.path.positionAt(heard) : null;
   }
 
   /** How far what is heard now is ahead of the song time that should be, seconds; null when nothing is. */
@@ -153,9 +185,16 @@ export class SongPlayer {
 
   /** Measure, and correct when the sound is not where it should be, or is silent where the song has sound. */
   check(): void {
+    this.#want();
+    this.#tellState();
     const voice = this.#voice;
     if (voice === null) {
-      this.#resumeAfterSilence();
+      this.#startWhereSilent();
+      return;
+    }
+    voice.extend();
+    if (voice.isOver) {
+      this.#stopVoice();
       return;
     }
     const pageTime = this.#time.pageNow();
@@ -165,9 +204,9 @@ export class SongPlayer {
     const correction = this.#drift.read(error, voice.rate);
     if (correction.kind === "restart") this.#restart();
     else if (correction.kind === "burst") {
-      const begin = this.#context.currentTime + LEAD_S;
-      this.#setRate(voice, begin, voice.rate * correction.rate);
-      this.#setRate(voice, begin + correction.seconds, voice.rate);
+      const begin = this.#onGrid(this.#context.currentTime + LEAD_S, QUANTUM);
+      const end = this.#onGrid(begin + correction.seconds, QUANTUM);
+      voice.changeRate(begin, end, voice.rate * correction.rate);
       this.#checkFrom = pageTime + LEAD_S + correction.seconds + SETTLE_S;
     }
   }
@@ -179,10 +218,10 @@ export class SongPlayer {
     await this.#context.close();
   }
 
-  /** A loop that reaches beyond the song's end comes back from there. */
-  #resumeAfterSilence(): void {
+  /** What was not there in time has come, or a loop has come back from behind the song's end. */
+  #startWhereSilent(): void {
     if (this.#song === null || this.#transport?.playing !== true || this.#context.state !== "running") return;
-    const position = this.#time.songTimeAt(this.#time.pageNow());
+    const position = this.#position();
     if (position < this.#song.duration - SHORTEST_START_S) this.#startVoice(this.#song, this.#transport);
   }
 
@@ -198,47 +237,40 @@ export class SongPlayer {
     this.#startVoice(this.#song, transport);
   }
 
-  #startVoice(song: AudioBuffer, transport: TransportState): void {
-    const when = this.#context.currentTime + LEAD_S;
+  #startVoice(song: SongSource, transport: TransportState): void {
+    // On the samples' grid, so that nothing is interpolated at the written tempo.
+    const when = this.#onGrid(this.#context.currentTime + LEAD_S);
     const pageTime = this.#time.pageNow();
-    const position = this.#time.songTimeAt(pageTime + (when - this.#heard()));
-    if (position >= song.duration) return;
+    const position = this.#onGrid(this.#time.songTimeAt(pageTime + (when - this.#heard())));
+    if (position >= song.duration || song.at(segmentAt(position, song)) === null) return;
+    const { rate } = transport;
     const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
-    const source = new AudioBufferSourceNode(this.#context, { buffer: song, playbackRate: transport.rate });
-    if (loop !== null && loop.end_s <= song.duration) {
-      source.loop = true;
-      source.loopStart = loop.start_s;
-      source.loopEnd = loop.end_s;
-    }
-    const gain = new GainNode(this.#context, { gain: 0 });
-    gain.gain.setValueAtTime(0, when);
-    gain.gain.linearRampToValueAtTime(1, when + FADE_S);
-    source.connect(gain).connect(this.#master);
-    source.start(when, position);
-    const path = new PlaybackPath(when, position, transport.rate, loop);
-    const voice = { source, gain, path, rate: transport.rate };
-    this.#voice = voice;
-    source.onended = () => {
-      gain.disconnect();
-      if (this.#voice === voice) this.#voice = null;
-    };
+    const path = new PlaybackPath(when, position, rate, loop);
+    this.#voice = new Voice(this.#context, song, this.#master, { path, position, rate, loop }, FADE_S);
     this.#drift.reset();
     this.#checkFrom = pageTime + SETTLE_S;
   }
 
   #stopVoice(): void {
-    const voice = this.#voice;
+    this.#voice?.stop(FADE_S);
     this.#voice = null;
-    if (voice === null) return;
-    const now = this.#context.currentTime;
-    voice.gain.gain.cancelScheduledValues(now);
-    voice.gain.gain.setTargetAtTime(0, now, FADE_S / 3);
-    voice.source.stop(now + 2 * FADE_S);
   }
 
-  #setRate(voice: Voice, at: number, rate: number): void {
-    voice.source.playbackRate.setValueAtTime(rate, at);
-    voice.path.changeRate(at, rate);
+  /** Have decoded what is heard here and soon. */
+  #want(): void {
+    const song = this.#song;
+    song?.want(segmentsAhead(this.#position(), this.#transport?.loop ?? null, song, SEGMENTS_AHEAD));
+  }
+
+  /** Where the song is now, seconds; 0 before the transport is known. */
+  #position(): number {
+    return this.#transport === null ? 0 : Math.max(this.#time.songTimeAt(this.#time.pageNow()), 0);
+  }
+
+  /** A time taken to whole samples of the device, or to whole multiples of some of them. */
+  #onGrid(seconds: number, samples = 1): number {
+    const step = samples / this.#context.sampleRate;
+    return Math.round(seconds / step) * step;
   }
 
   #heard(): number {
@@ -254,10 +286,18 @@ export class SongPlayer {
   }
 
   #tellState(): void {
-    const state = this.#song === null ? "silent" : this.#context.state === "running" ? "ready" : "blocked";
+    const state = this.#stateNow();
     if (state === this.#state) return;
     this.#state = state;
     this.#onState(state);
+  }
+
+  #stateNow(): SoundState {
+    const song = this.#song;
+    if (song === null) return "silent";
+    const position = this.#position();
+    if (position < song.duration && song.at(segmentAt(position, song)) === null) return "coming";
+    return this.#context.state === "running" ? "ready" : "blocked";
   }
 }
 

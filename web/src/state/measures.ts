@@ -23,6 +23,11 @@ export interface PageMeasures {
   readonly epoch: number;
   readonly playing: boolean;
   readonly sound: string;
+  /** How loud what leaves the page is, 0…1, and how many seconds of sound are decoded. */
+  readonly soundLevel: number;
+  readonly soundHeld: number;
+  /** The share of the sound that the server has made; null once all of it is there. */
+  readonly soundShare: number | null;
   /** Seconds from the page's clock to the server's, and the round trip of the probe that says so. */
   readonly clockOffset: number;
   readonly clockRoundTrip: number;
@@ -79,6 +84,15 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     get sound() {
       return view()?.sound ?? "silent";
+    },
+    get soundLevel() {
+      return view()?.soundLevel ?? 0;
+    },
+    get soundHeld() {
+      return view()?.soundHeld ?? 0;
+    },
+    get soundShare() {
+      return view()?.soundShare ?? null;
     },
     get clockOffset() {
       return view()?.clock.offset ?? 0;

@@ -1,6 +1,7 @@
 import { ProblemError, ReinaApi, type SessionFiles } from "../connection";
 import type { Example, ShowParameter } from "../generated/protocol";
 import { sortFiles, type SortedFiles } from "./dropped-files";
+import { removePoster } from "./posters";
 import { SessionView } from "./session-view.svelte";
 import { remember, remembered, rememberToken } from "./storage";
 
@@ -251,6 +252,7 @@ export class Reina {
   }
 
   #lose(phase: "unknown" | "failed"): void {
+    removePoster();
     void this.view?.close();
     this.view = null;
     this.phase = phase;

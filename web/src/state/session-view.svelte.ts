@@ -15,14 +15,26 @@ import type {
   Session,
   SessionChange,
   ShowChanged,
+  SongSegments,
+  SongState,
   TransportCommand,
   TransportState,
   WireNote,
 } from "../generated/protocol";
-import { loadSong, SongPlayer, type SoundState } from "../sound";
+import {
+  loadSegment,
+  loadWhole,
+  plannedSong,
+  SegmentedSong,
+  SongPlayer,
+  songState,
+  WholeSong,
+  type SoundState,
+} from "../sound";
 import { SyncMeasure } from "./sync-measure";
 
 const CHECK_INTERVAL_MS = 100;
+const SHARE_INTERVAL_MS = 1000;
 /** A picture drawn now is seen at the display's next refresh. */
 const PRESENTATION_S = 1 / 60;
 /** The last frame of a song stands up to this much before its end. */
@@ -55,6 +67,8 @@ export class SessionView {
   /** The share of the song's making that is done, while it is being made; null once it is there. */
   soundShare = $state<number | null>(0);
   soundError = $state<string | null>(null);
+  /** Play was asked for, and waits for the sound of this place. */
+  starting = $state(false);
   /** The last change of the show that the server told of. */
   showTold = $state.raw<ShowChanged | null>(null);
 
@@ -101,7 +115,10 @@ export class SessionView {
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
       { pageNow: () => performance.now() / 1000, songTimeAt: (pageTime) => this.#songTimeAt(pageTime) },
-      (state) => (this.sound = state),
+      (state) => {
+        this.sound = state;
+        this.#startWithSound();
+      },
     );
     this.#stream = new Stream(streamAddress(session.links.stream), {
       message: (message) => this.#receive(message),
@@ -144,17 +161,31 @@ export class SessionView {
     return this.#stream.clock;
   }
 
+  /** How loud what leaves the page is at this moment, 0…1. */
+  get soundLevel(): number {
+    return this.#player.level;
+  }
+
+  /** How many seconds of sound are decoded. */
+  get soundHeld(): number {
+    return this.#player.held;
+  }
+
+  /** Play, as soon as the sound of this place is there. */
   async play(): Promise<void> {
     void this.unlockSound();
-    await this.#control({ action: "play" });
+    if (this.#soundComes) this.starting = this.canControl;
+    else await this.#control({ action: "play" });
   }
 
   async pause(): Promise<void> {
+    this.starting = false;
     await this.#control({ action: "pause" });
   }
 
-  toggle(): Promise<void> {
-    return this.playing ? this.pause() : this.play();
+  async toggle(): Promise<void> {
+    if (this.starting) this.starting = false;
+    else await (this.playing ? this.pause() : this.play());
   }
 
   async seek(songTime: number): Promise<void> {
@@ -230,7 +261,7 @@ export class SessionView {
         this.hello = message;
         this.duration = message.duration_s;
         this.#setTransport(message.transport, true);
-        this.#loadSong(message.song.href);
+        this.#loadSong(message.song);
         break;
       case "transport":
         this.#setTransport(message);
@@ -238,13 +269,14 @@ export class SessionView {
       case "score_changed":
         this.duration = message.duration_s;
         void this.#attempt(() => this.#readAnew());
-        this.#loadSong(message.song.href);
+        this.#loadSong(message.song);
         break;
       case "show_changed":
         this.showTold = message;
         break;
       case "song_ready":
-        this.#loadSong(message.song.href);
+        this.soundShare = message.song.segments === null ? this.soundShare : null;
+        this.#loadSong(message.song);
         break;
       case "error":
         this.#surroundings.tell(
@@ -313,28 +345,83 @@ export class SessionView {
     return songTimeAt(this.transport, this.#stream.clock.serverTime(pageTime), this.duration);
   }
 
-  #loadSong(href: string): void {
-    if (this.#songHref === href) return;
-    this.#songHref = href;
-    this.#songWanted.abort();
-    this.#songWanted = new AbortController();
-    void this.#takeSong(href, AbortSignal.any([this.#ended.signal, this.#songWanted.signal]));
+  get #soundComes(): boolean {
+    return this.soundError === null && (this.sound === "silent" || this.sound === "coming");
   }
 
-  async #takeSong(href: string, signal: AbortSignal): Promise<void> {
+  /** Begin what waited for sound, once it is there or there will be none. */
+  #startWithSound(): void {
+    if (!this.starting || this.#soundComes) return;
+    this.starting = false;
+    void this.#control({ action: "play" });
+  }
+
+  #loadSong(song: SongState): void {
+    if (this.#songHref === song.href) return;
+    this.#songHref = song.href;
+    this.#songWanted.abort();
+    this.#songWanted = new AbortController();
+    void this.#takeSong(song, AbortSignal.any([this.#ended.signal, this.#songWanted.signal]));
+  }
+
+  async #takeSong(known: SongState, signal: AbortSignal): Promise<void> {
     this.soundShare = 0;
     this.soundError = null;
+    // What sounded before belongs to other fingers.
+    this.#player.setSong(null);
     try {
-      // What sounded before belongs to other fingers.
-      await this.#player.setSong(null);
-      const bytes = await loadSong(this.#surroundings.api, href, signal, (share) => (this.soundShare = share));
-      if (!signal.aborted) await this.#player.setSong(bytes);
+      const song = await plannedSong(this.#surroundings.api, this.id, known, signal);
+      if (song.segments === null) await this.#takeWhole(song.href, signal);
+      else {
+        this.#player.setSong(this.#segmented(song.segments, song.href, signal));
+        await this.#followMaking(song, signal);
+      }
     } catch (error) {
-      if (signal.aborted) return;
-      this.#songHref = null;
-      this.soundError =
-        error instanceof ProblemError ? error.message : "This browser cannot play the song's audio format.";
+      this.#noSound(error, signal);
     }
     if (!signal.aborted) this.soundShare = null;
+  }
+
+  async #takeWhole(href: string, signal: AbortSignal): Promise<void> {
+    const bytes = await loadWhole(this.#surroundings.api, href, signal);
+    const whole = new WholeSong(await this.#player.decode(bytes));
+    if (!signal.aborted) this.#player.setSong(whole);
+  }
+
+  #segmented(segments: SongSegments, href: string, signal: AbortSignal): SegmentedSong {
+    const { api } = this.#surroundings;
+    return new SegmentedSong({
+      duration: segments.song_s,
+      segmentLength: segments.segment_s,
+      overlap: segments.overlap_s,
+      load: async (segment, wanted) =>
+        this.#player.decode(await loadSegment(api, segments, segment, AbortSignal.any([signal, wanted]))),
+      came: () => this.#player.segmentCame(),
+      failed: (error) => {
+        if (error instanceof DOMException) {
+          // Safari before 18.4 does not decode Ogg Opus; the whole is FLAC.
+          this.#takeWhole(href, signal).catch((reason: unknown) => this.#noSound(reason, signal));
+        } else this.#noSound(error, signal);
+      },
+    });
+  }
+
+  /** Tell how far the server is until the song is there. */
+  async #followMaking(known: SongState, signal: AbortSignal): Promise<void> {
+    let song = known;
+    while (song.status === "rendering") {
+      this.soundShare = song.progress;
+      await new Promise((resolve) => setTimeout(resolve, SHARE_INTERVAL_MS));
+      if (signal.aborted) return;
+      song = await songState(this.#surroundings.api, this.id, signal);
+    }
+  }
+
+  #noSound(error: unknown, signal: AbortSignal): void {
+    if (signal.aborted) return;
+    this.#songHref = null;
+    this.soundError =
+      error instanceof ProblemError ? error.message : "This browser cannot play the song's audio format.";
+    this.#startWithSound();
   }
 }

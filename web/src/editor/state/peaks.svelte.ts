@@ -26,14 +26,35 @@ export class Peaks {
   }
 }
 
-/** Get the shape of a session's song; null while there is none to be had. */
-export async function readPeaks(api: ReinaApi, session: string, signal: AbortSignal): Promise<Peaks | null> {
+/** What the server says of a song's shape. */
+interface ToldPeaks {
+  readonly duration_s: number;
+  readonly lowest: number[];
+  readonly highest: number[];
+  readonly complete: boolean;
+}
+
+const PAUSE_MS = 2000;
+
+/** Read the shape of a session's song, and read it anew while more of it comes. */
+export async function readPeaks(
+  api: ReinaApi,
+  session: string,
+  signal: AbortSignal,
+  take: (peaks: Peaks) => void,
+): Promise<void> {
   try {
-    const response = await api.request("GET", api.sessionPath(session, "song/peaks"), { signal });
-    if (response.status !== 200) return null;
-    return new Peaks((await response.json()) as { duration_s: number; lowest: number[]; highest: number[] });
+    for (;;) {
+      const response = await api.request("GET", api.sessionPath(session, "song/peaks"), { signal });
+      if (signal.aborted || response.status === 204) return;
+      if (response.status === 200) {
+        const told = (await response.json()) as ToldPeaks;
+        take(new Peaks(told));
+        if (told.complete) return;
+      }
+      await new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+    }
   } catch {
     // The timeline is of use without the sound's shape.
-    return null;
   }
 }
