@@ -63,6 +63,7 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *FROM_VIEWER,
     *COMMANDS,
     resources.SessionChange,
+    resources.CastFields,
     timeline.CurvePreview,
 )
 """What the server is sent: fields with a default may be left out."""

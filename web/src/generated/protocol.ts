@@ -504,6 +504,13 @@ export interface SessionChange {
   player?: string | null
 }
 
+/** Who is to play what, the first player first. */
+export interface CastFields {
+  castings: CastingFields[]
+  /** Which sequence of a MIDI file of format 2; null leaves it as it is. */
+  sequence?: number | null
+}
+
 /** A track whose curve is asked for; it is not kept. */
 export interface CurvePreview {
   /** As a show has it, with its parameter; times without a unit of their own are in the show's. */
@@ -531,6 +538,21 @@ export interface Casting {
   reasons: string[]
   /** The parts that the instrument could play, best first. */
   choices: PartChoice[]
+}
+
+/** What a player is asked to do; a field left out is as it is by default. */
+export interface CastingFields {
+  /** Index of the part; null: the one that suits the instrument best of those that nobody else plays. */
+  part?: number | null
+  instrument?: string
+  /** Who plays: a rig with a hold on the instrument. */
+  player?: string
+  /** Where on the stage; null: by how many play. */
+  seat?: string | null
+  transposition?: number
+  written?: boolean
+  octave_fit?: boolean
+  joined_parts?: number[]
 }
 
 /** A parameter's values over the times of a ShowCurves. */

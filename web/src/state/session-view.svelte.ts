@@ -20,7 +20,9 @@ import type {
   WireNote,
 } from "../generated/protocol";
 import { loadSong, SongPlayer, type SoundState } from "../sound";
+import { lineNotes } from "./line-notes";
 import { SyncMeasure } from "./sync-measure";
+import { TransportQueue } from "./transport-queue";
 
 const CHECK_INTERVAL_MS = 100;
 /** A picture drawn now is seen at the display's next refresh. */
@@ -33,6 +35,8 @@ export interface Surroundings {
   readonly api: ReinaApi;
   /** Show what went wrong. */
   tell(error: unknown): void;
+  /** The server has answered. */
+  answered(): void;
   /** The session is gone from the server. */
   gone(): void;
 }
@@ -67,7 +71,12 @@ export class SessionView {
   /** The notes of the parts that the first player plays, by onset. */
   readonly playedNotes: readonly WireNote[] = $derived.by(() => this.score.notes.filter((note) => note.player === 0));
 
+  /** Of these the ones that sound, one at a time. */
+  readonly line: readonly WireNote[] = $derived.by(() => lineNotes(this.playedNotes));
+
   readonly #surroundings: Surroundings;
+  readonly #commands = new TransportQueue((command) => this.#request(command));
+  #changes: Promise<void> = Promise.resolve();
   readonly #stream: Stream;
   readonly #player: SongPlayer;
   readonly #checking: ReturnType<typeof setInterval>;
@@ -140,6 +149,16 @@ export class SessionView {
     return this.#stream.clock;
   }
 
+  /** Song time that a step goes on from, seconds: where the clock stands, or will once it has done what was asked. */
+  get here(): number {
+    return this.#commands.asked.songTime ?? this.#songTimeAt(performance.now() / 1000);
+  }
+
+  /** The rate that it plays at, or will. */
+  get rate(): number {
+    return this.#commands.asked.rate ?? this.transport.rate;
+  }
+
   async play(): Promise<void> {
     void this.unlockSound();
     await this.#control({ action: "play" });
@@ -150,7 +169,7 @@ export class SessionView {
   }
 
   toggle(): Promise<void> {
-    return this.playing ? this.pause() : this.play();
+    return (this.#commands.asked.playing ?? this.playing) ? this.pause() : this.play();
   }
 
   async seek(songTime: number): Promise<void> {
@@ -167,12 +186,16 @@ export class SessionView {
     await this.#control({ action: "loop", start_s: loop?.start ?? null, end_s: loop?.end ?? null });
   }
 
-  async change(change: SessionChange): Promise<void> {
+  /** Change the session, after the changes that are still on their way. */
+  change(change: SessionChange): Promise<void> {
     const { token } = this;
-    if (token === null) return;
-    await this.#attempt(async () => {
-      this.session = await this.#surroundings.api.changeSession(this.id, change, token);
-    });
+    if (token === null) return Promise.resolve();
+    this.#changes = this.#changes.then(() =>
+      this.#attempt(async () => {
+        this.session = await this.#surroundings.api.changeSession(this.id, change, token);
+      }),
+    );
+    return this.#changes;
   }
 
   /** Read what the server says of the session: its warnings change with the show. */
@@ -204,16 +227,23 @@ export class SessionView {
   }
 
   async #control(command: TransportCommand): Promise<void> {
+    if (this.token !== null) await this.#commands.add(command);
+  }
+
+  async #request(command: TransportCommand): Promise<TransportState | null> {
     const { token } = this;
-    if (token === null) return;
+    let state: TransportState | null = null;
     await this.#attempt(async () => {
-      this.#setTransport(await this.#surroundings.api.control(this.id, command, token));
+      if (token !== null) state = await this.#surroundings.api.control(this.id, command, token);
     });
+    if (state !== null) this.#setTransport(state);
+    return state;
   }
 
   async #attempt(action: () => Promise<void>): Promise<void> {
     try {
       await action();
+      this.#surroundings.answered();
     } catch (error) {
       if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
     }
@@ -279,6 +309,7 @@ export class SessionView {
 
   #connected(state: StreamState): void {
     this.connection = state;
+    if (state === "open") this.#surroundings.answered();
     if (state === "lost") void this.#lookWhetherGone();
   }
 
