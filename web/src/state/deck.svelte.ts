@@ -133,10 +133,10 @@ export class Deck {
   }
 
   #setLoopStart(view: SessionView): unknown {
-    this.#loopStart = view.songTime;
+    this.#loopStart = view.here;
     const end = view.transport.loop?.end_s;
-    if (end !== undefined && end > view.songTime + SHORTEST_LOOP_S) {
-      return view.setLoop({ start: view.songTime, end });
+    if (end !== undefined && end > view.here + SHORTEST_LOOP_S) {
+      return view.setLoop({ start: view.here, end });
     }
     this.reina.word("The loop begins here", "Press ] where it should end.", {
       over: () => view.transport.loop !== null || this.reina.view !== view,
@@ -146,7 +146,7 @@ export class Deck {
 
   #setLoopEnd(view: SessionView): unknown {
     const start = this.#loopStart ?? view.transport.loop?.start_s ?? 0;
-    if (view.songTime > start + SHORTEST_LOOP_S) return view.setLoop({ start, end: view.songTime });
+    if (view.here > start + SHORTEST_LOOP_S) return view.setLoop({ start, end: view.here });
     this.reina.word("The loop must end after it begins", "Move on a little, then press ] again.", {
       over: () => view.songTime > start + SHORTEST_LOOP_S || this.reina.view !== view,
     });
@@ -160,7 +160,7 @@ export class Deck {
 
 /** The phrase that is played, or the next one; the whole piece without any. */
 function phraseAt(view: SessionView): { start: number; end: number } {
-  const phrase = phrasesOf(view.line).find(({ end }) => end > view.songTime + 0.02);
+  const phrase = phrasesOf(view.line).find(({ end }) => end > view.here + 0.02);
   const { start, end } = phrase ?? { start: 0, end: view.duration };
   return { start, end: Math.min(Math.max(end, start + SHORTEST_LOOP_S), view.duration) };
 }
