@@ -1,4 +1,4 @@
-"""What is chosen in the show's editor is one thing, seen in one place; cuts stay whole; what is sought is found."""
+"""What is chosen in the editor is one thing, seen in one place; cuts stay whole; what is sought is found."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_delete_takes_what_is_chosen_says_so_and_offers_undo(show: ShowPage) -> 
 
 
 def shots(path: str, values: list[Any]) -> dict[str, Any]:
-    """A track that moves through two shots and holds a third; a shot's end stands a fiftieth of a bar before the cut."""
+    """A track of two shots that move and one that holds; each ends a fiftieth of a bar before the cut."""
     times = (0, 1.98, 2, 3.98, 4)
     ways = ("step", "sine_in_out", "step", "sine_in_out", "step")
     keyframes = [
