@@ -126,8 +126,9 @@ def test_less_motion_stills_the_camera_within_a_shot_and_keeps_its_cuts(visit: V
     page.emulate_media(reduced_motion="reduce")
     page.reload()
     opened.until_drawn()
-    begun, at = opened.measure("drawnFrom"), opened.parameter("camera/position")
     page.keyboard.press("Space")
+    opened.until("reina.playing && reina.songTime > 0.2")
+    begun, at = opened.measure("drawnFrom"), opened.parameter("camera/position")
     opened.until(f"([x]) => reina.songTime > 1 && {AWAY.format('reina.parameter(`camera/position`)')}", [at])
     assert opened.measure("drawnFrom") == pytest.approx(begun, abs=1e-6)
 

@@ -27,10 +27,12 @@ describe("StillShots", () => {
     expect(drawn(still, 2.9, 1.3, 2)).toBe(2.9);
   });
 
-  it("begins anew after a seek or an edit", () => {
+  it("begins anew after a seek or an edit of the camera, and goes on through play and pause", () => {
     const still = new StillShots();
     drawn(still, 0, 0, 0);
     expect(drawn(still, 0.3, 8, 0, 1)).toBe(0.3);
     expect(drawn(still, 0.35, 8.1, 0, 1)).toBe(0.3);
+    expect(drawn(still, 0.36, 8.12, 0, 2)).toBe(0.3);
+    expect(drawn(still, 0.8, 8.12, 0, 3)).toBe(0.8);
   });
 });

@@ -15,6 +15,8 @@ export interface Moment {
 /** A drive goes no faster than this, metres a second, and no frame rests more exactly than this, metres. */
 const DRIVE_M_S = 2;
 const REST_M = 0.05;
+/** Further than this between two pictures of different epochs is a seek, seconds; nearer they may be play or pause. */
+const SEEK_S = 0.5;
 const ZOOM_RAD_S = 0.6;
 const REST_RAD = 0.02;
 
@@ -23,17 +25,22 @@ export class StillShots {
   readonly #last: ShowPose = { position: new Vector3(), target: new Vector3(), fov: 0, roll: 0 };
   #lastMoment: Moment | null = null;
 
-  /** Put in a frame's pose what was seen first of its shot; seeking and editing begin it anew. */
+  /** Put in a frame's pose what was seen first of its shot; a seek begins it anew, and an edit of the camera. */
   still(pose: ShowPose, moment: Moment): void {
-    const before = this.#lastMoment;
-    const begins =
-      before === null ||
-      before.epoch !== moment.epoch ||
-      (before.cuts !== moment.cuts && this.#jumped(pose, Math.abs(moment.songTime - before.songTime)));
+    const begins = this.#begins(pose, moment);
     copy(pose, this.#last);
     this.#lastMoment = { songTime: moment.songTime, epoch: moment.epoch, cuts: moment.cuts };
     if (begins) copy(pose, this.#held);
     else copy(this.#held, pose);
+  }
+
+  #begins(pose: ShowPose, moment: Moment): boolean {
+    const before = this.#lastMoment;
+    if (before === null) return true;
+    const seconds = Math.abs(moment.songTime - before.songTime);
+    const changed = before.epoch !== moment.epoch;
+    if (changed && seconds > SEEK_S) return true;
+    return (changed || before.cuts !== moment.cuts) && this.#jumped(pose, seconds);
   }
 
   /** A cut may be a light's alone: then the camera has gone no further than it drives. */

@@ -2,7 +2,7 @@ import { nextRate } from "./rates";
 import { phrasesOf } from "./overview";
 import type { Reina } from "./reina.svelte";
 import { neighbouringBarLine } from "./score-time";
-import { focusOrigin } from "./focus-origin";
+import { focusOrigin } from "./page-focus";
 import { keyTargetOf, ownsKey } from "./key-owner";
 import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";

@@ -11,8 +11,11 @@ export class FocusOrigin {
   /** @param page whose events are listened to, before anything below it hears them */
   constructor(page: Pick<Window, "addEventListener">) {
     const early = { capture: true };
-    page.addEventListener("pointerdown", () => (this.#pressed = this.#byPointer = true), early);
-    for (const type of ["pointerup", "pointercancel"] as const) {
+    // After a touch the focus moves with the mouse's events that follow the pointer's.
+    for (const type of ["pointerdown", "mousedown"] as const) {
+      page.addEventListener(type, () => (this.#pressed = this.#byPointer = true), early);
+    }
+    for (const type of ["pointerup", "pointercancel", "mouseup"] as const) {
       page.addEventListener(type, () => (this.#pressed = false), early);
     }
     page.addEventListener("focusin", () => (this.#byPointer = this.#pressed), early);
@@ -22,6 +25,3 @@ export class FocusOrigin {
     return this.#byPointer;
   }
 }
-
-/** Of this page. */
-export const focusOrigin = new FocusOrigin(window);

@@ -232,12 +232,16 @@ export class SessionView {
 
   async #request(command: TransportCommand): Promise<TransportState | null> {
     const { token } = this;
-    let state: TransportState | null = null;
-    await this.#attempt(async () => {
-      if (token !== null) state = await this.#surroundings.api.control(this.id, command, token);
-    });
-    if (state !== null) this.#setTransport(state);
-    return state;
+    if (token === null) return null;
+    try {
+      const state = await this.#surroundings.api.control(this.id, command, token);
+      this.#surroundings.answered();
+      this.#setTransport(state);
+      return state;
+    } catch (error) {
+      this.#fail(error);
+      return null;
+    }
   }
 
   async #attempt(action: () => Promise<void>): Promise<void> {
@@ -245,8 +249,12 @@ export class SessionView {
       await action();
       this.#surroundings.answered();
     } catch (error) {
-      if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
+      this.#fail(error);
     }
+  }
+
+  #fail(error: unknown): void {
+    if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
   }
 
   #receive(message: ServerMessage): void {

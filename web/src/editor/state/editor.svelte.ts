@@ -158,7 +158,10 @@ export class Editor {
     this.edit(says, edits);
     const made = this.store.made;
     const undo = { label: "Undo", run: () => this.store.undo() };
-    this.reina.word(says, "", { actions: [undo], over: () => this.store.made !== made });
+    this.reina.word(says, "", {
+      actions: [undo],
+      over: () => this.store.made !== made || this.reina.view !== this.view,
+    });
   }
 
   /** The place near a song time that the switched-on snaps draw it to. `free` leaves it where it is. */

@@ -37,7 +37,7 @@ describe("findParameters", () => {
 
   it("knows what people call things", () => {
     expect(found("zoom")).toEqual(["camera/fov"]);
-    expect(found("blur")).toEqual(["camera/aperture", "camera/focus_distance"]);
+    expect(found("blur")).toEqual(["camera/aperture"]);
     expect(found("toon")).toEqual(["look/style"]);
     expect(found("glow")[0]).toBe("stage/bloom/strength");
   });

@@ -16,7 +16,7 @@ const SYNONYMS: Readonly<Record<string, readonly string[]>> = {
   fill: ["soft light"],
   finish: ["lacquer", "silver", "gold", "brass"],
   floor: ["ground"],
-  focus: ["blur", "sharpness", "depth of field", "dof"],
+  focus: ["sharpness"],
   fog: ["mist", "smoke", "haze"],
   fov: ["zoom", "lens", "focal length", "field of view", "angle of view"],
   haze: ["fog", "beam", "smoke", "volumetric"],
