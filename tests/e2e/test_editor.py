@@ -178,7 +178,7 @@ def test_values_and_ways_are_set_by_their_fields(show: ShowPage) -> None:
     fill(show, page.get_by_label("Marker's name"), "Entry")
     show.until_saved()
     assert {marker["name"] for marker in show.client.get(show.path).json()["markers"]} == {"Theme", "Entry"}
-    page.get_by_role("button", name="The show", exact=True).click()
+    page.get_by_role("button", name="Evening, the show").click()
     fill(show, page.get_by_label("Title"), "Dawn")
     assert show.client.get(show.path).json()["title"] == "Dawn"
 

@@ -16,6 +16,7 @@ from reina.api import (
     curves,
     examples,
     export,
+    files,
     frames,
     library,
     page,
@@ -91,6 +92,7 @@ def create_app(
     app.state.now = now
     for module in (
         sessions,
+        files,
         frames,
         export,
         song,

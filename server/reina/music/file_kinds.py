@@ -21,6 +21,11 @@ class FileKind:
     def __str__(self) -> str:
         return f"this is {self.name}; {self.advice}"
 
+    @property
+    def is_recording(self) -> bool:
+        """Whether it is sound, to be sent as the song."""
+        return self.advice == RECORDING
+
 
 EXPORT = "export it as MIDI (.mid) from the program it is of"
 CONVERT = "convert it to MIDI (.mid)"

@@ -36,6 +36,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.CreatedSession,
     resources.SessionList,
     resources.Score,
+    resources.Cast,
     resources.ShowEdited,
     resources.ShowWarnings,
     timeline.ShowCurves,
@@ -45,6 +46,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.RigList,
     resources.ShowParameterList,
     resources.ExampleList,
+    resources.FileRole,
     resources.Health,
     resources.Problem,
 )
@@ -61,6 +63,7 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *FROM_VIEWER,
     *COMMANDS,
     resources.SessionChange,
+    resources.CastFields,
     timeline.CurvePreview,
 )
 """What the server is sent: fields with a default may be left out."""

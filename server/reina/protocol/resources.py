@@ -1,6 +1,6 @@
 """The bodies of the HTTP interface."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, Json
 
@@ -235,6 +235,17 @@ class Cast(WireModel):
 
     sequence: int
     castings: list[Casting]
+
+
+class FileRole(WireModel):
+    """What a file is, by what stands in it."""
+
+    role: Literal["score", "song", "show"] | None
+    """As what it can be sent; null: as nothing."""
+    name: str
+    """What it is: `a MIDI file`, `a PDF`."""
+    advice: str
+    """What to send in its place; empty where it can be sent."""
 
 
 class InstrumentSummary(WireModel):

@@ -12,13 +12,17 @@ from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.instruments import Cast
+from reina.music import ScoreError
 from reina.sessions.description import warned
+from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, Role, role_of
+from reina.sessions.file_role import SHOW as SHOW_DOCUMENT
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.workers.reader import Reader
+from reina.show import ShowError
 from reina.sound.recording.decoder import SongDecoder
 from reina.system.atomic_write import write_atomically
 
@@ -139,11 +143,23 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
-        production = await self._plan(draft.folder / draft.score, draft.score_filename, draft.cast)
+        try:
+            production = await self._plan(draft.folder / draft.score, draft.score_filename, draft.cast)
+        except ScoreError as error:
+            if await asyncio.to_thread(_role_of_file, draft.folder / draft.score) == "show":
+                raise ScoreError("this is a show; send it as the show, beside a score") from error
+            raise
         song = None if draft.song is None else await self._keep_song(draft.folder / draft.song)
         if draft.show is not None:
             show_file = draft.folder / draft.show
-            show = await self.reader.show(await asyncio.to_thread(show_file.read_bytes), production.registry)
+            data = await asyncio.to_thread(show_file.read_bytes)
+            try:
+                show = await self.reader.show(data, production.registry)
+            except ShowError as error:
+                sent = await asyncio.to_thread(role_of, data)
+                if sent in {SHOW_DOCUMENT, OTHER_JSON}:
+                    raise
+                raise ShowError(f"this is {sent.name}, not a show") from error
             await asyncio.to_thread(show_file.unlink)
             production = await asyncio.to_thread(production.with_show, show)
         return self._admit(
@@ -227,6 +243,10 @@ class SessionStore:
                 await session.change_show(production, kept)
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
         return kept
+
+    def score_file(self, session: Session) -> Path:
+        """The file that a session was made of, as it was sent."""
+        return self._folders.folder(session.id) / SCORE
 
     async def delete(self, session: Session) -> None:
         """End a session and remove everything of it.
@@ -388,3 +408,8 @@ class SessionStore:
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:
     write_atomically(folder / SHOW, kept.text.text.encode())
+
+
+def _role_of_file(path: Path) -> Role | None:
+    with path.open("rb") as file:
+        return role_of(file.read(LOOKED_AT_BYTES)).role

@@ -12,6 +12,8 @@ export interface QueuedFrame {
   index: number;
   epoch: number;
   playing: boolean;
+  /** How many frames that are cuts were come to so far. */
+  cuts: number;
   /** Behind the header: joint quaternions, root positions, parameters, at the manifest's offsets less 24 bytes. */
   readonly floats: Float32Array;
 }
@@ -53,7 +55,7 @@ export class FrameQueue {
     });
     this.#epoch = epoch % EPOCHS;
     const floats = new Float32Array(this.#blend.length);
-    this.#drawn = { songTime: 0, index: 0, epoch: this.#epoch, playing: false, floats };
+    this.#drawn = { songTime: 0, index: 0, epoch: this.#epoch, playing: false, cuts: 0, floats };
   }
 
   /** How many frames are held. */
@@ -136,6 +138,7 @@ export class FrameQueue {
   #dropFirst(): void {
     this.#first = (this.#first + 1) % this.#slots.length;
     this.#count -= 1;
+    if (this.#count > 0 && this.#slot(0).frame.cut) this.#drawn.cuts += 1;
   }
 
   #slot(place: number): Slot {

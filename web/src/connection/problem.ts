@@ -30,6 +30,11 @@ export class ProblemError extends Error {
     return this.status === 412;
   }
 
+  /** The server could not be reached. */
+  get isUnanswered(): boolean {
+    return this.status === 0;
+  }
+
   /** This page may watch the session, but not change it. */
   get isForbidden(): boolean {
     return this.status === 401 || this.status === 403;

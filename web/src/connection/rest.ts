@@ -1,7 +1,11 @@
 import type {
+  Cast,
+  CastFields,
+  CastingFields,
   CreatedSession,
   Example,
   ExampleList,
+  FileRole,
   Score,
   Session,
   SessionChange,
@@ -17,7 +21,13 @@ export interface SessionFiles {
   readonly score: File;
   readonly song?: File;
   readonly show?: File;
+  /** Who plays what, and what to call it, where that is not left to the server. */
+  readonly cast?: Cast;
+  readonly title?: string;
 }
+
+/** So much of a file's beginning says what it is. */
+const BEGINNING_BYTES = 65_536;
 
 /** The server's calls, typed. Each throws ProblemError when the server refuses or does not answer. */
 export class ReinaApi {
@@ -38,6 +48,8 @@ export class ReinaApi {
     form.append("score", files.score);
     if (files.song !== undefined) form.append("song", files.song);
     if (files.show !== undefined) form.append("show", files.show);
+    if (files.title !== undefined) form.append("title", files.title);
+    if (files.cast !== undefined) form.append("cast", JSON.stringify(castFields(files.cast)));
     return this.#json("POST", `${this.#base}/sessions`, { body: form });
   }
 
@@ -55,6 +67,22 @@ export class ReinaApi {
 
   score(id: string): Promise<Score> {
     return this.#json("GET", `${this.#sessionPath(id)}/score`);
+  }
+
+  /** The file that a session was made of. */
+  async scoreFile(id: string): Promise<File> {
+    const response = await this.request("GET", this.sessionPath(id, "score/file"));
+    return new File([await response.blob()], "score");
+  }
+
+  cast(id: string): Promise<Cast> {
+    return this.#json("GET", this.sessionPath(id, "cast"));
+  }
+
+  /** What a file is, by its content. */
+  fileRole(file: File): Promise<FileRole> {
+    const path = `${this.#base}/files/role?filename=${encodeURIComponent(file.name)}`;
+    return this.#json("POST", path, { body: file.slice(0, BEGINNING_BYTES, "application/octet-stream") });
   }
 
   transport(id: string): Promise<TransportState> {
@@ -117,4 +145,23 @@ export class ReinaApi {
   async #json<T>(method: string, path: string, options?: Parameters<ReinaApi["request"]>[2]): Promise<T> {
     return (await (await this.request(method, path, options)).json()) as T;
   }
+}
+
+/** Of a cast what is chosen: the rest is what the server found. */
+function castFields({ sequence, castings }: Cast): CastFields {
+  return {
+    sequence,
+    castings: castings.map(
+      ({ part, instrument, player, seat, transposition, written, octave_fit, joined_parts }): CastingFields => ({
+        part,
+        instrument,
+        player,
+        seat,
+        transposition,
+        written,
+        octave_fit,
+        joined_parts,
+      }),
+    ),
+  };
 }

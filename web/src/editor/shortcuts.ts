@@ -11,7 +11,7 @@ import {
 } from "./commands/keys";
 import { addMarker, removeMarker } from "./commands/markers";
 import { goToKey, showChosen } from "./commands/places";
-import { muteTrack, soloTrack } from "./commands/tracks";
+import { muteTrack, removeTrack, soloTrack } from "./commands/tracks";
 import { EDITOR_SHORTCUTS, type EditorAction } from "./shortcut-table";
 import type { Editor } from "./state/editor.svelte";
 
@@ -35,8 +35,10 @@ const ACTIONS: Readonly<Record<EditorAction, (editor: Editor) => void>> = {
   paste: (editor) => pasteKeys(editor),
   duplicate: (editor) => duplicateKeys(editor),
   remove: (editor) => {
-    if (editor.selection.size > 0) removeKeys(editor);
-    else if (editor.marker !== null) removeMarker(editor, editor.marker);
+    const { size, marker, track } = editor.selection;
+    if (size > 0) removeKeys(editor);
+    else if (marker !== null) removeMarker(editor, marker);
+    else if (track !== null) removeTrack(editor, track);
   },
   before: (editor) => goToKey(editor, -1),
   after: (editor) => goToKey(editor, 1),

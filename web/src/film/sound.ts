@@ -1,7 +1,7 @@
 /** The song's sound of a film's span. */
 
 import type { ReinaApi } from "../connection";
-import { loadSong } from "../sound";
+import { loadWhole } from "../sound";
 
 /** What encoders of AAC and Opus both take. */
 export const SAMPLE_RATE = 48_000;
@@ -31,7 +31,7 @@ export async function loadSound(
   signal: AbortSignal,
   onProgress: (share: number) => void,
 ): Promise<FilmSound> {
-  const bytes = await loadSong(api, href, signal, onProgress);
+  const bytes = await loadWhole(api, href, signal, onProgress);
   signal.throwIfAborted();
   const song = await decode(bytes);
   signal.throwIfAborted();

@@ -34,7 +34,8 @@ export function drawOverview(context: CanvasRenderingContext2D, overview: Overvi
   drawBars(context, overview, ink);
   const range = pitchRange(score.notes);
   context.fillStyle = ink.others;
-  for (const note of score.notes) if (note.player !== 0) drawNote(context, overview, note, range, 1.5);
+  for (const note of score.notes)
+    if (note.player !== 0 || note.valves === null) drawNote(context, overview, note, range, 1.5);
   context.fillStyle = ink.played;
   for (const note of played) drawNote(context, overview, note, range, 3);
   context.fillStyle = ink.phrase;

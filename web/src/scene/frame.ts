@@ -12,6 +12,8 @@ export interface DrawnFrame {
   readonly index: number;
   readonly epoch: number;
   readonly playing: boolean;
+  /** How many frames that are cuts were come to so far; the difference from picture to picture counts. */
+  readonly cuts?: number;
   /** The frame from byte 24 on: joint quaternions of all skeletons, root positions, parameters. */
   readonly floats: Float32Array;
 }

@@ -17,6 +17,7 @@ import { createRenderer } from "./renderer";
 import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show-binding";
+import { StillShots } from "./still-shots";
 import { dressSurfaces } from "./surfaces";
 import { OUTLINE, OUTLINE_LAYER } from "./toon";
 import { TIERS, type Tier, type TierSettings } from "./tiers";
@@ -54,6 +55,8 @@ export class Stage {
   readonly #picture: Picture;
   readonly #look = new PlayerLook();
   readonly #show: ShowBinding;
+  /** Where less motion is wanted. */
+  readonly #still: StillShots | null;
   #models: RigModel[] = [];
   #bell: Bell | null = null;
   #drawnIndex = -1;
@@ -75,6 +78,7 @@ export class Stage {
     this.#tier = TIERS[options.tier];
     const transparent = options.transparent ?? false;
     this.#transparent = transparent;
+    this.#still = options.reducedMotion ? new StillShots() : null;
     this.#canvas = canvas;
     this.#renderer = createRenderer(canvas, this.#tier, transparent);
     const scene = this.#scene;
@@ -196,6 +200,8 @@ export class Stage {
     this.#songTime = frame.songTime;
     for (const model of this.#models) model.pose(floats);
     this.#show.apply(floats, frame.songTime);
+    const { songTime, epoch, cuts } = frame;
+    if (cuts !== undefined) this.#still?.still(this.#camera.show, { songTime, epoch, cuts });
     this.#blocks.scroll(frame.songTime);
     if (this.#render()) this.#drawnIndex = frame.index;
   }

@@ -38,12 +38,26 @@ export async function loadSegment(
   return whenMade(api, `${href}/${segment}`, signal);
 }
 
-/** The bytes of a whole song; one that is still being made is waited for. */
-export async function loadWhole(api: ReinaApi, href: string, signal: AbortSignal): Promise<ArrayBuffer> {
-  return whenMade(api, href, signal);
+/**
+ * The bytes of a whole song; one that is still being made is waited for.
+ *
+ * @param onProgress told the share of it that the server has made, 0…1
+ */
+export async function loadWhole(
+  api: ReinaApi,
+  href: string,
+  signal: AbortSignal,
+  onProgress?: (share: number) => void,
+): Promise<ArrayBuffer> {
+  return whenMade(api, href, signal, onProgress);
 }
 
-async function whenMade(api: ReinaApi, href: string, signal: AbortSignal): Promise<ArrayBuffer> {
+async function whenMade(
+  api: ReinaApi,
+  href: string,
+  signal: AbortSignal,
+  onProgress?: (share: number) => void,
+): Promise<ArrayBuffer> {
   for (;;) {
     const response = await api.request("GET", href, { signal });
     if (response.status !== 202) return response.arrayBuffer();
@@ -51,6 +65,7 @@ async function whenMade(api: ReinaApi, href: string, signal: AbortSignal): Promi
     if (song.status === "failed") {
       throw new ProblemError({ status: 502, title: "The sound could not be made", detail: "", errors: [] });
     }
+    onProgress?.(song.progress ?? 0);
     await pause(PAUSE_S, signal);
   }
 }

@@ -2,7 +2,9 @@ import { nextRate } from "./rates";
 import { phrasesOf } from "./overview";
 import type { Reina } from "./reina.svelte";
 import { neighbouringBarLine } from "./score-time";
-import { keepsKey, shortcutOf, type Action } from "./shortcuts";
+import { focusOrigin } from "./page-focus";
+import { keyTargetOf, ownsKey } from "./key-owner";
+import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames } from "./storage";
 import type { CameraView } from "../scene";
@@ -38,6 +40,8 @@ export class Deck {
   filmOpen = $state(false);
   helpOpen = $state(false);
   cameraTaken = $state(false);
+  /** Files are held over the page. */
+  dropping = $state(false);
   /** The window has room for one panel at a time. */
   narrow = $state(false);
   /** Filled by the components that can do these things. */
@@ -46,14 +50,14 @@ export class Deck {
 
   readonly #actions: Readonly<Record<Action, (view: SessionView) => unknown>> = {
     toggle: () => this.reina.toggle(),
-    back: (view) => view.seek(view.songTime - STEP_S),
-    forward: (view) => view.seek(view.songTime + STEP_S),
-    barBack: (view) => view.seek(neighbouringBarLine(view.score, view.songTime, -1, view.duration)),
-    barForward: (view) => view.seek(neighbouringBarLine(view.score, view.songTime, 1, view.duration)),
+    back: (view) => view.seek(view.here - STEP_S),
+    forward: (view) => view.seek(view.here + STEP_S),
+    barBack: (view) => view.seek(neighbouringBarLine(view.score, view.here, -1, view.duration)),
+    barForward: (view) => view.seek(neighbouringBarLine(view.score, view.here, 1, view.duration)),
     begin: (view) => view.seek(0),
     end: (view) => view.seek(view.duration),
-    slower: (view) => view.setRate(nextRate(view.transport.rate, -1)),
-    faster: (view) => view.setRate(nextRate(view.transport.rate, 1)),
+    slower: (view) => view.setRate(nextRate(view.rate, -1)),
+    faster: (view) => view.setRate(nextRate(view.rate, 1)),
     loopStart: (view) => this.#setLoopStart(view),
     loopEnd: (view) => this.#setLoopEnd(view),
     loopOff: (view) => view.setLoop(view.transport.loop === null ? phraseAt(view) : null),
@@ -90,11 +94,10 @@ export class Deck {
 
   /** Take a key press; returns whether it was one of the page's own. */
   press(event: KeyboardEvent): boolean {
-    if (isTyping(event.target) || event.defaultPrevented) return false;
-    if ((event.key === "Enter" || event.key === " ") && isPressable(event.target)) return false;
+    const target = keyTargetOf(event.target);
+    if (event.defaultPrevented || (target !== null && ownsKey(target, event.key, focusOrigin.byPointer))) return false;
     if (this.hands.pressInShow?.(event) === true) return true;
     if (event.key === "Escape") return this.#escape();
-    if (event.target instanceof HTMLInputElement && keepsKey(event.target.type, event.key)) return false;
     const shortcut = shortcutOf(event, event.target instanceof HTMLCanvasElement);
     if (shortcut === null) return false;
     const { view } = this.reina;
@@ -145,19 +148,23 @@ export class Deck {
   }
 
   #setLoopStart(view: SessionView): unknown {
-    this.#loopStart = view.songTime;
+    this.#loopStart = view.here;
     const end = view.transport.loop?.end_s;
-    if (end !== undefined && end > view.songTime + SHORTEST_LOOP_S) {
-      return view.setLoop({ start: view.songTime, end });
+    if (end !== undefined && end > view.here + SHORTEST_LOOP_S) {
+      return view.setLoop({ start: view.here, end });
     }
-    this.reina.word("The loop begins here", "Press ] where it should end.");
+    this.reina.word("The loop begins here", "Press ] where it should end.", {
+      over: () => view.transport.loop !== null || this.reina.view !== view,
+    });
     return undefined;
   }
 
   #setLoopEnd(view: SessionView): unknown {
     const start = this.#loopStart ?? view.transport.loop?.start_s ?? 0;
-    if (view.songTime > start + SHORTEST_LOOP_S) return view.setLoop({ start, end: view.songTime });
-    this.reina.word("The loop must end after it begins", "Move on a little, then press ] again.");
+    if (view.here > start + SHORTEST_LOOP_S) return view.setLoop({ start, end: view.here });
+    this.reina.word("The loop must end after it begins", "Move on a little, then press ] again.", {
+      over: () => view.songTime > start + SHORTEST_LOOP_S || this.reina.view !== view,
+    });
     return undefined;
   }
 
@@ -168,17 +175,7 @@ export class Deck {
 
 /** The phrase that is played, or the next one; the whole piece without any. */
 function phraseAt(view: SessionView): { start: number; end: number } {
-  const phrase = phrasesOf(view.playedNotes).find(({ end }) => end > view.songTime + 0.02);
+  const phrase = phrasesOf(view.line).find(({ end }) => end > view.here + 0.02);
   const { start, end } = phrase ?? { start: 0, end: view.duration };
   return { start, end: Math.min(Math.max(end, start + SHORTEST_LOOP_S), view.duration) };
-}
-
-function isTyping(target: EventTarget | null): boolean {
-  if (!(target instanceof HTMLElement)) return false;
-  if (target instanceof HTMLInputElement) return target.type !== "checkbox" && target.type !== "radio";
-  return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || target.isContentEditable;
-}
-
-function isPressable(target: EventTarget | null): boolean {
-  return target instanceof HTMLElement && target.closest("button, a, summary, label, input") !== null;
 }

@@ -1,22 +1,20 @@
 import { ProblemError, ReinaApi, type SessionFiles } from "../connection";
 import type { Example, ShowParameter } from "../generated/protocol";
-import { sortFiles, type SortedFiles } from "./dropped-files";
+import { audioLength } from "../sound";
+import { namesOf, sortFiles } from "./dropped-files";
+import { Notices, type NoticeOptions } from "./notices.svelte";
 import { removePoster } from "./posters";
+import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
 import { remember, remembered, rememberToken } from "./storage";
 
-/** Something the person should know; it stays until it is put away or its time is over. */
-export interface Notice {
-  readonly id: number;
-  readonly kind: "problem" | "word";
-  readonly title: string;
-  readonly detail: string;
-  readonly lines: readonly string[];
-}
-
 export type Phase = "opening" | "open" | "unknown" | "failed";
 
-const WORD_S = 6;
+/** A recording is of a piece that is longer or shorter by this share at most, or by a lead-in and an end's. */
+const ALIKE_SHARE = 0.15;
+const ALIKE_S = 5;
+/** How many files that were left aside get a button each. */
+const OFFERED = 2;
 const SESSION_PATH = /^\/s\/([^/]+)\/?$/;
 
 /** The page: which session is open, what is being done, what went wrong. */
@@ -26,16 +24,15 @@ export class Reina {
   phase = $state<Phase>("opening");
   /** What the page is busy with, in a few words; null when with nothing. */
   busy = $state<string | null>(null);
-  notices = $state.raw<readonly Notice[]>([]);
+  readonly notices = new Notices();
   parameters = $state.raw<readonly ShowParameter[]>([]);
   examples = $state.raw<readonly Example[]>([]);
   volume = $state(remembered().volume);
   muted = $state(remembered().muted);
   hasPlayed = $state(remembered().hasPlayed);
 
-  /** The score's file of each session that this page made, so that a song can be added to it. */
-  readonly #scores: Record<string, File | undefined> = {};
-  #nextNotice = 0;
+  /** A recording that waits for its score. */
+  #kept: File | null = null;
   #opening = 0;
 
   constructor(api = new ReinaApi()) {
@@ -63,6 +60,7 @@ export class Reina {
       const view = await SessionView.open(id, token, {
         api: this.api,
         tell: (error) => this.tell(error),
+        answered: () => this.notices.answered(),
         gone: () => this.#lose("unknown"),
       });
       if (opening !== this.#opening) {
@@ -91,31 +89,93 @@ export class Reina {
   }
 
   /** Make of dropped or chosen files what can be made of them: a new session, a song or a show for the open one. */
-  async openFiles(files: Iterable<File>): Promise<void> {
-    const sorted = await sortFiles(files);
-    if (sorted.unknown.length > 0) {
-      this.problem(
-        `${sorted.unknown.join(", ")} cannot be used`,
-        "Drop a MIDI or JSON score, and an audio file if you have one.",
-      );
-    }
-    const { score, song, show } = sorted;
-    if (score !== null) await this.#make(`Reading ${score.name}`, () => withoutNull(score, sorted));
-    else if (song !== null) await this.addSong(song);
-    else if (show !== null) await this.putShow(show);
+  async openFiles(files: readonly File[]): Promise<void> {
+    await this.attempt(`Looking at ${namesOf(files)}`, async () => {
+      const { scores, songs, shows, unusable } = await sortFiles(files, (file) => this.api.fileRole(file));
+      const [score, song, show] = [scores[0], songs[0], shows[0]];
+      const aside = [...scores.slice(1), ...songs.slice(1), ...shows.slice(1)];
+      if (score !== undefined) await this.#openScore(score, song, show, aside);
+      else if (song !== undefined) await this.#askAboutSong(song);
+      else if (show !== undefined) await this.putShow(show);
+      const [first] = unusable;
+      if (first !== undefined && (this.notices.current === null || score === undefined)) {
+        const lines = unusable.slice(1).map(({ file, told }) => `${file.name}: ${told.name}`);
+        this.problem(`${first.file.name} cannot be used: it is ${first.told.name}`, first.told.advice, { lines });
+      }
+    });
   }
 
-  /** A new session of the open one's score with a recording. */
-  async addSong(song: File): Promise<void> {
-    const view = this.view;
-    const score = view === null ? undefined : this.#scores[view.id];
-    if (view === null || score === undefined) {
-      this.problem("A recording needs its score", `Drop the MIDI or JSON score together with ${song.name}.`);
+  /** Open a score, with a recording that waited for it, and offer the scores that came with it. */
+  async #openScore(
+    score: File,
+    song = this.#kept ?? undefined,
+    show?: File,
+    aside: readonly File[] = [],
+  ): Promise<void> {
+    this.#kept = null;
+    const made = await this.#make(`Reading ${score.name}`, () => ({
+      score,
+      ...(song === undefined ? {} : { song }),
+      ...(show === undefined ? {} : { show }),
+    }));
+    if (!made || aside.length === 0) return;
+    const { view } = this;
+    this.notices.say(
+      "question",
+      `This is ${score.name}`,
+      `${namesOf(aside)} came with it, and one is played at a time.`,
+      {
+        actions: aside.slice(0, OFFERED).map((file) => ({
+          label: `Open ${file.name}`,
+          run: () => this.openFiles([file]),
+        })),
+        over: () => this.view !== view,
+      },
+    );
+  }
+
+  /** Nobody can tell by an audio file what it is a recording of: the person can. */
+  async #askAboutSong(song: File): Promise<void> {
+    const length = await audioLength(song);
+    const { view } = this;
+    const lasts = length === null ? "" : `It lasts ${clockTime(length)}`;
+    const keep = {
+      label: "Keep it for the next score",
+      run: () => {
+        this.#kept = song;
+        this.word(`${song.name} is kept`, "It plays with the score that you open next.");
+      },
+    };
+    if (view === null) {
+      keep.run();
       return;
     }
+    const { title } = view.session;
+    const unlike = length !== null && Math.abs(length - view.duration) > Math.max(ALIKE_SHARE * view.duration, ALIKE_S);
+    const than = `${title} ${clockTime(view.duration)}`;
+    this.notices.say(
+      "question",
+      `What is ${song.name} a recording of?`,
+      length === null ? `${than} is open.` : `${lasts}, ${than}${unlike ? ": hardly the same music." : "."}`,
+      {
+        actions: [{ label: `Play it with ${title}`, run: () => this.addSong(song) }, keep],
+        over: () => this.view !== view,
+      },
+    );
+  }
+
+  /** A new session of the open one's score, cast and show, with a recording; the server keeps it. */
+  async addSong(song: File): Promise<void> {
+    const { view } = this;
+    if (view === null) return;
     await this.#make(`Adding ${song.name}`, async () => {
-      const show = new File([JSON.stringify(await this.#showDocument(view.id))], "show.json");
-      return { score, song, show };
+      const [score, cast, document] = await Promise.all([
+        this.api.scoreFile(view.id),
+        this.api.cast(view.id),
+        this.#showDocument(view.id),
+      ]);
+      const show = new File([JSON.stringify(document)], "show.json");
+      return { score, song, show, cast, title: view.session.title };
     });
   }
 
@@ -151,6 +211,8 @@ export class Reina {
 
   /** Do something that takes a moment, and tell what goes wrong. Returns whether it went well. */
   async attempt(busy: string, action: () => Promise<void>): Promise<boolean> {
+    const before = this.busy;
+    this.notices.clear();
     this.busy = busy;
     try {
       await action();
@@ -159,41 +221,22 @@ export class Reina {
       this.tell(error);
       return false;
     } finally {
-      this.busy = null;
+      this.busy = before;
     }
   }
 
   /** Show what went wrong in the words that came with it. */
   tell(error: unknown): void {
-    if (error instanceof ProblemError) {
-      const lines = error.errors.map(({ location, detail }) => (location === null ? detail : `${location}: ${detail}`));
-      this.problem(error.title, error.detail, lines);
-    } else if (error instanceof SyntaxError) {
-      this.problem("This is not JSON", error.message);
-    } else {
-      this.problem("Something went wrong in the page", error instanceof Error ? error.message : String(error));
-    }
+    this.notices.tell(error);
   }
 
-  problem(title: string, detail: string, lines: readonly string[] = []): void {
-    this.#notice({ kind: "problem", title, detail, lines });
+  problem(title: string, detail: string, options?: NoticeOptions): void {
+    this.notices.say("problem", title, detail, options);
   }
 
   /** Say something in passing. */
-  word(title: string, detail = ""): void {
-    const id = this.#notice({ kind: "word", title, detail, lines: [] });
-    setTimeout(() => this.dismiss(id), WORD_S * 1000);
-  }
-
-  dismiss(id: number): void {
-    this.notices = this.notices.filter((notice) => notice.id !== id);
-  }
-
-  #notice(notice: Omit<Notice, "id">): number {
-    const id = this.#nextNotice++;
-    const others = this.notices.filter(({ title, detail }) => title !== notice.title || detail !== notice.detail);
-    this.notices = [...others.slice(-2), { ...notice, id }];
-    return id;
+  word(title: string, detail = "", options?: NoticeOptions): void {
+    this.notices.say("word", title, detail, options);
   }
 
   async #readLists(): Promise<void> {
@@ -209,7 +252,7 @@ export class Reina {
       return;
     }
     this.phase = "opening";
-    this.notices = [];
+    this.notices.clear();
     let first: Example | undefined;
     try {
       first = (await this.api.examples())[0];
@@ -225,18 +268,18 @@ export class Reina {
     }
   }
 
-  async #make(busy: string, files: () => SessionFiles | Promise<SessionFiles>): Promise<void> {
+  async #make(busy: string, files: () => SessionFiles | Promise<SessionFiles>): Promise<boolean> {
     const wasHome = SESSION_PATH.exec(location.pathname) === null;
-    await this.attempt(busy, async () => {
+    const made = await this.attempt(busy, async () => {
       const given = await files();
       const made = await this.api.createSession(given);
       rememberToken(made.id, made.control_token);
-      this.#scores[made.id] = given.score;
       if (wasHome) history.replaceState(null, "", addressOf(made.id));
       else history.pushState(null, "", addressOf(made.id));
       await this.open(made.id);
     });
     if (this.view === null && this.phase === "opening") this.phase = "failed";
+    return made;
   }
 
   async #showDocument(id: string): Promise<unknown> {
@@ -263,8 +306,4 @@ export class Reina {
 /** A session's address in the browser; what the address asks for beside it (`?tier=`) stays. */
 function addressOf(id: string): string {
   return `/s/${encodeURIComponent(id)}${location.search}`;
-}
-
-function withoutNull(score: File, { song, show }: SortedFiles): SessionFiles {
-  return { score, ...(song === null ? {} : { song }), ...(show === null ? {} : { show }) };
 }

@@ -31,7 +31,9 @@ import {
   WholeSong,
   type SoundState,
 } from "../sound";
+import { lineNotes } from "./line-notes";
 import { SyncMeasure } from "./sync-measure";
+import { TransportQueue } from "./transport-queue";
 
 const CHECK_INTERVAL_MS = 100;
 const SHARE_INTERVAL_MS = 1000;
@@ -45,6 +47,8 @@ export interface Surroundings {
   readonly api: ReinaApi;
   /** Show what went wrong. */
   tell(error: unknown): void;
+  /** The server has answered. */
+  answered(): void;
   /** The session is gone from the server. */
   gone(): void;
 }
@@ -81,7 +85,12 @@ export class SessionView {
   /** The notes of the parts that the first player plays, by onset. */
   readonly playedNotes: readonly WireNote[] = $derived.by(() => this.score.notes.filter((note) => note.player === 0));
 
+  /** Of these the ones that sound, one at a time. */
+  readonly line: readonly WireNote[] = $derived.by(() => lineNotes(this.playedNotes));
+
   readonly #surroundings: Surroundings;
+  readonly #commands = new TransportQueue((command) => this.#request(command));
+  #changes: Promise<void> = Promise.resolve();
   readonly #stream: Stream;
   readonly #player: SongPlayer;
   readonly #checking: ReturnType<typeof setInterval>;
@@ -171,6 +180,16 @@ export class SessionView {
     return this.#player.held;
   }
 
+  /** Song time that a step goes on from, seconds: where the clock stands, or will once it has done what was asked. */
+  get here(): number {
+    return this.#commands.asked.songTime ?? this.#songTimeAt(performance.now() / 1000);
+  }
+
+  /** The rate that it plays at, or will. */
+  get rate(): number {
+    return this.#commands.asked.rate ?? this.transport.rate;
+  }
+
   /** Play, as soon as the sound of this place is there. */
   async play(): Promise<void> {
     void this.unlockSound();
@@ -185,7 +204,7 @@ export class SessionView {
 
   async toggle(): Promise<void> {
     if (this.starting) this.starting = false;
-    else await (this.playing ? this.pause() : this.play());
+    else await ((this.#commands.asked.playing ?? this.playing) ? this.pause() : this.play());
   }
 
   async seek(songTime: number): Promise<void> {
@@ -202,12 +221,16 @@ export class SessionView {
     await this.#control({ action: "loop", start_s: loop?.start ?? null, end_s: loop?.end ?? null });
   }
 
-  async change(change: SessionChange): Promise<void> {
+  /** Change the session, after the changes that are still on their way. */
+  change(change: SessionChange): Promise<void> {
     const { token } = this;
-    if (token === null) return;
-    await this.#attempt(async () => {
-      this.session = await this.#surroundings.api.changeSession(this.id, change, token);
-    });
+    if (token === null) return Promise.resolve();
+    this.#changes = this.#changes.then(() =>
+      this.#attempt(async () => {
+        this.session = await this.#surroundings.api.changeSession(this.id, change, token);
+      }),
+    );
+    return this.#changes;
   }
 
   /** Read what the server says of the session: its warnings change with the show. */
@@ -239,19 +262,34 @@ export class SessionView {
   }
 
   async #control(command: TransportCommand): Promise<void> {
+    if (this.token !== null) await this.#commands.add(command);
+  }
+
+  async #request(command: TransportCommand): Promise<TransportState | null> {
     const { token } = this;
-    if (token === null) return;
-    await this.#attempt(async () => {
-      this.#setTransport(await this.#surroundings.api.control(this.id, command, token));
-    });
+    if (token === null) return null;
+    try {
+      const state = await this.#surroundings.api.control(this.id, command, token);
+      this.#surroundings.answered();
+      this.#setTransport(state);
+      return state;
+    } catch (error) {
+      this.#fail(error);
+      return null;
+    }
   }
 
   async #attempt(action: () => Promise<void>): Promise<void> {
     try {
       await action();
+      this.#surroundings.answered();
     } catch (error) {
-      if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
+      this.#fail(error);
     }
+  }
+
+  #fail(error: unknown): void {
+    if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
   }
 
   #receive(message: ServerMessage): void {
@@ -315,6 +353,7 @@ export class SessionView {
 
   #connected(state: StreamState): void {
     this.connection = state;
+    if (state === "open") this.#surroundings.answered();
     if (state === "lost") void this.#lookWhetherGone();
   }
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { ariaKeys, hint, keepsKey, SHORTCUTS, shortcutOf, STAGE_SHORTCUTS, type KeyPress } from "./shortcuts";
+import { ariaKeys, hint, SHORTCUTS, shortcutOf, STAGE_SHORTCUTS, type KeyPress } from "./shortcuts";
 
 function press(key: string, change: Partial<KeyPress> = {}): KeyPress {
   return { key, shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, repeat: false, ...change };
@@ -19,12 +19,6 @@ describe("shortcuts", () => {
     expect(shortcutOf(press("f", { ctrlKey: true }))).toBeNull();
     expect(shortcutOf(press("ArrowLeft", { altKey: true }))).toBeNull();
     expect(shortcutOf(press("q"))).toBeNull();
-  });
-
-  it("leaves radio buttons the arrows that go through their group", () => {
-    expect(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"].every((key) => keepsKey("radio", key))).toBe(true);
-    expect(keepsKey("radio", "m")).toBe(false);
-    expect(keepsKey("checkbox", "ArrowDown")).toBe(false);
   });
 
   it("repeats only what is meant to be repeated", () => {

@@ -100,11 +100,6 @@ export function ariaKeys(action: Action): string {
 /** A key press as far as it matters here. */
 export type KeyPress = Pick<KeyboardEvent, "key" | "shiftKey" | "ctrlKey" | "metaKey" | "altKey" | "repeat">;
 
-/** Whether an input of a type needs a key itself: arrows go from one radio button of a group to the next. */
-export function keepsKey(inputType: string, key: string): boolean {
-  return inputType === "radio" && key.startsWith("Arrow");
-}
-
 /**
  * What a key press asks for; null for what is no shortcut, or a shortcut of the browser's own.
  *

@@ -48,6 +48,7 @@ BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
     ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,
     ("POST", "/sessions/{session_id}/show/curves"): TRACK,
+    ("POST", "/files/role"): BodyLimit(MEGABYTE, "file"),
     ("POST", "/lab/bvh"): CLIP,
     ("POST", "/lab/bvh/rewritten"): CLIP,
 }

@@ -1,5 +1,6 @@
 import { firstFrom } from "../state/key-times";
 import { hexOf } from "../state/parameter-value";
+import { cutSideOf, type CutSide } from "../state/shots";
 import type { ShowTrack } from "../state/show-document";
 import { INK } from "./ink";
 import { DIAMOND } from "./layout";
@@ -87,9 +88,10 @@ function drawMarks(
   const close = (): void => {
     if (opened < 0) return;
     const keyframe = track.keyframes[opened];
+    const side = small ? null : cutSideOf(track, times, opened);
     if (end - begin > DENSE) context.rect(begin - size * 0.7, y - size * 0.7, end - begin + size * 1.4, size * 1.4);
-    else if (isColor && !small) outline(context, begin, y, size, keyframe?.interpolation, hexOf(keyframe?.value));
-    else shape(context, begin, y, size, keyframe?.interpolation);
+    else if (isColor && !small) outline(context, begin, y, size, side, keyframe?.interpolation, hexOf(keyframe?.value));
+    else shape(context, begin, y, size, side, keyframe?.interpolation);
   };
   context.beginPath();
   for (let index = first; index < beyond; index += 1) {
@@ -97,7 +99,9 @@ function drawMarks(
     const time = times[index] ?? 0;
     const x = ((placing === null ? time : placing(time)) - view.from) * view.scale;
     if (x < -size || x > view.width + size) continue;
-    if (x - end < DENSE) {
+    // However near, the two sides of a cut are told apart: their marks point away from each other.
+    const cuts = index === opened + 1 && !small && cutSideOf(track, times, index) === "begin";
+    if (x - end < DENSE && !cuts) {
       end = x;
       continue;
     }
@@ -140,12 +144,13 @@ function outline(
   x: number,
   y: number,
   size: number,
+  side: CutSide,
   way: string | undefined,
   color: string,
 ): void {
   const before = context.fillStyle;
   context.beginPath();
-  shape(context, x, y, size, way);
+  shape(context, x, y, size, side, way);
   context.fillStyle = color;
   context.fill();
   context.lineWidth = 1.25;
@@ -155,15 +160,26 @@ function outline(
   context.beginPath();
 }
 
-/** A diamond; a square where the value jumps there. */
-function shape(context: CanvasRenderingContext2D, x: number, y: number, size: number, way: string | undefined): void {
+/** A diamond; a square where the value jumps there. Of a cut the end is a diamond's left half, the beginning a square's right. */
+function shape(
+  context: CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  size: number,
+  side: CutSide,
+  way: string | undefined,
+): void {
+  const half = size * 0.8;
+  if (side === "begin") {
+    context.rect(x, y - size, half, 2 * size);
+    return;
+  }
   if (way === "step") {
-    const half = size * 0.8;
     context.rect(x - half, y - half, 2 * half, 2 * half);
     return;
   }
   context.moveTo(x, y - size);
-  context.lineTo(x + size, y);
+  if (side === null) context.lineTo(x + size, y);
   context.lineTo(x, y + size);
   context.lineTo(x - size, y);
   context.closePath();

@@ -25,7 +25,7 @@ export function keyRows(editor: Editor, { row, y }: { row: Row; y: number }, lay
     times: editor.times.of(track),
     isColor: editor.parameter(track.parameter)?.type === "color",
     silent: isSilent(track, solo),
-    chosen: editor.selection.byTrack.get(track.parameter) ?? null,
+    chosen: editor.held.get(track.parameter) ?? null,
     small: row.kind === "group",
   }));
 }

@@ -3,7 +3,9 @@ import { copied, freshKey, pasted, type Copied } from "../state/clipboard";
 import type { Editor } from "../state/editor.svelte";
 import type { Changes, Edit } from "../state/edits";
 import { nearest } from "../state/key-times";
-import { byTrack } from "../state/selection.svelte";
+import { shownPath } from "../state/parameter-value";
+import { groupOf } from "../state/rows";
+import { byTrack, keysOf } from "../state/selection.svelte";
 import type { ShowTrack } from "../state/show-document";
 import { movedBy, stretched, type Retiming } from "../state/spans";
 
@@ -60,10 +62,12 @@ function wayTo(editor: Editor, track: ShowTrack | null, path: string, at: number
 export function addKeyHere(editor: Editor, path = editor.active): void {
   const parameter = path === null ? null : editor.parameter(path);
   if (parameter === null) {
-    editor.reina.word("Choose a track first", "Then Enter puts a keyframe at the playhead.");
+    editor.reina.word("Choose a track first", "Then Enter puts a keyframe at the playhead.", {
+      over: () => editor.active !== null,
+    });
     return;
   }
-  editor.toggleGroup(parameter.path.split("/")[0] ?? "", true);
+  editor.toggleGroup(groupOf(parameter.path), true);
   keysHere(editor, [[parameter.path, editor.valueNow(parameter)]]);
   editor.look(parameter.path);
 }
@@ -94,8 +98,14 @@ export function removeKeys(editor: Editor): void {
   const edits = editor.chosen.map(({ track, keyframe }): Edit => {
     return { edit: "remove_keyframe", parameter: track.parameter, key: keyframe.key };
   });
-  editor.edit(counted(edits.length, "removed"), edits);
+  editor.remove(`${counted(edits.length, "removed")}: ${tracksOf(editor)}`, edits);
   editor.selection.clear();
+}
+
+/** Whose the chosen keyframes are, in few words. */
+function tracksOf(editor: Editor): string {
+  const paths = [...new Set(editor.chosen.map(({ track }) => track.parameter))];
+  return paths.length > 1 ? `of ${paths.length} tracks` : shownPath(paths[0] ?? "");
 }
 
 export function copyKeys(editor: Editor): void {
@@ -134,14 +144,19 @@ export function duplicateKeys(editor: Editor): void {
   pasteKeys(editor, axis.secondsAt(from + bars * bar), taken, false);
 }
 
-/** Take the chosen keyframes to other times. */
+/** Take the chosen keyframes to other times, and with them what they are one cut with. */
 export function retime(editor: Editor, says: string, retiming: Retiming): void {
   const { about, factor, by } = retiming;
   if (editor.chosen.length === 0 || (factor === 1 && by === 0)) return;
-  const keyframes = Object.fromEntries(
-    [...byTrack(editor.chosen)].map(([track, chosen]) => [track.parameter, chosen.map(({ key }) => key)]),
-  );
-  editor.edit(says, [{ edit: "move_keyframes", keyframes, time: "beats", by, stretch: { about, factor } }]);
+  editor.edit(says, [
+    { edit: "move_keyframes", keyframes: carriedKeys(editor), time: "beats", by, stretch: { about, factor } },
+  ]);
+}
+
+/** The keys that move with the chosen ones, as an edit names them: those that are still there. */
+export function carriedKeys(editor: Editor): Record<string, string[]> {
+  const moved = byTrack(keysOf(editor.store.document, editor.carried));
+  return Object.fromEntries([...moved].map(([track, keyframes]) => [track.parameter, keyframes.map(({ key }) => key)]));
 }
 
 /** Move the chosen keyframes so that their first comes to a song time, seconds. */
@@ -168,7 +183,7 @@ export function nudge(editor: Editor, step: NudgeStep, direction: 1 | -1): void 
     step === "frame"
       ? span.start + direction / editor.fps
       : axis.secondsAt(beats + direction * (step === "bar" ? axis.barLengthAt(beats) : 1));
-  moveTo(editor, Math.max(to, 0));
+  moveTo(editor, Math.max(to, editor.lead));
 }
 
 /** Change the chosen keyframes alike, as far as their parameters take it. */

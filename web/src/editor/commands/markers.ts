@@ -1,4 +1,5 @@
 import type { Editor } from "../state/editor.svelte";
+import type { Edit } from "../state/edits";
 import type { ShowMarker } from "../state/show-document";
 
 /** A marker at the playhead. */
@@ -25,12 +26,14 @@ export function nameMarker(editor: Editor, index: number, name: string): void {
 
 export function removeMarker(editor: Editor, index: number): void {
   const markers = editor.store.document?.markers ?? [];
+  const marker = markers[index];
+  if (marker === undefined) return;
   editor.marker = null;
-  put(
-    editor,
-    "Marker removed",
-    markers.filter((_, place) => place !== index),
-  );
+  editor.remove(`Marker removed: ${marker.name}`, [without(markers, marker)]);
+}
+
+function without(markers: readonly ShowMarker[], marker: ShowMarker): Edit {
+  return { edit: "change_show", changes: { markers: markers.filter((each) => each !== marker) } };
 }
 
 function change(editor: Editor, says: string, index: number, changes: Partial<ShowMarker>): void {

@@ -37,6 +37,7 @@ export function chooseKey(editor: Editor, path: string, key: string): void {
   const keyframe = track?.keyframes[index];
   if (track === null || keyframe === undefined) return;
   editor.selection.set([[path, key]]);
+  editor.look(path);
   const time = editor.songTimeOf({ track, keyframe });
   editor.window.reveal(time);
   if (editor.view.canControl) void editor.view.seek(time);

@@ -28,7 +28,11 @@ export function muteGroup(editor: Editor, paths: readonly string[]): void {
 }
 
 export function removeTrack(editor: Editor, path: string): void {
-  if (editor.track(path) === null) return;
-  editor.edit(`Track ${shownPath(path)} removed`, [{ edit: "remove_track", parameter: path }]);
+  const track = editor.track(path);
+  if (track === null) return;
+  const count = track.keyframes.length;
+  const keys = count === 1 ? "1 keyframe" : `${count} keyframes`;
+  editor.remove(`Track removed: ${shownPath(path)}, ${keys}`, [{ edit: "remove_track", parameter: path }]);
+  editor.selection.clear();
   if (editor.active === path) editor.look(null);
 }

@@ -1,5 +1,5 @@
 import { valueAt, yOf, type CurvesPlace, type Placed } from "../canvas/draw-curves";
-import { byTrack } from "../state/selection.svelte";
+import { carriedKeys } from "../commands/keys";
 import { componentsOf, withComponent } from "../state/component-values";
 import { handleEdit, handlesOf, type Handle } from "../state/curve-handles";
 import type { CurvedTrack, CurveView } from "../state/curve-view.svelte";
@@ -177,7 +177,7 @@ export class CurveGestures {
     const { window, axis, span } = this.#editor;
     const { shown, at } = held.hit;
     const alongTime = !straight || Math.abs(dx) >= Math.abs(dy);
-    const least = at.time - (span?.start ?? 0);
+    const least = at.time - (span?.start ?? 0) + this.#editor.lead;
     const time = alongTime ? Math.max(this.#editor.snap(at.time + dx / window.scale, press.alt), least) : at.time;
     held.by = !straight || !alongTime ? valueAt(this.#place(), shown, dy) - valueAt(this.#place(), shown, 0) : 0;
     held.time = time;
@@ -189,9 +189,6 @@ export class CurveGestures {
     const { axis, chosen } = this.#editor;
     const retiming = movedBy(axis, hit.at.time, time);
     const { parameter } = hit.shown;
-    const keyframes = Object.fromEntries(
-      [...byTrack(chosen)].map(([track, keys]) => [track.parameter, keys.map(({ key }) => key)]),
-    );
     const lifted = by === 0 ? [] : chosen.filter(({ track }) => track.parameter === parameter.path);
     const values = lifted.map(({ keyframe }): Edit => {
       const value = withComponent(parameter, keyframe.value, hit.component, by);
@@ -200,7 +197,13 @@ export class CurveGestures {
     if (retiming.by === 0) return values;
     return [
       ...values,
-      { edit: "move_keyframes", keyframes, time: "beats", by: retiming.by, stretch: { about: 0, factor: 1 } },
+      {
+        edit: "move_keyframes",
+        keyframes: carriedKeys(this.#editor),
+        time: "beats",
+        by: retiming.by,
+        stretch: { about: 0, factor: 1 },
+      },
     ];
   }
 

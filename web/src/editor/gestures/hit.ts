@@ -3,6 +3,7 @@ import { headHeight, type Layout } from "../canvas/layout";
 import type { Editor } from "../state/editor.svelte";
 import { nearest } from "../state/key-times";
 import type { Row } from "../state/rows";
+import { CAMERA_GROUP } from "../state/shots";
 import type { ShowTrack } from "../state/show-document";
 
 export type KeyName = readonly [path: string, key: string];
@@ -14,6 +15,7 @@ export type Hit =
   | { readonly kind: "span" }
   | { readonly kind: "grip"; readonly side: "start" | "end" }
   | { readonly kind: "key"; readonly keys: readonly KeyName[]; readonly time: number; readonly row: Row }
+  | { readonly kind: "shot"; readonly index: number }
   | { readonly kind: "row"; readonly row: Row | null };
 
 /** Same time in a group's row, seconds. */
@@ -33,7 +35,15 @@ export function hitAt(editor: Editor, layout: Layout, x: number, y: number, reac
   if (y < head) return hitSpan(editor, x, reach) ?? { kind: "row", row: null };
   if (editor.mode === "curves") return { kind: "row", row: null };
   const row = editor.rows[Math.floor((y - head + editor.scrollTop) / layout.row)] ?? null;
-  return (row === null ? null : hitKeys(editor, row, x, reach)) ?? { kind: "row", row };
+  return (row === null ? null : (hitKeys(editor, row, x, reach) ?? hitShot(editor, row, x))) ?? { kind: "row", row };
+}
+
+/** The camera's row shows its shots: what is no key there is one of them. */
+function hitShot(editor: Editor, row: Row, x: number): Hit | null {
+  if (row.kind !== "group" || row.name !== CAMERA_GROUP) return null;
+  const at = editor.window.timeAt(x);
+  const index = editor.shots.findIndex(({ start, end }) => at >= start && at < end);
+  return index < 0 ? null : { kind: "shot", index };
 }
 
 function markerAt(editor: Editor, x: number): number | null {

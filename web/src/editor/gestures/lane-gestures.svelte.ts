@@ -2,7 +2,8 @@ import { counted, retime } from "../commands/keys";
 import { moveMarker } from "../commands/markers";
 import { headHeight, type Layout } from "../canvas/layout";
 import type { Editor } from "../state/editor.svelte";
-import { movedBy, stretched, type Retiming } from "../state/spans";
+import { keysInShot } from "../state/shots";
+import { movedBy, stretched, type Retiming, type Span } from "../state/spans";
 import { hitAt, keysInBox, type Hit, type KeyName } from "./hit";
 import { Seeking } from "./seeking";
 import { Touches } from "./touches";
@@ -32,6 +33,8 @@ type Gesture =
       readonly anchor: number;
       readonly begin: Press;
       readonly alone: readonly KeyName[] | null;
+      /** Song times, seconds, that the anchor stays between. */
+      readonly within?: Span;
       moved: boolean;
     }
   | { readonly kind: "stretch"; readonly held: number; readonly from: number }
@@ -51,6 +54,8 @@ const DRAG = 3;
 const DRAG_TOUCH = 8;
 const LONG_PRESS_MS = 420;
 const FINGER = 22;
+/** What a neighbour of a shot that is moved keeps, seconds. */
+const SHORTEST_SHOT_S = 0.25;
 /** This near to an edge, a drag moves the window on, pixels. */
 const EDGE = 18;
 const REACH = 8;
@@ -120,8 +125,7 @@ export class LaneGestures {
         gesture.seeking.to(this.#editor.snap(window.timeAt(press.x), press.alt, 5));
         break;
       case "keys":
-        if (this.#hasMoved(gesture, press) && this.#editor.editable)
-          this.#moveKeys(gesture.anchor, gesture.begin, press);
+        if (this.#hasMoved(gesture, press) && this.#editor.editable) this.#moveKeys(gesture, press);
         break;
       case "stretch":
         this.#editor.moving = this.#stretching(gesture, press);
@@ -229,6 +233,8 @@ export class LaneGestures {
         return { kind: "keys", anchor: span?.start ?? 0, begin: press, alone: null, moved: false };
       case "key":
         return this.#beginKeys(press, hit);
+      case "shot":
+        return this.#beginShot(press, hit.index);
       case "row":
         if (press.touch) return { kind: "pan", begin: press, hit, last: press, moved: false };
         return this.#beginBox(press, hit);
@@ -247,6 +253,27 @@ export class LaneGestures {
     return { kind: "keys", anchor: hit.time, begin: press, alone: all ? hit.keys : null, moved: false };
   }
 
+  /** A shot moves between its neighbours, which become longer and shorter for it. */
+  #beginShot(press: Press, index: number): Gesture | null {
+    const { selection, shots, store, times } = this.#editor;
+    const shot = shots[index];
+    if (shot === undefined) return null;
+    const keys = keysInShot(store.document?.tracks ?? [], (track) => times.of(track), shot);
+    if (press.adds) {
+      selection.toggle(keys);
+      return null;
+    }
+    selection.set(keys);
+    this.#editor.said = `Shot ${index + 1} of ${shots.length} chosen`;
+    const before = shots[index - 1];
+    const room = (shots[index + 1]?.end ?? Infinity) - shot.end;
+    const within = {
+      start: before === undefined ? 0 : Math.min(before.start + SHORTEST_SHOT_S, shot.start),
+      end: shot.start + Math.max(room - SHORTEST_SHOT_S, 0),
+    };
+    return { kind: "keys", anchor: shot.start, begin: press, alone: null, within, moved: false };
+  }
+
   #beginBox(press: Press, hit: Hit): Gesture {
     const top = press.y - headHeight(this.#layout()) + this.#editor.scrollTop;
     return { kind: "box", begin: press, from: this.#editor.window.timeAt(press.x), top, hit, moved: false };
@@ -258,15 +285,16 @@ export class LaneGestures {
     return gesture.moved;
   }
 
-  #moveKeys(anchor: number, begin: Press, press: Press): void {
+  #moveKeys({ anchor, begin, within }: Gesture & { kind: "keys" }, press: Press): void {
     const editor = this.#editor;
     const { window, axis, span } = editor;
     if (press.x < EDGE) window.pan(-6);
     else if (press.x > window.width - EDGE) window.pan(6);
     const wanted = anchor + (press.x - begin.x) / window.scale;
     // Nothing stands before the music begins.
-    const least = anchor - (span?.start ?? 0);
-    editor.moving = movedBy(axis, anchor, Math.max(editor.snap(wanted, press.alt), least));
+    const least = Math.max(anchor - (span?.start ?? 0) + editor.lead, within?.start ?? 0);
+    const to = Math.min(Math.max(editor.snap(wanted, press.alt), least), within?.end ?? Infinity);
+    editor.moving = movedBy(axis, anchor, to);
   }
 
   #stretching(gesture: Gesture & { kind: "stretch" }, press: Press): Retiming {

@@ -4,6 +4,7 @@ import type { CurveGestures } from "../gestures/curve-gestures.svelte";
 import { componentsOf } from "../state/component-values";
 import type { CurveView } from "../state/curve-view.svelte";
 import type { Editor } from "../state/editor.svelte";
+import { CAMERA_GROUP } from "../state/shots";
 import type { Point, TimelinePlaces } from "../state/show-measures";
 
 /** What a timeline is drawn from. */
@@ -38,6 +39,12 @@ export function timelinePlaces({ editor, lanes, layout, curves, bending, place }
       }
       const row = editor.rows.findIndex((each) => each.kind === "track" && each.track.parameter === path);
       return row < 0 ? null : at(span.xOf(time), head + (row + 0.5) * layout.row - editor.scrollTop);
+    },
+    shot(index) {
+      const shot = editor.shots[index];
+      const row = editor.rows.findIndex((each) => each.kind === "group" && each.name === CAMERA_GROUP);
+      if (shot === undefined || row < 0) return null;
+      return at(span.xOf((shot.start + shot.end) / 2), head + (row + 0.5) * layout.row - editor.scrollTop);
     },
     time: (songTime) => at(span.xOf(songTime), layout.ruler / 2),
     grips() {

@@ -9,7 +9,8 @@ import type { Edit } from "./edits";
 import { KeyTimes } from "./key-times";
 import { valueOnScreen } from "./parameter-value";
 import { rowsOf, type Row } from "./rows";
-import { Selection, type ChosenKey } from "./selection.svelte";
+import { keysOf, Selection, type ChosenKey } from "./selection.svelte";
+import { shotsOf, withCuts, type Shot } from "./shots";
 import { trackOf, type ShowTrack } from "./show-document";
 import { ShowStore } from "./show-store.svelte";
 import { snapped, type Snap } from "./snapping";
@@ -32,8 +33,6 @@ export class Editor {
   mode = $state<Mode>("keys");
   /** Path of the track that is looked at: its settings are shown, and Enter puts a keyframe on it. */
   active = $state<string | null>(null);
-  /** Index of the chosen marker. */
-  marker = $state<number | null>(null);
   closed = $state.raw<ReadonlySet<string>>(new Set(remembered().closedGroups));
   snapping = $state(remembered().snapping);
   snaps = $state.raw<ReadonlySet<Snap>>(new Set(remembered().snaps));
@@ -41,6 +40,8 @@ export class Editor {
   moving = $state.raw<Retiming | null>(null);
   /** How far the rows are scrolled, pixels. */
   scrollTop = $state(0);
+  /** Path of the track whose row is to be brought on screen. */
+  rowWanted = $state<string | null>(null);
   /** Every interpolation by its name, with its options; as the server describes them. */
   ways = $state.raw<ReadonlyMap<string, Interpolation>>(new Map());
   /** How each interpolation runs, as the server samples it. */
@@ -69,10 +70,43 @@ export class Editor {
   readonly rows: readonly Row[] = $derived.by(() => rowsOf(this.store.document, this.closed));
   readonly chosen: readonly ChosenKey[] = $derived.by(() => this.selection.keysOf(this.store.document));
   readonly span: Span | null = $derived.by(() => spanOf(this.axis, this.times, this.chosen));
+  /** The keys that move when the chosen ones do, by track: cuts stay whole. */
+  readonly carried: ReadonlyMap<string, ReadonlySet<string>> = $derived.by(() =>
+    withCuts(this.store.document?.tracks ?? [], (track) => this.times.of(track), this.selection.byTrack),
+  );
+  /** The keys to be drawn as chosen, by track: while they are moved, all that move. */
+  readonly held: ReadonlyMap<string, ReadonlySet<string>> = $derived.by(() =>
+    this.moving === null ? this.selection.byTrack : this.carried,
+  );
+  /** How far the chosen keyframes' first is behind the first that moves with them, seconds. */
+  readonly lead: number = $derived.by(() => {
+    if (this.span === null) return 0;
+    const moved = spanOf(this.axis, this.times, keysOf(this.store.document, this.carried));
+    return this.span.start - (moved?.start ?? this.span.start);
+  });
+  /** The camera's shots. */
+  readonly shots: readonly Shot[] = $derived.by(() =>
+    shotsOf(this.store.document?.tracks ?? [], (track) => this.times.of(track), this.view.duration),
+  );
   readonly markerTimes: readonly number[] = $derived.by(() => {
     const document = this.store.document;
     return (document?.markers ?? []).map(({ time }) => this.axis.toSongTime(document?.time ?? "seconds", time));
   });
+  /** Index of the chosen marker. */
+  get marker(): number | null {
+    return this.selection.marker;
+  }
+
+  set marker(index: number | null) {
+    this.selection.marker = index;
+  }
+
+  /** The track of what is chosen: of its keyframes where they are all of one, else the one that is looked at. */
+  readonly shownTrack: ShowTrack | null = $derived.by(() => {
+    const paths = [...this.selection.byTrack.keys()];
+    return paths.length > 1 ? null : this.track(paths[0] ?? this.active);
+  });
+
   readonly #parameters = $derived.by(() => new Map(this.reina.parameters.map((each) => [each.path, each])));
 
   get editable(): boolean {
@@ -118,6 +152,18 @@ export class Editor {
     if (edits.length > 0) this.said = says;
   }
 
+  /** Take something out of the show, and offer to put it back until the next step. */
+  remove(says: string, edits: readonly Edit[]): void {
+    if (edits.length === 0) return;
+    this.edit(says, edits);
+    const made = this.store.made;
+    const undo = { label: "Undo", run: () => this.store.undo() };
+    this.reina.word(says, "", {
+      actions: [undo],
+      over: () => this.store.made !== made || this.reina.view !== this.view,
+    });
+  }
+
   /** The place near a song time that the switched-on snaps draw it to. `free` leaves it where it is. */
   snap(songTime: number, free = false, reachPixels = 9): number {
     if (free || !this.snapping) return songTime;
@@ -151,10 +197,21 @@ export class Editor {
     remember({ closedGroups: [...closed] });
   }
 
-  /** Look at a track, and open its group. */
+  /** Scroll to a track's row, in the middle where there is room. */
+  revealRow(path: string): void {
+    this.rowWanted = path;
+  }
+
+  /** Look at a track, whatever of it is chosen. */
   look(path: string | null): void {
     this.active = path;
     this.marker = null;
+  }
+
+  /** Choose a track as a whole: none of its keyframes, and none of another's. */
+  chooseTrack(path: string): void {
+    this.look(path);
+    this.selection.chooseTrack(path);
   }
 
   /** Ask the server what interpolations there are. */

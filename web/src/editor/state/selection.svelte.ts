@@ -6,9 +6,11 @@ export interface ChosenKey {
   readonly keyframe: ShowKeyframe;
 }
 
-/** The chosen keyframes, by track. */
+/** What is chosen, which is one thing: keyframes, by track, or a marker, or a track as a whole. */
 export class Selection {
   #byTrack = $state.raw<ReadonlyMap<string, ReadonlySet<string>>>(new Map());
+  #marker = $state<number | null>(null);
+  #track = $state<string | null>(null);
 
   /** How many are chosen. */
   readonly size: number = $derived.by(() => {
@@ -22,12 +24,35 @@ export class Selection {
     return this.#byTrack;
   }
 
+  /** Index of the chosen marker. */
+  get marker(): number | null {
+    return this.#marker;
+  }
+
+  /** Choose a marker and nothing else; null leaves keyframes as they are. */
+  set marker(index: number | null) {
+    if (index !== null) this.clear();
+    this.#marker = index;
+  }
+
+  /** Path of the track that is chosen as a whole. */
+  get track(): string | null {
+    return this.#track;
+  }
+
+  /** Choose a track, and none of its keyframes nor anything else. */
+  chooseTrack(path: string): void {
+    this.clear();
+    this.#track = path;
+  }
+
   has(path: string, key: string): boolean {
     return this.#byTrack.get(path)?.has(key) === true;
   }
 
   clear(): void {
     this.#byTrack = new Map();
+    this.#marker = this.#track = null;
   }
 
   /** Choose these and nothing else. */
@@ -39,6 +64,7 @@ export class Selection {
       else ofTrack.add(key);
     }
     this.#byTrack = byTrack;
+    this.#marker = this.#track = null;
   }
 
   /** Choose these beside what is chosen. */
@@ -58,17 +84,22 @@ export class Selection {
 
   /** The chosen keyframes as they stand in a show, by track and time; what is gone is left out. */
   keysOf(document: ShowDocument | null): ChosenKey[] {
-    if (document === null || this.#byTrack.size === 0) return [];
-    return document.tracks.flatMap((track) => {
-      const keys = this.#byTrack.get(track.parameter);
-      if (keys === undefined) return [];
-      return track.keyframes.filter(({ key }) => keys.has(key)).map((keyframe) => ({ track, keyframe }));
-    });
+    return keysOf(document, this.#byTrack);
   }
 
   *#entries(): Generator<readonly [string, string]> {
     for (const [path, keys] of this.#byTrack) for (const key of keys) yield [path, key];
   }
+}
+
+/** Keyframes as they stand in a show, by track and time; what is gone is left out. */
+export function keysOf(document: ShowDocument | null, byTrack: ReadonlyMap<string, ReadonlySet<string>>): ChosenKey[] {
+  if (document === null || byTrack.size === 0) return [];
+  return document.tracks.flatMap((track) => {
+    const keys = byTrack.get(track.parameter);
+    if (keys === undefined) return [];
+    return track.keyframes.filter(({ key }) => keys.has(key)).map((keyframe) => ({ track, keyframe }));
+  });
 }
 
 /** Chosen keyframes by their tracks, each track's in their order. */

@@ -10,6 +10,8 @@ export interface Point {
 export interface TimelinePlaces {
   /** A keyframe's mark; on curves that of one of its value's components. */
   key(path: string, key: string, component: number): Point | null;
+  /** The middle of a shot's block in the camera's row. */
+  shot(index: number): Point | null;
   /** The ruler at a song time, seconds. */
   time(songTime: number): Point;
   /** The bar over the chosen keyframes: its two grips. */

@@ -53,6 +53,8 @@ export class ShowStore {
   #told: Told | null = null;
 
   saving = $state<SaveState>("saved");
+  /** How many steps this page has made, undone or done again. */
+  made = $state(0);
   undoSteps = $state(0);
   redoSteps = $state(0);
 
@@ -126,6 +128,7 @@ export class ShowStore {
 
   #add(step: Step): void {
     if (!this.editable) return;
+    this.made += 1;
     this.#waiting = [...this.#waiting, step];
     if (this.saving === "failed") return;
     this.saving = "saving";

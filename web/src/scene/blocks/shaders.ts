@@ -8,8 +8,9 @@ const f = (value: number): string => value.toFixed(4);
 /** Where a note's block begins and ends on the lane; what was played into the bell is gone. */
 const NOTE_SPAN = /* glsl */ `
 attribute vec4 note;
+/** Whether a note sounds: what is not played never does. */
 float sounding() {
-  return step(note.x, songTime + 1e-4) * step(songTime + 1e-4, note.x + note.y);
+  return step(-0.5, note.w) * step(note.x, songTime + 1e-4) * step(songTime + 1e-4, note.x + note.y);
 }
 bool noteSpan(out float start, out float end) {
   start = max((note.x - songTime) * speed + laneGap(), laneStart() + laneGap());
@@ -143,11 +144,11 @@ void main() {
     float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.45);
     if (playable) surface = mix(surface, mark, share * facing);
   }
-  // What cannot be played is an empty frame.
+  // What is not played is an empty frame, faint before what is.
   if (!playable) {
     float frame = 1.0 - smoothstep(0.003, 0.003 + pixel, inward);
     surface = mix(surface, PAPER, 0.6 * frame * facing);
-    alpha *= mix(0.35, 1.0, frame);
+    alpha *= mix(0.1, 0.45, frame);
   }
   gl_FragColor = vec4(surface, alpha);
   #include <tonemapping_fragment>
