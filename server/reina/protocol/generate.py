@@ -36,6 +36,8 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.CreatedSession,
     resources.SessionList,
     resources.Score,
+    resources.Cast,
+    resources.InstrumentList,
     resources.ShowEdited,
     resources.ShowWarnings,
     timeline.ShowCurves,
@@ -61,6 +63,7 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *FROM_VIEWER,
     *COMMANDS,
     resources.SessionChange,
+    resources.CastFields,
     timeline.CurvePreview,
 )
 """What the server is sent: fields with a default may be left out."""

@@ -1,7 +1,10 @@
 import type {
+  Cast,
+  CastFields,
   CreatedSession,
   Example,
   ExampleList,
+  InstrumentList,
   Score,
   Session,
   SessionChange,
@@ -55,6 +58,19 @@ export class ReinaApi {
 
   score(id: string): Promise<Score> {
     return this.#json("GET", `${this.#sessionPath(id)}/score`);
+  }
+
+  cast(id: string): Promise<Cast> {
+    return this.#json("GET", `${this.#sessionPath(id)}/cast`);
+  }
+
+  changeCast(id: string, fields: CastFields, token: string): Promise<Cast> {
+    return this.#json("PUT", `${this.#sessionPath(id)}/cast`, { json: fields, token });
+  }
+
+  /** What a cast can be made of. */
+  instruments(): Promise<InstrumentList> {
+    return this.#json("GET", `${this.#base}/instruments`);
   }
 
   transport(id: string): Promise<TransportState> {

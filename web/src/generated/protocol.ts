@@ -348,6 +348,21 @@ export interface Score {
   warnings: Warned[]
 }
 
+/** Who plays what, in the order of the players. */
+export interface Cast {
+  sequence: number
+  castings: Casting[]
+}
+
+/** What a cast can be made of. */
+export interface InstrumentList {
+  instruments: InstrumentSummary[]
+  /** Where players can stand; left and right are theirs. */
+  seats: string[]
+  /** How many play at once at most. */
+  max_players: number
+}
+
 /** What came of an edit, an undo or a redo. */
 export interface ShowEdited extends ShowState {
   /** The show as it is now, but for its tracks: title, time, markers. */
@@ -488,10 +503,57 @@ export interface SessionChange {
   player?: string | null
 }
 
+/** Who is to play what, the first player first. */
+export interface CastFields {
+  castings: CastingFields[]
+  /** Which sequence of a MIDI file of format 2; null leaves it as it is. */
+  sequence?: number | null
+}
+
 /** A track whose curve is asked for; it is not kept. */
 export interface CurvePreview {
   /** As a show has it, with its parameter; times without a unit of their own are in the show's. */
   track: Record<string, unknown>
+}
+
+/** What a player does, and how it came out. */
+export interface Casting {
+  part: number
+  part_name: string
+  instrument: string
+  player: string
+  seat: string
+  /** Whether somebody chose the seat; otherwise it is by how many play. */
+  seat_chosen: boolean
+  transposition: number
+  written: boolean
+  octave_fit: boolean
+  joined_parts: number[]
+  /** Semitones by which the part is played away from the file's pitches. */
+  sounding_transposition: number
+  /** How many notes the player plays, one at a time. */
+  notes: number
+  /** How many of these the instrument has. */
+  playable: number
+  /** Why this part suits the instrument, or does not. */
+  reasons: string[]
+  /** The parts that the instrument could play, best first. */
+  choices: PartChoice[]
+}
+
+/** What a player is asked to do; a field left out is as it is by default. */
+export interface CastingFields {
+  /** Index of the part; null: the one that suits the instrument best of those that nobody else plays. */
+  part?: number | null
+  instrument?: string
+  /** Who plays: a rig with a hold on the instrument. */
+  player?: string
+  /** Where on the stage; null: by how many play. */
+  seat?: string | null
+  transposition?: number
+  written?: boolean
+  octave_fit?: boolean
+  joined_parts?: number[]
 }
 
 /** A parameter's values over the times of a ShowCurves. */
@@ -516,6 +578,15 @@ export interface Fault {
   detail: string
   /** The place in the input. */
   location: string | null
+}
+
+/** An instrument that somebody can play. */
+export interface InstrumentSummary {
+  name: string
+  title: string
+  rig: string
+  /** The rigs that hold it. */
+  players: string[]
 }
 
 /** A way to come to a keyframe from the one before. */

@@ -1,17 +1,19 @@
 /** The stage: loads the rigs, takes frames, draws pictures. */
 
-import { Color, FogExp2, Mesh, type Object3D, Scene, Vector3, type WebGLRenderer } from "three";
+import { Color, FogExp2, Mesh, Raycaster, Scene, Vector2, Vector3, type WebGLRenderer } from "three";
 
 import type { Hello } from "../generated/protocol";
 import { RigModel, loadRig } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
 import { StageCamera } from "./camera";
 import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera-presets";
+import { castView, playerView } from "./cast-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
 import { StageLights } from "./lights";
 import { PlayerLook } from "./look";
 import { Picture } from "./picture";
+import { Players } from "./players";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
 import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
@@ -26,14 +28,6 @@ export interface StageOptions {
   readonly reducedMotion: boolean;
   onCameraTaken?(taken: boolean): void;
 }
-
-/** The bell's mouth: a node, and the point in its frame. */
-interface Bell {
-  readonly node: Object3D;
-  readonly offset: Vector3;
-}
-
-const BELL_NODE = "socket_bell";
 
 export class Stage {
   readonly #tier: TierSettings;
@@ -51,8 +45,9 @@ export class Stage {
   readonly #picture: Picture;
   readonly #look = new PlayerLook();
   readonly #show: ShowBinding;
+  readonly #caster = new Raycaster();
   #models: RigModel[] = [];
-  #bell: Bell | null = null;
+  #players = new Players([]);
   #drawnIndex = -1;
   #pictures = 0;
   readonly #drawnFrom = new Vector3();
@@ -121,6 +116,11 @@ export class Stage {
     return this.#models.map(({ rig }) => rig);
   }
 
+  /** How many notes lie in each player's lane. */
+  get laneNotes(): readonly number[] {
+    return this.#blocks.laneNotes;
+  }
+
   /** Draw calls and triangles of the last picture. */
   get cost(): { readonly calls: number; readonly triangles: number } {
     const { calls, triangles } = this.#renderer.info.render;
@@ -153,7 +153,7 @@ export class Stage {
     }
     this.#models = models;
     this.#look.setModels(models.map(({ object }) => object));
-    this.#bell = findBell(models);
+    this.#players = new Players(models.map((model, i) => ({ model, player: hello.skeletons[i]?.player ?? 0 })));
     this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
     await this.#compile();
@@ -174,7 +174,7 @@ export class Stage {
     this.#lights.lightSpots(false);
   }
 
-  /** Lay out the played part's notes. */
+  /** Lay out the notes that are played. */
   setScore(score: ScoreView): void {
     this.#blocks.setScore(score);
     this.#blocks.scroll(this.#songTime);
@@ -201,10 +201,8 @@ export class Stage {
     this.#camera.follow();
     scene.updateMatrixWorld();
     this.#room.feet.follow();
-    if (this.#bell !== null) {
-      const { node, offset } = this.#bell;
-      this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);
-    }
+    this.#players.readBells(this.#blocks.uniforms.bells.value);
+    this.#blocks.arrange(this.#players.stands().map(({ x }) => x));
     const { camera } = this.#camera;
     if (this.#onlyModels) this.#blocks.object.visible = false;
     this.#look.follow(camera);
@@ -274,6 +272,28 @@ export class Stage {
     return true;
   }
 
+  /** Take the camera to where the whole cast is seen. */
+  viewCast(): void {
+    this.#camera.view(castView(this.#players.stands(), this.#camera.camera.aspect));
+  }
+
+  /** Take the camera to one player, a place in the cast; where so many do not play it stays. */
+  viewPlayer(player: number): void {
+    const stand = this.#players.stands()[player];
+    if (stand !== undefined) this.#camera.view(playerView(stand));
+  }
+
+  /**
+   * The player who is seen at a place of the canvas, a place in the cast; null for none.
+   *
+   * @param x share of the canvas's width from its left, 0 to 1.
+   * @param y share of its height from its top.
+   */
+  playerAt(x: number, y: number): number | null {
+    this.#caster.setFromCamera(new Vector2(2 * x - 1, 1 - 2 * y), this.#camera.camera);
+    return this.#players.pick(this.#caster.ray);
+  }
+
   /** The view that is seen, as a show's camera keys hold it: metres and radians, the field of view for 16:9. */
   currentView(): CameraView {
     return this.#camera.current();
@@ -337,15 +357,4 @@ export class Stage {
     this.#reflections.dispose();
     this.#renderer.dispose();
   }
-}
-
-/** The mouth of the first bell among the models: the rig's contact, or else the model's socket. */
-function findBell(models: readonly RigModel[]): Bell | null {
-  for (const model of models) {
-    const contact = model.findContact("bell");
-    if (contact !== null) return contact;
-    const node = model.object.getObjectByName(BELL_NODE);
-    if (node !== undefined) return { node, offset: new Vector3() };
-  }
-  return null;
 }

@@ -1,5 +1,5 @@
 import { ProblemError, ReinaApi, type SessionFiles } from "../connection";
-import type { Example, ShowParameter } from "../generated/protocol";
+import type { Example, InstrumentList, ShowParameter } from "../generated/protocol";
 import { sortFiles, type SortedFiles } from "./dropped-files";
 import { SessionView } from "./session-view.svelte";
 import { remember, remembered, rememberToken } from "./storage";
@@ -28,6 +28,8 @@ export class Reina {
   notices = $state.raw<readonly Notice[]>([]);
   parameters = $state.raw<readonly ShowParameter[]>([]);
   examples = $state.raw<readonly Example[]>([]);
+  /** What a cast can be made of; null until the server has said it. */
+  instruments = $state.raw<InstrumentList | null>(null);
   volume = $state(remembered().volume);
   muted = $state(remembered().muted);
   hasPlayed = $state(remembered().hasPlayed);
@@ -196,7 +198,12 @@ export class Reina {
   }
 
   async #readLists(): Promise<void> {
-    const [parameters, examples] = await Promise.allSettled([this.api.parameters(), this.api.examples()]);
+    const [parameters, examples, instruments] = await Promise.allSettled([
+      this.api.parameters(),
+      this.api.examples(),
+      this.api.instruments(),
+    ]);
+    if (instruments.status === "fulfilled") this.instruments = instruments.value;
     if (parameters.status === "fulfilled") this.parameters = parameters.value;
     if (examples.status === "fulfilled") this.examples = examples.value;
   }
