@@ -73,7 +73,7 @@ async function open(): Promise<Gallery> {
   const asked = new URLSearchParams(location.search);
   const tier = TIERS.find((name) => name === asked.get("tier")) ?? "full";
   const canvas = element("stage", HTMLCanvasElement);
-  const stage = new Stage(canvas, { tier, reducedMotion: true });
+  const stage = new Stage(canvas, { tier, reducedMotion: true, wholeParts: true });
   const frames = await SessionFrames.open(asked.get("session"));
   const { manifest, score } = frames;
   await stage.load(manifest, (rig) => manifest.links.rigs[rig] ?? `/api/v1/rigs/${rig}`);

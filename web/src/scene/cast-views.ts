@@ -6,9 +6,9 @@ import type { Stand } from "./players";
 
 /** Room about the outermost players, metres: elbows and bells. */
 const MARGIN = 0.62;
-/** The middle of a figure's height, and half of what is to be seen of it, metres. */
-const MIDDLE = 0.95;
-const HALF_HEIGHT = 0.95;
+/** The middle of what is to be seen, and half its height, metres: figures, and room below them for the transport. */
+const MIDDLE = 0.84;
+const HALF_HEIGHT = 1.1;
 const FOV = 0.43;
 /** How far from the middle of the audience the camera stands, a turn to its left, radians, and its height, metres. */
 const ASIDE = 0.2;

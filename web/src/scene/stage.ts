@@ -3,7 +3,7 @@
 import { Color, FogExp2, Mesh, Raycaster, Scene, Vector2, Vector3, type WebGLRenderer } from "three";
 
 import type { Hello } from "../generated/protocol";
-import { RigModel, loadRig } from "../rig";
+import { RigModel, loadRig, mergeMeshes } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
 import { StageCamera } from "./camera";
 import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera-presets";
@@ -26,12 +26,15 @@ import { TIERS, type Tier, type TierSettings } from "./tiers";
 export interface StageOptions {
   readonly tier: Tier;
   readonly reducedMotion: boolean;
+  /** Draw each part of the models by itself, so that `isolate` can show it alone; it takes more calls. */
+  readonly wholeParts?: boolean;
   onCameraTaken?(taken: boolean): void;
 }
 
 export class Stage {
   readonly #tier: TierSettings;
   readonly #tierName: Tier;
+  readonly #wholeParts: boolean;
   readonly #canvas: HTMLCanvasElement;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
@@ -64,6 +67,7 @@ export class Stage {
   /** @throws StageUnavailableError where the browser gives no WebGL 2. */
   constructor(canvas: HTMLCanvasElement, options: StageOptions) {
     this.#tierName = options.tier;
+    this.#wholeParts = options.wholeParts === true;
     this.#tier = TIERS[options.tier];
     this.#canvas = canvas;
     this.#renderer = createRenderer(canvas, this.#tier);
@@ -140,7 +144,9 @@ export class Stage {
     const parameters = new ParameterIndex(hello.parameters);
     const models = rigs.flatMap((rig, i) => {
       const layout = hello.skeletons[i];
-      return layout === undefined ? [] : [new RigModel(rig, layout, parameters)];
+      if (layout === undefined) return [];
+      const drawn = this.#wholeParts ? rig : mergeMeshes(rig, this.#tier.shadowMapSize > 0);
+      return [new RigModel(drawn, layout, parameters)];
     });
     this.#show.bind(parameters);
     for (const { object } of this.#models) {
@@ -202,7 +208,9 @@ export class Stage {
     scene.updateMatrixWorld();
     this.#room.feet.follow();
     this.#players.readBells(this.#blocks.uniforms.bells.value);
-    this.#blocks.arrange(this.#players.stands().map(({ x }) => x));
+    const stands = this.#players.stands();
+    this.#blocks.arrange(stands.map(({ x }) => x));
+    this.#lights.reach(stands);
     const { camera } = this.#camera;
     if (this.#onlyModels) this.#blocks.object.visible = false;
     this.#look.follow(camera);

@@ -58,7 +58,7 @@ export class NoteBlocks {
   readonly object = new Group();
   readonly uniforms = { ...createLaneUniforms(), pixelAngle: { value: 0.001 } };
   readonly #shapes: { readonly block: InstancedBufferGeometry; readonly card: InstancedBufferGeometry };
-  readonly #line = createLineGeometry(1);
+  readonly #line: InstancedBufferGeometry;
   readonly #materials: { readonly block: ShaderMaterial; readonly halo: ShaderMaterial; readonly line: ShaderMaterial };
   readonly #staff: InstancedBufferGeometry;
   /** Lanes whose colours a show gives; the others' go by the first player's. */
@@ -69,6 +69,8 @@ export class NoteBlocks {
   /** @param stations cross-sections along a block, by how much its bend should show. */
   constructor(stations: number) {
     this.object.name = "blocks";
+    // As many pieces as a block has: a ledger line bends with its note.
+    this.#line = createLineGeometry(stations);
     this.#shapes = { block: createBlockGeometry(stations), card: createCardGeometry(stations) };
     const common = { uniforms: this.uniforms, transparent: true };
     this.#materials = {
