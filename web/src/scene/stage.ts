@@ -5,6 +5,7 @@ import { Color, FogExp2, Mesh, Raycaster, Scene, Vector2, Vector3, type WebGLRen
 import type { Hello } from "../generated/protocol";
 import { RigModel, loadRig, mergeMeshes } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
+import { paneColor } from "./blocks/player-colors";
 import { StageCamera } from "./camera";
 import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera-presets";
 import { castView, playerView } from "./cast-views";
@@ -49,6 +50,7 @@ export class Stage {
   readonly #look = new PlayerLook();
   readonly #show: ShowBinding;
   readonly #caster = new Raycaster();
+  readonly #shade = new Color();
   #models: RigModel[] = [];
   #players = new Players([]);
   #drawnIndex = -1;
@@ -123,6 +125,11 @@ export class Stage {
   /** How many notes lie in each player's lane. */
   get laneNotes(): readonly number[] {
     return this.#blocks.laneNotes;
+  }
+
+  /** Colours of the players' blocks in the last picture, as they are read on the page's dark panes: `#rrggbb`. */
+  get paneColors(): readonly string[] {
+    return this.#blocks.laneColors.map((color) => `#${paneColor(color, this.#shade).getHexString()}`);
   }
 
   /** Draw calls and triangles of the last picture. */

@@ -1,5 +1,6 @@
 import { ProblemError } from "../connection";
 import type { Cast, CastFields, Casting, CastingFields } from "../generated/protocol";
+import { playerInk } from "./player-inks";
 
 /** A field of a casting, or what is done with the cast as a whole. */
 export type CastPlace = keyof CastingFields | "add" | "leave";
@@ -15,6 +16,8 @@ export interface Refusal {
 export class CastState {
   castings = $state.raw<readonly Casting[]>([]);
   refusal = $state.raw<Refusal | null>(null);
+  /** Colours of the players' blocks on the stage, as they are read on a pane; none before they are drawn. */
+  inks = $state.raw<readonly string[]>([]);
   /** A change is on its way. */
   busy = $state(false);
   #followed = $state(0);
@@ -35,6 +38,11 @@ export class CastState {
     this.castings = castings;
     this.#put = put;
     this.#tell = tell;
+  }
+
+  /** A player's colour in panels and strips. */
+  ink(player: number): string {
+    return playerInk(this.inks, player);
   }
 
   /** The followed player's casting. */

@@ -1,23 +1,33 @@
-/** Colours of the players in the page's panels and strips, by their places in the cast. */
-export interface PlayerInk {
-  /** Over the page's dark panes. */
-  readonly light: string;
-  /** A shade of it, for what is to come or past. */
-  readonly soft: string;
+/**
+ * Colours of the players in the page's panels and strips, by their places in the cast, before the stage has said how it
+ * colours their blocks. A number always stands beside them.
+ */
+const FIRST_INKS = ["#e8bf6e", "#5aa9f0", "#d9679b", "#a9ecc9"] as const;
+const PAPER = "#f4efe6";
+
+/** How far a colour has to change for the strips to be drawn anew: steps of 256. */
+const STEP = 12;
+
+/** A player's colour. */
+export function playerInk(inks: readonly string[], player: number): string {
+  return inks[player] ?? FIRST_INKS[player] ?? PAPER;
 }
 
-/**
- * Apart in hue and lightness, so that nobody sees two of them as one (after Okabe and Ito 2008); a number always
- * stands beside them. The first is the page's own brass.
- */
-export const PLAYER_INKS: readonly PlayerInk[] = [
-  { light: "#e8bf6e", soft: "rgb(232 191 110 / 0.62)" },
-  { light: "#5aa9f0", soft: "rgb(90 169 240 / 0.72)" },
-  { light: "#d9679b", soft: "rgb(217 103 155 / 0.72)" },
-  { light: "#a9ecc9", soft: "rgb(169 236 201 / 0.62)" },
-];
+/** A shade of a colour, for what is still to come. */
+export function softened(ink: string): string {
+  return `${ink}a8`;
+}
 
-/** A player's colours. */
-export function playerInk(player: number): PlayerInk {
-  return PLAYER_INKS[player % PLAYER_INKS.length] ?? { light: "#f4efe6", soft: "rgb(244 239 230 / 0.6)" };
+/** The colours that are shown, given those on the stage: as they were, until one is seen to be another. */
+export function followedInks(shown: readonly string[], stage: readonly string[]): readonly string[] {
+  const same = shown.length === stage.length && shown.every((ink, player) => isNear(ink, stage[player] ?? ""));
+  return same ? shown : stage;
+}
+
+function isNear(a: string, b: string): boolean {
+  return [1, 3, 5].every((at) => Math.abs(part(a, at) - part(b, at)) < STEP);
+}
+
+function part(ink: string, at: number): number {
+  return Number.parseInt(ink.slice(at, at + 2), 16);
 }

@@ -17,6 +17,7 @@ import { LANE, MAX_LANES, createLaneUniforms } from "./lane";
 import { arrangeLanes } from "./lane-arrangement";
 import { type Chunk, layOut } from "./layout";
 import { companionColor } from "./player-colors";
+import { OUTLINE_LAYER } from "../toon";
 import { BLOCK_FRAGMENT, BLOCK_VERTEX, HALO_FRAGMENT, HALO_VERTEX, LINE_FRAGMENT, LINE_VERTEX } from "./shaders";
 import { STAFF_LINES } from "./staff";
 
@@ -107,6 +108,11 @@ export class NoteBlocks {
     return counts;
   }
 
+  /** The colours of the lanes' blocks as they were drawn last; read, never kept. */
+  get laneColors(): readonly Color[] {
+    return this.uniforms.colors.value.slice(0, this.#lanes);
+  }
+
   /** A show gives these colours, which are among `uniforms`, itself. */
   setOwnColors(colors: readonly Color[]): void {
     this.#colored.clear();
@@ -139,6 +145,8 @@ export class NoteBlocks {
     mesh.frustumCulled = false;
     mesh.matrixAutoUpdate = false;
     mesh.renderOrder = order;
+    // Hairs that a floor's mirror image would not show.
+    if (material === "line") mesh.layers.set(OUTLINE_LAYER);
     return mesh;
   }
 

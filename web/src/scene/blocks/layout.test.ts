@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import type { ScoreNote } from "../score";
+import { playedScore, type ScoreNote } from "../score";
 import { CHUNK_NOTES, layOut, UNPLAYABLE, valveMask } from "./layout";
 import { staffStep } from "./staff";
 
@@ -87,5 +87,36 @@ describe("layOut", () => {
   it("draws the bar lines of an empty part, and nothing of an empty score", () => {
     expect(layOut({ notes: [], bar_lines_s: [0, 2], players: 1 })[0]?.lines).toHaveLength(8);
     expect(layOut({ notes: [], bar_lines_s: [], players: 1 })).toEqual([]);
+  });
+
+  it("keeps each player's notes in their own lane, and rules bar lines in all of them", () => {
+    const notes = melody(CHUNK_NOTES + 20).map((note, i) => ({ ...note, player: i % 3 }));
+    const chunks = layOut({ notes, bar_lines_s: [0, 4, 8], players: 3 });
+    const lanes = chunks.flatMap(({ noteLanes }) => [...noteLanes]);
+    expect(lanes).toEqual(notes.map(({ player }) => player));
+    const bars = chunks.flatMap(({ lines, lineLanes }) =>
+      [...lineLanes].filter((_, i) => lines[4 * i + 2] !== lines[4 * i + 3]),
+    );
+    expect(bars).toEqual([0, 1, 2, 0, 1, 2, 0, 1, 2]);
+    for (const { notes: columns, noteLanes, lines, lineLanes } of chunks) {
+      expect([columns.length, lines.length]).toEqual([4 * noteLanes.length, 4 * lineLanes.length]);
+    }
+  });
+});
+
+describe("playedScore", () => {
+  it("leaves out what nobody on the stage plays", () => {
+    const [first, second, third] = melody(3);
+    if (first === undefined || second === undefined || third === undefined) throw new Error("three notes");
+    const wire = [
+      { ...first, player: null },
+      { ...second, player: 1 },
+      { ...third, player: 2 },
+    ];
+    expect(playedScore({ notes: wire, bar_lines_s: [1] }, 2)).toEqual({
+      notes: [wire[1]],
+      bar_lines_s: [1],
+      players: 2,
+    });
   });
 });

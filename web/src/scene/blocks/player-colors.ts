@@ -4,13 +4,14 @@ import type { Color } from "three";
 
 /**
  * By the place in the cast: turn of the hue, degrees, and how much darker (negative: lighter), on OKLab's scale of
- * lightness from 0 to 1. Lightness differs too, for who sees two of the hues as one.
+ * lightness from 0 to 1, beside most colours and beside one that is nearly white. Lightness differs too, for who sees two
+ * of the hues as one.
  */
-const COMPANIONS: readonly (readonly [turn: number, darker: number])[] = [
-  [0, 0],
-  [180, 0.17],
-  [-75, 0.31],
-  [75, -0.14],
+const COMPANIONS: readonly (readonly [turn: number, darker: number, besideWhite: number])[] = [
+  [0, 0, 0],
+  [180, 0.17, 0.17],
+  [-75, 0.31, 0.31],
+  [75, -0.14, 0.46],
 ];
 
 /** The least colour that a companion has: a grey would otherwise have grey ones. */
@@ -43,7 +44,27 @@ function linear(lightness: number, a: number, b: number): Triple {
   ];
 }
 
+/** How light a colour of blocks, from 0 to 1, is on a dark pane: light enough to be read, and in the same order. */
+const [PANE_DARKEST, PANE_SHARE] = [0.62, 0.34];
+
 const isShown = (part: number): boolean => part >= -1e-4 && part <= 1.0001;
+
+/** The fullest colour of a lightness and a hue that a screen has, up to a chroma; linear sRGB. */
+function shownColor(light: number, hue: number, chroma: number): Triple {
+  let shown = linear(light, chroma * Math.cos(hue), chroma * Math.sin(hue));
+  for (let full = chroma; !shown.every(isShown);) {
+    full *= 0.92;
+    shown = linear(light, full * Math.cos(hue), full * Math.sin(hue));
+  }
+  return shown;
+}
+
+/** A blocks' colour as it is read on the page's dark panes; set in `into`. */
+export function paneColor(blocks: Color, into: Color): Color {
+  const [lightness, a, b] = oklab(blocks.r, blocks.g, blocks.b);
+  const light = PANE_DARKEST + PANE_SHARE * lightness;
+  return into.setRGB(...shownColor(light, Math.atan2(b, a), Math.hypot(a, b)));
+}
 
 /**
  * The colour of a player's blocks beside the first player's.
@@ -53,18 +74,14 @@ const isShown = (part: number): boolean => part >= -1e-4 && part <= 1.0001;
  * @param into is set.
  */
 export function companionColor(base: Color, player: number, into: Color): Color {
-  const [turn, darker] = COMPANIONS[player % COMPANIONS.length] ?? [0, 0];
+  const [turn, darker, besideWhite] = COMPANIONS[player % COMPANIONS.length] ?? [0, 0, 0];
   if (turn === 0) return into.copy(base);
   const [lightness, a, b] = oklab(base.r, base.g, base.b);
   const hue = Math.atan2(b, a) + (turn * Math.PI) / 180;
   // Beside a dark colour there is no room for a darker one: there the signs are turned over, by and by.
   const sign = Math.min(1, Math.max(-1, (lightness - 0.45) / 0.08));
-  const light = Math.min(LIGHTEST, Math.max(DARKEST, lightness - sign * darker));
-  let chroma = Math.max(MIN_CHROMA, Math.hypot(a, b));
-  let shown = linear(light, chroma * Math.cos(hue), chroma * Math.sin(hue));
-  while (!shown.every(isShown)) {
-    chroma *= 0.92;
-    shown = linear(light, chroma * Math.cos(hue), chroma * Math.sin(hue));
-  }
-  return into.setRGB(...shown);
+  const whiteness = Math.min(1, Math.max(0, (lightness - 0.76) / 0.1));
+  const less = darker + (besideWhite - darker) * whiteness;
+  const light = Math.min(LIGHTEST, Math.max(DARKEST, lightness - sign * less));
+  return into.setRGB(...shownColor(light, hue, Math.max(MIN_CHROMA, Math.hypot(a, b))));
 }
