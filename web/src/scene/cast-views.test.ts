@@ -68,5 +68,6 @@ describe("playerView", () => {
     expect(there.position[0]).toBeCloseTo(1 + z);
     expect(there.position[1]).toBeCloseTo(y);
     expect(there.position[2]).toBeCloseTo(2 - x);
+    expect(playerView({ x: 0, z: 0, facing: -0.6 })).toEqual(middle);
   });
 });

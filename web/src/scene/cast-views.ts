@@ -40,9 +40,13 @@ export function castView(stands: readonly Stand[], aspect: number): CameraPreset
   };
 }
 
-/** One player as the three-quarter view shows who stands in the middle, wherever the seat is and whichever way it faces. */
+/**
+ * One player as the three-quarter view shows who stands in the middle, wherever the seat is and whichever way it faces;
+ * never from farther aside than there, where the neighbours stand in the way.
+ */
 export function playerView({ x, z, facing }: Stand): CameraPreset {
-  const [sin, cos] = [Math.sin(facing), Math.cos(facing)];
+  const turn = Math.max(facing, 0);
+  const [sin, cos] = [Math.sin(turn), Math.cos(turn)];
   const placed = ([px, py, pz]: readonly [number, number, number]): [number, number, number] => [
     x + px * cos + pz * sin,
     py,
