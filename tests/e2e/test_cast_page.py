@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 
 DUET = Path(__file__).parents[2] / "examples/scores/trumpet-duet.mid"
-WIDE = (960, 540)
+WIDE = (1100, 620)
 ALONE: list[dict[str, Any]] = [{"part": 0}]
 PAIR: list[dict[str, Any]] = [{"part": 0}, {"part": 1, "player": "soloist"}]
 SHOWN_VALVES = """() => [...document.querySelectorAll(".notes li")].map((note) =>
@@ -67,7 +67,7 @@ def test_each_player_has_a_lane_and_strips_and_camera_follow_whom_one_chooses(
     def follows(player: int) -> None:
         opened.until("(player) => window.reina.followed === player", player)
         shown = page.evaluate(SHOWN_VALVES)
-        assert len(shown) > 2
+        assert len(shown) >= 3
         assert shown == [note["valves"] for note in lines[player][: len(shown)]]
         assert (
             page.locator(".notes")
@@ -132,13 +132,13 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     assert [one["part"] for one in duet.castings()] == [0, 1]
     assert watcher.measure("laneNotes") == [len(duet.notes(0)), len(duet.notes(1))]
     assert owner.measure("followed") == 1, "who was added"
-    cast.get_by_text("Nobody on the stage plays Organ, Basses.").wait_for()
+    cast.get_by_text("Nobody on the stage plays Organ, Basses").wait_for()
 
     own = page.get_by_role("group", name="Soloist, player 2")
     own.get_by_role("combobox", name="Instrument").select_option("flugelhorn")
     watcher.until("window.reina.rigs.includes('flugelhorn')")
     own.get_by_role("combobox", name="Place").select_option("far left")
-    cast.get_by_text("Soloist, B♭ flugelhorn").wait_for()
+    cast.get_by_text("Soloist, flugelhorn").wait_for()
     assert [(one["instrument"], one["seat"]) for one in duet.castings()] == [
         ("trumpet", "right"),
         ("flugelhorn", "far left"),
@@ -148,7 +148,7 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     page.get_by_role("group", name="Trumpeter, player 2").get_by_role(
         "button", name="A semitone lower"
     ).click()
-    cast.get_by_text("Trumpeter, B♭ flugelhorn").wait_for()
+    cast.get_by_text("Trumpeter, flugelhorn").wait_for()
     page.get_by_text("−1", exact=True).wait_for()
     assert duet.castings()[1]["transposition"] == -1
 
@@ -167,10 +167,10 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
 
     watcher.page.keyboard.press("p")
     watched = watcher.page.get_by_role("group", name="Who plays")
-    watched.get_by_text("Trumpeter, B♭ flugelhorn").wait_for()
+    watched.get_by_text("Trumpeter, flugelhorn").wait_for()
     for name in ("Add a player", "Leave player 1 out", "Leave player 2 out"):
         assert watched.get_by_role("button", name=name).is_disabled(), "who watches changes nothing"
-    watched.locator("label", has_text="Trumpeter, B♭ flugelhorn").click()
+    watched.locator("label", has_text="Trumpeter, flugelhorn").click()
     watcher.until("window.reina.followed === 1")
 
     cast.get_by_role("button", name="Leave player 1 out").click()

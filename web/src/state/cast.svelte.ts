@@ -12,9 +12,25 @@ export interface Refusal {
   readonly words: string;
 }
 
+/** A part that nobody on the stage plays, and why. */
+export interface UnplayedPart {
+  readonly part: number;
+  readonly part_name: string;
+  readonly reason: string;
+}
+
+/** What a server that finds the cast by itself says beside. */
+type FoundCasting = Casting & { readonly cast_because?: readonly string[]; readonly handedness?: "right" | "left" };
+type FoundCast = Omit<Cast, "castings"> & {
+  readonly castings: readonly FoundCasting[];
+  readonly unplayed?: readonly UnplayedPart[];
+};
+
 /** Who plays: the cast as the server has it, and the player whom this page's strips follow. */
 export class CastState {
-  castings = $state.raw<readonly Casting[]>([]);
+  castings = $state.raw<readonly FoundCasting[]>([]);
+  /** What nobody plays, where the server says it. */
+  unplayed = $state.raw<readonly UnplayedPart[]>([]);
   refusal = $state.raw<Refusal | null>(null);
   /** Colours of the players' blocks on the stage, as they are read on a pane; none before they are drawn. */
   inks = $state.raw<readonly string[]>([]);
@@ -30,14 +46,16 @@ export class CastState {
    * @param put asks the server for another cast.
    * @param tell shows what went wrong where no place of the cast is to blame.
    */
-  constructor(
-    castings: readonly Casting[],
-    put: (fields: CastFields) => Promise<Cast>,
-    tell: (error: unknown) => void,
-  ) {
-    this.castings = castings;
+  constructor(cast: FoundCast, put: (fields: CastFields) => Promise<Cast>, tell: (error: unknown) => void) {
+    this.take(cast);
     this.#put = put;
     this.#tell = tell;
+  }
+
+  /** Take the cast as the server has it now. */
+  take(cast: FoundCast): void {
+    this.castings = cast.castings;
+    this.unplayed = cast.unplayed ?? [];
   }
 
   /** A player's colour in panels and strips. */
@@ -46,7 +64,7 @@ export class CastState {
   }
 
   /** The followed player's casting. */
-  get casting(): Casting | null {
+  get casting(): FoundCasting | null {
     return this.castings[this.followed] ?? null;
   }
 
@@ -83,7 +101,7 @@ export class CastState {
     this.busy = true;
     this.refusal = null;
     try {
-      this.castings = (await this.#put({ castings })).castings;
+      this.take(await this.#put({ castings }));
       return true;
     } catch (error) {
       if (error instanceof ProblemError && error.status === 422) this.refusal = { ...asked, words: wordsOf(error) };
@@ -96,7 +114,7 @@ export class CastState {
 }
 
 /** A casting as it is asked for: without how it came out. */
-export function fieldsOf(casting: Casting): CastingFields {
+export function fieldsOf(casting: FoundCasting): CastingFields {
   const { part, instrument, player, seat, seat_chosen, transposition, written, octave_fit, joined_parts } = casting;
   return {
     part,
@@ -107,6 +125,7 @@ export function fieldsOf(casting: Casting): CastingFields {
     written,
     octave_fit,
     joined_parts,
+    ...(casting.handedness === undefined ? {} : { handedness: casting.handedness }),
   };
 }
 

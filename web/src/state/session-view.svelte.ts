@@ -110,7 +110,7 @@ export class SessionView {
     this.session = $state.raw(session);
     this.score = $state.raw(score);
     this.cast = new CastState(
-      cast.castings,
+      cast,
       (fields) => surroundings.api.changeCast(session.id, fields, token ?? ""),
       (error) => this.#tell(error),
     );
@@ -321,7 +321,7 @@ export class SessionView {
     if (reading !== this.#readings) return;
     this.session = session;
     this.score = score;
-    this.cast.castings = cast.castings;
+    this.cast.take(cast);
   }
 
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
