@@ -17,6 +17,17 @@ FPS = 60
 PATIENCE_S = 60.0
 """Software GL on a busy machine draws a few pictures a second."""
 
+OVERFLOWING = """() => [...document.querySelectorAll("html, .pane, .pane button, .pane select, .pane h2")]
+  .filter((element) => {
+    const box = element.getBoundingClientRect();
+    const wide = element === document.documentElement && element.scrollWidth > innerWidth;
+    // A button sticks out of its pane, too, where the pane clips nothing.
+    const pane = element.matches(".pane *") ? element.closest(".pane").getBoundingClientRect() : null;
+    const [left, right] = [Math.max(0, pane?.left ?? 0), Math.min(innerWidth, pane?.right ?? innerWidth)];
+    return wide || (box.width > 0 && (box.left < left - 0.5 || box.right > right + 0.5));
+  })
+  .map((element) => element.outerHTML.slice(0, 120))"""
+
 
 class Opened:
     """One open page."""
@@ -78,6 +89,10 @@ class Opened:
         self.until("document.querySelector('canvas').getAnimations().length === 0")
         image = Image.open(io.BytesIO(self.page.screenshot(timeout=PATIENCE_S * 1000))).convert("RGB")
         return np.asarray(image).astype(np.int16)
+
+    def overflowing(self) -> list[str]:
+        """What of the panels goes beyond the window, as HTML; the document itself where it is wider."""
+        return self.page.evaluate(OVERFLOWING)
 
     def hide_panels(self) -> None:
         """Leave nothing in the window but the stage."""

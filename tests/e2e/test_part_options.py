@@ -77,7 +77,7 @@ def test_another_player_is_chosen_in_the_page(visit: Visit, client: httpx.Client
     path = f"/api/v1/sessions/{opened.session}"
     opened.page.keyboard.press("p")
     drawn = opened.measure("pictures")
-    opened.page.get_by_role("combobox", name="Player").select_option(label="Soloist")
+    opened.page.get_by_role("combobox", name="Figure").select_option(label="Soloist")
     opened.until("(drawn) => reina.pictures > drawn && reina.rigs[0] === 'soloist'", drawn)
     assert client.get(path).json()["player"] == "soloist"
 
@@ -114,7 +114,7 @@ def test_parts_are_joined_in_the_page(visit: Visit, client: httpx.Client) -> Non
     offered = page.get_by_role("group", name="Trumpet also plays").get_by_role("checkbox")
     assert offered.count() == 2, "the drums are not offered"
     page.keyboard.press("Tab")
-    with page.expect_response(lambda answer: answer.request.method == "PATCH"):
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
         page.keyboard.press("Space")
     page.get_by_text("Trumpet + Trumpet (muted)").wait_for()
     assert client.get(path).json()["joined_parts"] == [1]

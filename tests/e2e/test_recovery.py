@@ -53,12 +53,12 @@ def test_a_session_that_ends_says_so_and_offers_a_way_on(visit: Visit, client: h
 def test_the_keyboard_chooses_a_part(visit: Visit, client: httpx.Client) -> None:
     opened = visit(size=(1100, 620)).open_files(*DUET)
     opened.page.keyboard.press("p")
-    chosen = opened.page.get_by_role("radio", checked=True)
+    parts = opened.page.get_by_role("group", name="Part the trumpet plays")
+    chosen = parts.get_by_role("radio", checked=True)
     chosen.focus()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 1
     opened.page.keyboard.press("ArrowDown")
     opened.page.get_by_role("radio", name="Flute", checked=True).wait_for()
-    parts = opened.page.get_by_role("group", name="Part the trumpet plays")
     parts.and_(opened.page.locator("[aria-busy=false]")).wait_for()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 0
     assert opened.page.evaluate("document.activeElement.type") == "radio", "the keyboard keeps its place"

@@ -37,6 +37,7 @@ def test_a_cast_comes_with_the_upload_and_tells_who_plays_what(pair: Owned) -> N
     cast = pair.client.get(f"{pair.path}/cast").raise_for_status().json()
     told = [(one["part"], one["part_name"], one["player"], one["seat"]) for one in cast["castings"]]
     assert told == [(1, "Trumpet", "trumpeter", "right"), (0, "Flute", "soloist", "left")]
+    assert [one["seat_chosen"] for one in cast["castings"]] == [False, False]
     assert [one["sounding_transposition"] for one in cast["castings"]] == [0, -12]
     assert all(one["playable"] == one["notes"] == 4 for one in cast["castings"])
     assert any("Trumpet" in reason for reason in cast["castings"][0]["reasons"])
@@ -91,6 +92,7 @@ def test_a_second_player_changes_nothing_for_the_first_but_the_seat(client: http
     castings = [{"part": 1, "seat": "middle"}, {"part": 0, "seat": "left", "transposition": -12}]
     both = upload(client, duet(), **SONG, cast=json.dumps({"castings": castings}))
     alone = upload(client, duet(), **SONG)
+    assert all(one["seat_chosen"] for one in client.get(f"{both.path}/cast").json()["castings"])
     one, two = (take(client, made.id, 0.0, 2.0) for made in (alone, both))
     for skeleton in ("player", "trumpet"):
         np.testing.assert_array_equal(one.local[skeleton], two.local[skeleton])

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
+import json
+from typing import TYPE_CHECKING, Any
 
 import mido
 import numpy as np
 import pytest
-from tests.integration.scores import scale, song
+from tests.integration.scores import duet, scale, song
 from tests.integration.server import upload
 from tests.integration.stranger import take
 
@@ -38,6 +39,25 @@ def test_a_bvh_file_has_every_joint_where_the_frames_have_it(owned: Owned, skele
         assert np.abs(positions[:, joint] - frames.positions[name]).max() < 1e-5, name
 
 
+def test_each_player_of_a_cast_has_a_file(client: httpx.Client) -> None:
+    cast = json.dumps({"castings": [{"part": 1}, {"part": 0, "player": "soloist", "transposition": -12}]})
+    pair = upload(client, duet(), song=("s.wav", song()), cast=cast)
+    span = {"start_s": 0.5, "end_s": 1.0}
+
+    def exported(**query: Any) -> bytes:
+        return client.get(f"{pair.path}/export.bvh", params={**span, **query}).raise_for_status().content
+
+    assert exported(player=0) == exported() == exported(skeleton="player")
+    assert exported(player=1) == exported(skeleton="players/2/player") != exported()
+    assert set(read_bvh(exported(player=1)).names) == set(
+        take(client, pair.id, 0.5, 1.0).skeleton("soloist").positions
+    )
+    beyond = client.get(f"{pair.path}/export.bvh", params={**span, "player": 2})
+    assert beyond.status_code == 422
+    assert "there are players 0 to 1, not 2" in beyond.json()["detail"]
+    pair.change("DELETE")
+
+
 def test_a_bvh_file_is_named_after_the_piece(client: httpx.Client) -> None:
     session = upload(client, scale(2), song=("s.wav", song()), title='Ständchen: "Abend" / 1')
     named = client.get(f"{session.path}/export.bvh", params={"end_s": 0.1}).headers["content-disposition"]
@@ -49,6 +69,8 @@ def test_a_bvh_file_is_named_after_the_piece(client: httpx.Client) -> None:
     ("query", "told"),
     [
         ({"skeleton": "drums"}, "player, trumpet, not 'drums'"),
+        ({"player": 1}, "only player 0 plays, not 1"),
+        ({"player": -1}, "player"),
         ({"end_s": 601}, "600"),
         ({"start_s": 2, "end_s": 1}, "end_s"),
         ({"fps": 1000}, "240"),

@@ -11,7 +11,7 @@ from fastapi.responses import StreamingResponse
 
 from reina.api.frames import EndS, FramesPerSecond, StartS, frame_span
 from reina.api.http.access import Store, Watched
-from reina.sessions.motion_export import BvhExport
+from reina.sessions.motion_export import BvhExport, player_skeleton
 
 router = APIRouter(tags=["frames"])
 
@@ -27,20 +27,27 @@ async def export_bvh(
     start_s: StartS = 0.0,
     end_s: EndS = None,
     fps: FramesPerSecond = 60,
-    skeleton: Annotated[str, Query(description="Whose motion, by its name in the manifest.")] = "player",
+    player: Annotated[
+        int, Query(ge=0, description="Whose motion: the player's place in the cast, 0 being the first.")
+    ] = 0,
+    skeleton: Annotated[
+        str | None,
+        Query(description="The skeleton's name in the manifest: an instrument's too, in place of `player`."),
+    ] = None,
 ) -> StreamingResponse:
-    """The motion of one skeleton, frame by frame the stream's, in metres and degrees.
+    """The motion of one player, or of another skeleton, frame by frame the stream's, in metres and degrees.
 
     BVH knows no rest rotations: at rest every joint's frame stands along the world's axes. Joints are where
     the frames have them.
     """
     first, end = frame_span(session, start_s, end_s, fps)
     production = await asyncio.to_thread(session.production.at_rate, fps)
-    export = BvhExport(production, skeleton, first, end)
+    name = player_skeleton(production, player) if skeleton is None else skeleton
+    export = BvhExport(production, name, first, end)
     return StreamingResponse(
         _lines(export, request.app.state.computing),
         media_type="text/plain; charset=utf-8",
-        headers=_headers(f"{session.record.title} - {skeleton}", "bvh"),
+        headers=_headers(f"{session.record.title} - {name}", "bvh"),
     )
 
 

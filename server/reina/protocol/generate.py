@@ -37,6 +37,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.SessionList,
     resources.Score,
     resources.Cast,
+    resources.InstrumentList,
     resources.ShowEdited,
     resources.ShowWarnings,
     timeline.ShowCurves,

@@ -214,6 +214,8 @@ class Casting(WireModel):
     instrument: str
     player: str
     seat: str
+    seat_chosen: bool
+    """Whether somebody chose the seat; otherwise it is by how many play."""
     transposition: int
     written: bool
     octave_fit: bool

@@ -90,6 +90,7 @@ def cast_resource(production: Production) -> resources.Cast:
                 instrument=casting.instrument,
                 player=casting.player,
                 seat=performer.seat.name,
+                seat_chosen=casting.seat is not None,
                 transposition=casting.transposition,
                 written=casting.written,
                 octave_fit=casting.octave_fit,

@@ -18,6 +18,27 @@ if TYPE_CHECKING:
     from reina.skeleton import MotionClip
 
 
+def player_skeleton(production: Production, player: int) -> str:
+    """Name of the skeleton that is a player's body.
+
+    Args:
+        production: What is played.
+        player: The player's place in the cast, the first being 0.
+
+    Raises:
+        InputError: So many do not play.
+    """
+    count = len(production.cast.castings)
+    if not 0 <= player < count:
+        told = (
+            f"there are players 0 to {count - 1}, not {player}"
+            if count > 1
+            else f"only player 0 plays, not {player}"
+        )
+        raise InputError(told, location="player")
+    return production.performers[player].skeletons[0].name
+
+
 class BvhExport:
     """Frames `first` ... `end` - 1 of one skeleton; the same frames as the stream's, in metres and degrees.
 

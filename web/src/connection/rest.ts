@@ -6,6 +6,7 @@ import type {
   Example,
   ExampleList,
   FileRole,
+  InstrumentList,
   Score,
   Session,
   SessionChange,
@@ -77,6 +78,15 @@ export class ReinaApi {
 
   cast(id: string): Promise<Cast> {
     return this.#json("GET", this.sessionPath(id, "cast"));
+  }
+
+  changeCast(id: string, fields: CastFields, token: string): Promise<Cast> {
+    return this.#json("PUT", this.sessionPath(id, "cast"), { json: fields, token });
+  }
+
+  /** What a cast can be made of. */
+  instruments(): Promise<InstrumentList> {
+    return this.#json("GET", `${this.#base}/instruments`);
   }
 
   /** What a file is, by its content. */

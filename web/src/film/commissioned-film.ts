@@ -7,6 +7,7 @@ import { askEncoders } from "./encoders";
 import { type FilmProgress, makeFilm } from "./make-film";
 import { countOf, faultOf, framesOf } from "./span";
 import { TimeLeft } from "./time-left";
+import { blocksScore } from "../state/blocks-score";
 import type { SessionView } from "../state/session-view.svelte";
 import type { CameraView, Tier } from "../scene";
 
@@ -77,7 +78,7 @@ export async function film(
     {
       session: session.id,
       title: session.session.title,
-      score: { notes: session.playedNotes, bar_lines_s: session.score.bar_lines_s },
+      score: blocksScore(session.score, session.cast.castings.length),
       frames,
       size,
       tier: commission.detail,

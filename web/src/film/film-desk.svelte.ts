@@ -1,6 +1,7 @@
 /** What is chosen for a film, and the film that is being made: one at a time, whether its panel is open or not. */
 
 import type { CameraView, ScoreView, Tier } from "../scene";
+import { blocksScore } from "../state/blocks-score";
 import type { SessionView } from "../state/session-view.svelte";
 import { askedTier } from "../state/tier";
 import { AUDIO_BIT_RATES, type Coding, type Quality, bitRate, chooseCoding } from "./coding";
@@ -219,7 +220,7 @@ class CountedDestination implements Destination {
 }
 
 function scoreOf(view: SessionView): ScoreView {
-  return { notes: view.playedNotes, bar_lines_s: view.score.bar_lines_s };
+  return blocksScore(view.score, view.cast.castings.length);
 }
 
 function inWords(error: unknown): string {

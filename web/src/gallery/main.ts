@@ -6,7 +6,7 @@
 import "../styles/page.css";
 import "./gallery.css";
 
-import { Stage, type Tier } from "../scene";
+import { playedScore, Stage, type Tier } from "../scene";
 import { FINISHES, LENSES, LIGHTS, MUTES, type Overrides, PARTS, STYLES } from "./choices";
 import { SessionFrames } from "./frames";
 
@@ -73,11 +73,12 @@ async function open(): Promise<Gallery> {
   const asked = new URLSearchParams(location.search);
   const tier = TIERS.find((name) => name === asked.get("tier")) ?? "full";
   const canvas = element("stage", HTMLCanvasElement);
-  const stage = new Stage(canvas, { tier, reducedMotion: true });
+  const stage = new Stage(canvas, { tier, reducedMotion: true, wholeParts: true });
   const frames = await SessionFrames.open(asked.get("session"));
   const { manifest, score } = frames;
   await stage.load(manifest, (rig) => manifest.links.rigs[rig] ?? `/api/v1/rigs/${rig}`);
-  stage.setScore({ notes: score.notes.filter((note) => note.in_played_part), bar_lines_s: score.bar_lines_s });
+  const players = Math.max(...manifest.skeletons.map(({ player }) => player)) + 1;
+  stage.setScore(playedScore(score, players));
   new ResizeObserver(() => stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio)).observe(canvas);
   stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio);
 

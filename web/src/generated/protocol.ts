@@ -354,6 +354,15 @@ export interface Cast {
   castings: Casting[]
 }
 
+/** What a cast can be made of. */
+export interface InstrumentList {
+  instruments: InstrumentSummary[]
+  /** Where players can stand; left and right are theirs. */
+  seats: string[]
+  /** How many play at once at most. */
+  max_players: number
+}
+
 /** What came of an edit, an undo or a redo. */
 export interface ShowEdited extends ShowState {
   /** The show as it is now, but for its tracks: title, time, markers. */
@@ -526,6 +535,8 @@ export interface Casting {
   instrument: string
   player: string
   seat: string
+  /** Whether somebody chose the seat; otherwise it is by how many play. */
+  seat_chosen: boolean
   transposition: number
   written: boolean
   octave_fit: boolean
@@ -579,6 +590,15 @@ export interface Fault {
   detail: string
   /** The place in the input. */
   location: string | null
+}
+
+/** An instrument that somebody can play. */
+export interface InstrumentSummary {
+  name: string
+  title: string
+  rig: string
+  /** The rigs that hold it. */
+  players: string[]
 }
 
 /** A way to come to a keyframe from the one before. */

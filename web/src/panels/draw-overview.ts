@@ -1,11 +1,13 @@
 import type { Score, WireNote } from "../generated/protocol";
+import { lineNotes } from "../state/line-notes";
 import { barNumberStep, pitchRange, type Phrase } from "../state/overview";
 import { firstBarNumber } from "../state/score-time";
 
 /** What the overview shows, and how large, in CSS pixels. */
 export interface Overview {
   readonly score: Score;
-  readonly played: readonly WireNote[];
+  /** Place in the cast of the player whose notes stand out. */
+  readonly followed: number;
   readonly phrases: readonly Phrase[];
   /** Seconds from the left edge to the right one. */
   readonly duration: number;
@@ -15,7 +17,9 @@ export interface Overview {
 
 /** The colours of one drawing of the overview: the same is drawn for what lies ahead and for what has been played. */
 export interface OverviewInk {
-  readonly played: string;
+  /** Of each player's notes. */
+  readonly played: (player: number) => string;
+  /** Of what nobody on the stage plays. */
   readonly others: string;
   readonly phrase: string;
   readonly tick: string;
@@ -29,15 +33,21 @@ const MIN_NOTE = 1.5;
 
 /** Draw the score once: notes by time and pitch, phrases beneath, bar ticks and numbers above. */
 export function drawOverview(context: CanvasRenderingContext2D, overview: Overview, ink: OverviewInk): void {
-  const { score, played, width, height } = overview;
+  const { score, followed, width, height } = overview;
   context.clearRect(0, 0, width, height);
   drawBars(context, overview, ink);
   const range = pitchRange(score.notes);
   context.fillStyle = ink.others;
   for (const note of score.notes)
-    if (note.player !== 0 || note.valves === null) drawNote(context, overview, note, range, 1.5);
-  context.fillStyle = ink.played;
-  for (const note of played) drawNote(context, overview, note, range, 3);
+    if (note.player === null || note.valves === null) drawNote(context, overview, note, range, 1.5);
+  const players = new Set(score.notes.flatMap(({ player }) => (player === null ? [] : [player])));
+  // Who is followed comes last, over the others.
+  for (const player of [...players].sort((a, b) => Number(a === followed) - Number(b === followed) || a - b)) {
+    context.fillStyle = ink.played(player);
+    const thickness = player === followed ? 3 : 2;
+    const own = score.notes.filter((note) => note.player === player);
+    for (const note of lineNotes(own)) drawNote(context, overview, note, range, thickness);
+  }
   context.fillStyle = ink.phrase;
   for (const { start, end } of overview.phrases) {
     const x = xOf(overview, start);

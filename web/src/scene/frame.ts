@@ -66,6 +66,11 @@ export class ParameterIndex {
   }
 }
 
+/** What the paths of a cast's player begin with, the first being 0: nothing, then `players/2/`. */
+export function playerPrefix(player: number): string {
+  return player === 0 ? "" : `players/${player + 1}/`;
+}
+
 /** What a skeleton's own parameters begin with: nothing for the first player, `players/2/` for the second. */
 export function parameterPrefix(skeletonName: string): string {
   return /^players\/\d+\//.exec(skeletonName)?.[0] ?? "";

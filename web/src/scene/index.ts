@@ -3,7 +3,7 @@ export { StageUnavailableError } from "./errors";
 export { LayoutError, type DrawnFrame } from "./frame";
 export type { Insets } from "./framing";
 export { measureTier } from "./measure-tier";
-export type { ScoreNote, ScoreView } from "./score";
+export { playedScore, type ScoreNote, type ScoreView } from "./score";
 export { Stage, type StageOptions } from "./stage";
 export type { Tier } from "./tiers";
 export { RigError } from "../rig";

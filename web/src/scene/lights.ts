@@ -11,8 +11,12 @@ const TARGET = new Vector3(0, 1.05, 0.1);
 /** From the target, metres: within the reach of the shadows. */
 const KEY_DISTANCE = 5;
 
-/** Half the width and height of what casts shadows about the target, metres: a player with the instrument raised. */
+/**
+ * Half the width and height of what casts shadows about the target, metres: a player with the instrument raised; and
+ * how far beyond the outermost of several players it goes.
+ */
 const SHADOW_REACH = 1.35;
+const SHADOW_MARGIN = 0.75;
 
 export class StageLights {
   readonly key = new DirectionalLight(0xffffff, 3);
@@ -65,6 +69,18 @@ export class StageLights {
   /** Light the spots or none: what is lit counts in every surface's shader, so that it is all of them at once. */
   lightSpots(lit: boolean): void {
     for (const { light } of this.spots) light.visible = lit;
+  }
+
+  /** Cast the shadows of everybody who stands here: the key's picture of them is as wide as they stand apart, metres. */
+  reach(stands: readonly { readonly x: number; readonly z: number }[]): void {
+    // To the next ten centimetres: who only sways changes nothing.
+    const spread = Math.ceil(10 * Math.max(0, ...stands.map(({ x }) => Math.abs(x - TARGET.x)))) / 10;
+    const reach = Math.max(SHADOW_REACH, spread + SHADOW_MARGIN);
+    const { camera } = this.key.shadow;
+    if (camera.right === reach) return;
+    camera.left = camera.bottom = -reach;
+    camera.right = camera.top = reach;
+    camera.updateProjectionMatrix();
   }
 
   /** Follow the key's place: only its direction counts, and the fill stands across from it. */

@@ -1,4 +1,4 @@
-/** The score as the stage draws it: the played part's notes and the bar lines. */
+/** The score as the stage draws it: the notes that are played and the bar lines. */
 
 export interface ScoreNote {
   /** Seconds from the start of the score. */
@@ -8,11 +8,26 @@ export interface ScoreNote {
   readonly written_pitch: number;
   /** The valves that are down; [] is open, null is not playable. */
   readonly valves: readonly number[] | null;
+  /** Who plays it: a place in the cast, 0 being the first; its block lies in that player's lane. */
+  readonly player: number;
 }
 
 export interface ScoreView {
-  /** Of the played part alone. */
+  /** Of the played parts alone. */
   readonly notes: readonly ScoreNote[];
   /** Seconds from the start of the score. */
   readonly bar_lines_s: readonly number[];
+  /** How many play; each has a lane. */
+  readonly players: number;
+}
+
+type WireScore = Pick<ScoreView, "bar_lines_s"> & {
+  readonly notes: readonly (Omit<ScoreNote, "player"> & { readonly player: number | null })[];
+};
+
+/** What of a score is played, for so many players. */
+export function playedScore(score: WireScore, players: number): ScoreView {
+  const isPlayed = (note: WireScore["notes"][number]): note is ScoreNote =>
+    note.player !== null && note.player < players;
+  return { notes: score.notes.filter(isPlayed), bar_lines_s: score.bar_lines_s, players };
 }

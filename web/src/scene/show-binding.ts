@@ -3,8 +3,9 @@
 import type { Color, FogExp2, Scene, SpotLight, WebGLRenderer } from "three";
 
 import type { NoteBlocks } from "./blocks/blocks";
+import { MAX_LANES } from "./blocks/lane";
 import type { StageCamera } from "./camera";
-import type { ParameterIndex } from "./frame";
+import { type ParameterIndex, playerPrefix } from "./frame";
 import type { StageLights } from "./lights";
 import type { PlayerLook } from "./look";
 import type { Picture } from "./picture";
@@ -55,6 +56,19 @@ function spotRows(place: number): Row[] {
   ];
 }
 
+/** What a show sets of each player's blocks. */
+function laneRows(lane: number): Row[] {
+  const set =
+    (of: "colors" | "soundingColors"): Apply =>
+    ({ blocks }, floats, index) =>
+      blocks.uniforms[of].value[lane]?.fromArray(floats, index);
+  const prefix = playerPrefix(lane);
+  return [
+    [`${prefix}blocks/color`, 3, set("colors")],
+    [`${prefix}blocks/sounding_color`, 3, set("soundingColors")],
+  ];
+}
+
 /** Path, length in floats, and what it sets. Vectors are in the world, metres; colours linear sRGB; angles radians. */
 const PARAMETERS: readonly Row[] = [
   ["camera/position", 3, ({ camera }, floats, i) => camera.show.position.fromArray(floats, i)],
@@ -88,8 +102,7 @@ const PARAMETERS: readonly Row[] = [
   ["look/style", 1, number(({ look }, value) => look.setStyle(value))],
   ["trumpet/finish", 1, number(({ look }, value) => look.setFinish(value))],
   ["blocks/visible", 1, number(({ blocks }, value) => (blocks.object.visible = value > 0.5))],
-  ["blocks/color", 3, ({ blocks }, floats, i) => blocks.uniforms.color.value.fromArray(floats, i)],
-  ["blocks/sounding_color", 3, ({ blocks }, floats, i) => blocks.uniforms.soundingColor.value.fromArray(floats, i)],
+  ...Array.from({ length: MAX_LANES }, (_, lane) => laneRows(lane)).flat(),
   ["blocks/opacity", 1, number(({ blocks }, value) => (blocks.uniforms.opacity.value = value))],
   ["blocks/glow", 1, number(({ blocks }, value) => (blocks.uniforms.glow.value = value))],
   ["blocks/speed", 1, number(({ blocks }, value) => (blocks.uniforms.speed.value = value))],
@@ -119,6 +132,13 @@ export class ShowBinding {
       const index = parameters.find(path, length);
       return index === null ? [] : [{ apply, index }];
     });
+    const { colors, soundingColors } = this.#targets.blocks.uniforms;
+    const given = (path: string) => (_: unknown, lane: number) =>
+      parameters.find(playerPrefix(lane) + path, 3) !== null;
+    this.#targets.blocks.setOwnColors([
+      ...colors.value.filter(given("blocks/color")),
+      ...soundingColors.value.filter(given("blocks/sounding_color")),
+    ]);
   }
 
   /** Take the show's values of a frame at a song time, seconds. */
@@ -126,6 +146,7 @@ export class ShowBinding {
     const targets = this.#targets;
     for (const { apply, index } of this.#bound) apply(targets, floats, index);
     const { room, lights, fog, background, scene } = targets;
+    targets.blocks.colorLanes();
     lights.arrange(songTime);
     room.keyColor.copy(lights.key.color).multiplyScalar(lights.key.intensity);
     room.daylight.value = scene.environmentIntensity / RESTING_ENVIRONMENT;

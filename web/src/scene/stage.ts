@@ -1,17 +1,20 @@
 /** The stage: loads the rigs, takes frames, draws pictures. */
 
-import { Color, FogExp2, Mesh, type Object3D, Scene, Vector3, type WebGLRenderer } from "three";
+import { Color, FogExp2, Mesh, Raycaster, Scene, Vector2, Vector3, type WebGLRenderer } from "three";
 
 import type { Hello } from "../generated/protocol";
-import { RigModel, loadRig } from "../rig";
+import { RigModel, loadRig, mergeMeshes } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
+import { paneColor } from "./blocks/player-colors";
 import { StageCamera } from "./camera";
 import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera-presets";
+import { castView, playerView } from "./cast-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
 import { StageLights } from "./lights";
 import { PlayerLook } from "./look";
 import { Picture } from "./picture";
+import { Players } from "./players";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
 import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
@@ -27,21 +30,16 @@ export interface StageOptions {
   readonly reducedMotion: boolean;
   /** Nothing but the players, on nothing: their picture has no background. */
   readonly transparent?: boolean;
+  /** Draw each part of the models by itself, so that `isolate` can show it alone; it takes more calls. */
+  readonly wholeParts?: boolean;
   onCameraTaken?(taken: boolean): void;
 }
-
-/** The bell's mouth: a node, and the point in its frame. */
-interface Bell {
-  readonly node: Object3D;
-  readonly offset: Vector3;
-}
-
-const BELL_NODE = "socket_bell";
 
 export class Stage {
   readonly #tier: TierSettings;
   readonly #tierName: Tier;
   readonly #transparent: boolean;
+  readonly #wholeParts: boolean;
   readonly #canvas: HTMLCanvasElement;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
@@ -57,8 +55,10 @@ export class Stage {
   readonly #show: ShowBinding;
   /** Where less motion is wanted. */
   readonly #still: StillShots | null;
+  readonly #caster = new Raycaster();
+  readonly #shade = new Color();
   #models: RigModel[] = [];
-  #bell: Bell | null = null;
+  #players = new Players([]);
   #drawnIndex = -1;
   #pictures = 0;
   readonly #drawnFrom = new Vector3();
@@ -75,6 +75,7 @@ export class Stage {
   /** @throws StageUnavailableError where the browser gives no WebGL 2. */
   constructor(canvas: HTMLCanvasElement, options: StageOptions) {
     this.#tierName = options.tier;
+    this.#wholeParts = options.wholeParts === true;
     this.#tier = TIERS[options.tier];
     const transparent = options.transparent ?? false;
     this.#transparent = transparent;
@@ -131,6 +132,16 @@ export class Stage {
     return this.#models.map(({ rig }) => rig);
   }
 
+  /** How many notes lie in each player's lane. */
+  get laneNotes(): readonly number[] {
+    return this.#blocks.laneNotes;
+  }
+
+  /** Colours of the players' blocks in the last picture, as they are read on the page's dark panes: `#rrggbb`. */
+  get paneColors(): readonly string[] {
+    return this.#blocks.laneColors.map((color) => `#${paneColor(color, this.#shade).getHexString()}`);
+  }
+
   /** Draw calls and triangles of the last picture. */
   get cost(): { readonly calls: number; readonly triangles: number } {
     const { calls, triangles } = this.#renderer.info.render;
@@ -150,7 +161,9 @@ export class Stage {
     const parameters = new ParameterIndex(hello.parameters);
     const models = rigs.flatMap((rig, i) => {
       const layout = hello.skeletons[i];
-      return layout === undefined ? [] : [new RigModel(rig, layout, parameters)];
+      if (layout === undefined) return [];
+      const drawn = this.#wholeParts ? rig : mergeMeshes(rig, this.#tier.shadowMapSize > 0);
+      return [new RigModel(drawn, layout, parameters)];
     });
     this.#show.bind(parameters);
     for (const { object } of this.#models) {
@@ -163,7 +176,7 @@ export class Stage {
     }
     this.#models = models;
     this.#look.setModels(models.map(({ object }) => object));
-    this.#bell = findBell(models);
+    this.#players = new Players(models.map((model, i) => ({ model, player: hello.skeletons[i]?.player ?? 0 })));
     this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
     await this.#compile();
@@ -184,7 +197,7 @@ export class Stage {
     this.#lights.lightSpots(false);
   }
 
-  /** Lay out the played part's notes. */
+  /** Lay out the notes that are played. */
   setScore(score: ScoreView): void {
     this.#blocks.setScore(score);
     this.#blocks.scroll(this.#songTime);
@@ -213,10 +226,10 @@ export class Stage {
     this.#camera.follow();
     scene.updateMatrixWorld();
     this.#room.feet.follow();
-    if (this.#bell !== null) {
-      const { node, offset } = this.#bell;
-      this.#blocks.uniforms.bell.value.copy(offset).applyMatrix4(node.matrixWorld);
-    }
+    this.#players.readBells(this.#blocks.uniforms.bells.value);
+    const stands = this.#players.stands();
+    this.#blocks.arrange(stands.map(({ x }) => x));
+    this.#lights.reach(stands);
     const { camera } = this.#camera;
     if (this.#onlyModels || this.#transparent) this.#blocks.object.visible = false;
     if (this.#transparent) for (const { cone } of this.#lights.spots) cone.visible = false;
@@ -287,6 +300,28 @@ export class Stage {
     return true;
   }
 
+  /** Take the camera to where the whole cast is seen. */
+  viewCast(): void {
+    this.#camera.view(castView(this.#players.stands(), this.#camera.camera.aspect));
+  }
+
+  /** Take the camera to one player, a place in the cast; where so many do not play it stays. */
+  viewPlayer(player: number): void {
+    const stand = this.#players.stands()[player];
+    if (stand !== undefined) this.#camera.view(playerView(stand));
+  }
+
+  /**
+   * The player who is seen at a place of the canvas, a place in the cast; null for none.
+   *
+   * @param x share of the canvas's width from its left, 0 to 1.
+   * @param y share of its height from its top.
+   */
+  playerAt(x: number, y: number): number | null {
+    this.#caster.setFromCamera(new Vector2(2 * x - 1, 1 - 2 * y), this.#camera.camera);
+    return this.#players.pick(this.#caster.ray);
+  }
+
   /** The view that is seen, as a show's camera keys hold it: metres and radians, the field of view for 16:9. */
   currentView(): CameraView {
     return this.#camera.current();
@@ -350,15 +385,4 @@ export class Stage {
     this.#reflections.dispose();
     this.#renderer.dispose();
   }
-}
-
-/** The mouth of the first bell among the models: the rig's contact, or else the model's socket. */
-function findBell(models: readonly RigModel[]): Bell | null {
-  for (const model of models) {
-    const contact = model.findContact("bell");
-    if (contact !== null) return contact;
-    const node = model.object.getObjectByName(BELL_NODE);
-    if (node !== undefined) return { node, offset: new Vector3() };
-  }
-  return null;
 }

@@ -11,6 +11,7 @@ import {
   ShaderChunk,
 } from "three";
 
+import { SHADOW_ELSEWHERE } from "../rig";
 import type { TierSettings } from "./tiers";
 
 /** Light that enters skin comes out a little farther, red: the edge of a shadow is soft and warm. */
@@ -78,7 +79,8 @@ export function dressSurfaces(model: Object3D, tier: TierSettings): void {
   const dressed = new Map<MeshStandardMaterial, MeshStandardMaterial>();
   model.traverse((node) => {
     if (!(node instanceof Mesh)) return;
-    node.castShadow = node.receiveShadow = tier.shadowMapSize > 0;
+    node.receiveShadow = tier.shadowMapSize > 0;
+    node.castShadow = node.receiveShadow && node.userData[SHADOW_ELSEWHERE] !== true;
     const { material } = node as Mesh;
     // Thin cloth would shade itself: its far side casts the shadow.
     if ((material as MeshStandardMaterial).side === DoubleSide)

@@ -23,6 +23,9 @@ export interface DeckHands {
   orbitCamera(azimuth: number, elevation: number): void;
   /** To so many times the camera's distance. */
   dollyCamera(factor: number): void;
+  /** To where everybody is seen, or one player, a place in the cast. */
+  viewCast(): void;
+  viewPlayer(player: number): void;
   toggleFullscreen(): void;
   openFilePicker(): void;
   /** The view that is seen, as a show's camera keys hold it. */
@@ -42,6 +45,8 @@ export class Deck {
   cameraTaken = $state(false);
   /** Files are held over the page. */
   dropping = $state(false);
+  /** The camera was taken to the player whom the strips follow, and goes along to whoever is followed next. */
+  cameraFollows = $state(false);
   /** The window has room for one panel at a time. */
   narrow = $state(false);
   /** Filled by the components that can do these things. */
@@ -71,6 +76,9 @@ export class Deck {
     orbitDown: () => this.hands.orbitCamera?.(0, -ORBIT_STEP),
     closer: () => this.hands.dollyCamera?.(DOLLY_STEP),
     further: () => this.hands.dollyCamera?.(1 / DOLLY_STEP),
+    everybody: () => this.viewCast(),
+    onePlayer: (view) => this.viewPlayer(view.cast.followed),
+    nextPlayer: (view) => this.follow((view.cast.followed + 1) % view.cast.castings.length),
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
     show: () => this.toggleShow(),
@@ -107,6 +115,29 @@ export class Deck {
     }
     this.run(shortcut.action);
     return true;
+  }
+
+  /** Let the strips follow a player, a place in the cast, and the camera where it looks at one. */
+  follow(player: number): void {
+    const cast = this.reina.view?.cast;
+    cast?.follow(player);
+    if (cast !== undefined && this.cameraFollows) this.hands.viewPlayer?.(cast.followed);
+  }
+
+  viewCast(): void {
+    this.cameraFollows = false;
+    this.hands.viewCast?.();
+  }
+
+  viewPlayer(player: number): void {
+    this.cameraFollows = true;
+    this.hands.viewPlayer?.(player);
+  }
+
+  /** The camera was taken from the show, or given back to it. */
+  takeCamera(taken: boolean): void {
+    this.cameraTaken = taken;
+    if (!taken) this.cameraFollows = false;
   }
 
   togglePiece(open = !this.pieceOpen): void {

@@ -1,12 +1,14 @@
 import type { WireNote } from "../generated/protocol";
 
+type Sounding = Pick<WireNote, "onset_s" | "duration_s"> & { readonly valves: readonly number[] | null };
+
 /**
  * Of a part's notes those that its player plays, one at a time: no chord's other notes, and none that the instrument
  * lacks. One that is held on under the next ends where that begins, as it is played.
  *
  * @param notes by onset
  */
-export function lineNotes(notes: readonly WireNote[]): readonly WireNote[] {
+export function lineNotes<T extends Sounding>(notes: readonly T[]): readonly T[] {
   const played = notes.filter(({ valves }) => valves !== null);
   return played.map((note, index) => {
     const room = (played[index + 1]?.onset_s ?? Infinity) - note.onset_s;
@@ -14,7 +16,12 @@ export function lineNotes(notes: readonly WireNote[]): readonly WireNote[] {
   });
 }
 
-/** A part's notes as blocks show them: the line as it is played, and the rest, which is not lit, as it is written. */
-export function blockNotes(notes: readonly WireNote[]): readonly WireNote[] {
-  return [...lineNotes(notes), ...notes.filter(({ valves }) => valves === null)];
+/**
+ * A cast's notes as blocks show them: each player's line as it is played, and the rest, which is not lit, as it is
+ * written.
+ */
+export function blockNotes<T extends Sounding & { readonly player: number | null }>(notes: readonly T[]): readonly T[] {
+  const players = [...new Set(notes.map(({ player }) => player))];
+  const lines = players.flatMap((one) => lineNotes(notes.filter(({ player }) => player === one)));
+  return [...lines, ...notes.filter(({ valves }) => valves === null)];
 }

@@ -40,6 +40,9 @@ export interface PageMeasures {
   readonly drawCalls: number;
   /** The rigs whose models stand on the stage. */
   readonly rigs: readonly string[];
+  /** How many notes lie in each player's lane, and whose the strips follow, a place in the cast. */
+  readonly laneNotes: readonly number[];
+  readonly followed: number;
   /** Where the camera stood in the picture that was drawn last, in the world, metres. */
   readonly drawnFrom: readonly [number, number, number];
   /** What the show's editor says about itself, while it is open. */
@@ -115,6 +118,12 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     get rigs() {
       return stage.rigs;
+    },
+    get laneNotes() {
+      return stage.laneNotes;
+    },
+    get followed() {
+      return view()?.cast.followed ?? 0;
     },
     get drawnFrom() {
       return stage.drawnFrom;

@@ -1,5 +1,5 @@
 import { ProblemError, ReinaApi, type SessionFiles } from "../connection";
-import type { Example, ShowParameter } from "../generated/protocol";
+import type { Example, InstrumentList, ShowParameter } from "../generated/protocol";
 import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
 import { Notices, type NoticeOptions } from "./notices.svelte";
@@ -27,6 +27,8 @@ export class Reina {
   readonly notices = new Notices();
   parameters = $state.raw<readonly ShowParameter[]>([]);
   examples = $state.raw<readonly Example[]>([]);
+  /** What a cast can be made of; null until the server has said it. */
+  instruments = $state.raw<InstrumentList | null>(null);
   volume = $state(remembered().volume);
   muted = $state(remembered().muted);
   hasPlayed = $state(remembered().hasPlayed);
@@ -240,7 +242,12 @@ export class Reina {
   }
 
   async #readLists(): Promise<void> {
-    const [parameters, examples] = await Promise.allSettled([this.api.parameters(), this.api.examples()]);
+    const [parameters, examples, instruments] = await Promise.allSettled([
+      this.api.parameters(),
+      this.api.examples(),
+      this.api.instruments(),
+    ]);
+    if (instruments.status === "fulfilled") this.instruments = instruments.value;
     if (parameters.status === "fulfilled") this.parameters = parameters.value;
     if (examples.status === "fulfilled") this.examples = examples.value;
   }

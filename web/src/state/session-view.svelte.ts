@@ -9,6 +9,7 @@ import {
   type StreamState,
 } from "../connection";
 import type {
+  Cast,
   Hello,
   Score,
   ServerMessage,
@@ -31,6 +32,7 @@ import {
   WholeSong,
   type SoundState,
 } from "../sound";
+import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
@@ -59,6 +61,8 @@ export class SessionView {
   /** What changes the session; null where this browser did not make it and may only watch. */
   readonly token: string | null;
   readonly sync = new SyncMeasure();
+  /** Who plays what, and whom the strips follow here. */
+  readonly cast: CastState;
 
   session: Session;
   score: Score;
@@ -82,8 +86,11 @@ export class SessionView {
   readonly playing = $derived.by(
     () => this.transport.playing && (this.transport.loop !== null || this.songTime < this.duration - END_TOLERANCE_S),
   );
-  /** The notes of the parts that the first player plays, by onset. */
-  readonly playedNotes: readonly WireNote[] = $derived.by(() => this.score.notes.filter((note) => note.player === 0));
+  /** The notes of the parts that the followed player plays, by onset. */
+  readonly playedNotes: readonly WireNote[] = $derived.by(() => {
+    const { followed } = this.cast;
+    return this.score.notes.filter((note) => note.player === followed);
+  });
 
   /** Of these the ones that sound, one at a time. */
   readonly line: readonly WireNote[] = $derived.by(() => lineNotes(this.playedNotes));
@@ -99,17 +106,24 @@ export class SessionView {
   #followed: TransportState | null = null;
   #songHref: string | null = null;
   #songWanted = new AbortController();
+  #readings = 0;
 
   /** Get a session's score and clock and join its stream. Throws ProblemError when there is none. */
   static async open(id: string, token: string | null, surroundings: Surroundings): Promise<SessionView> {
     const { api } = surroundings;
-    const [session, score, transport] = await Promise.all([api.session(id), api.score(id), api.transport(id)]);
-    return new SessionView(session, score, transport, token, surroundings);
+    const [session, score, cast, transport] = await Promise.all([
+      api.session(id),
+      api.score(id),
+      api.cast(id),
+      api.transport(id),
+    ]);
+    return new SessionView(session, score, cast, transport, token, surroundings);
   }
 
   private constructor(
     session: Session,
     score: Score,
+    cast: Cast,
     transport: TransportState,
     token: string | null,
     surroundings: Surroundings,
@@ -118,6 +132,11 @@ export class SessionView {
     this.token = token;
     this.session = $state.raw(session);
     this.score = $state.raw(score);
+    this.cast = new CastState(
+      cast,
+      (fields) => surroundings.api.changeCast(session.id, fields, token ?? ""),
+      (error) => this.#fail(error),
+    );
     this.transport = $state.raw(transport);
     this.duration = session.duration_s;
     this.songTime = transport.song_time_s;
@@ -367,7 +386,13 @@ export class SessionView {
 
   async #readAnew(): Promise<void> {
     const { api } = this.#surroundings;
-    [this.session, this.score] = await Promise.all([api.session(this.id), api.score(this.id)]);
+    const reading = ++this.#readings;
+    const [session, score, cast] = await Promise.all([api.session(this.id), api.score(this.id), api.cast(this.id)]);
+    // What was overtaken by another change is out of date.
+    if (reading !== this.#readings) return;
+    this.session = session;
+    this.score = score;
+    this.cast.take(cast);
   }
 
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */

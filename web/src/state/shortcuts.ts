@@ -22,6 +22,9 @@ export type Action =
   | "orbitDown"
   | "closer"
   | "further"
+  | "everybody"
+  | "onePlayer"
+  | "nextPlayer"
   | "fullscreen"
   | "piece"
   | "show"
@@ -62,6 +65,9 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "quieter", keys: ["ArrowDown"], shown: "↓", says: "Quieter", repeats: true },
   { action: "mute", keys: ["m"], shown: "M", says: "Sound off or on" },
   { action: "camera", keys: ["c"], shown: "C", says: "Give the camera back to the show" },
+  { action: "everybody", keys: ["a"], shown: "A", says: "Look at all players" },
+  { action: "onePlayer", keys: ["w"], shown: "W", says: "Look at the player whom the strips follow" },
+  { action: "nextPlayer", keys: ["j"], shown: "J", says: "Follow the next player" },
   { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },

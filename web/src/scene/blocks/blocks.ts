@@ -1,7 +1,8 @@
-/** The played part as blocks on a staff that scrolls with the song's time. */
+/** The played parts as blocks on staves that scroll with the song's time, a lane a player. */
 
 import {
   AdditiveBlending,
+  type Color,
   DoubleSide,
   Group,
   InstancedBufferAttribute,
@@ -12,8 +13,11 @@ import {
 
 import type { ScoreView } from "../score";
 import { createBlockGeometry, createCardGeometry, createLineGeometry } from "./block-geometry";
-import { LANE, createLaneUniforms } from "./lane";
+import { LANE, MAX_LANES, createLaneUniforms } from "./lane";
+import { arrangeLanes } from "./lane-arrangement";
 import { type Chunk, layOut } from "./layout";
+import { companionColor } from "./player-colors";
+import { OUTLINE_LAYER } from "../toon";
 import { BLOCK_FRAGMENT, BLOCK_VERTEX, HALO_FRAGMENT, HALO_VERTEX, LINE_FRAGMENT, LINE_VERTEX } from "./shaders";
 import { STAFF_LINES } from "./staff";
 
@@ -28,13 +32,25 @@ interface DrawnChunk {
   readonly object: Group;
 }
 
-function withColumns(
-  shape: InstancedBufferGeometry,
-  name: string,
-  columns: InstancedBufferAttribute,
-): InstancedBufferGeometry {
+/** Marks of one kind: four numbers each under the name that the shader knows, and the lane that each lies in. */
+interface Marks {
+  readonly name: "note" | "line";
+  readonly columns: InstancedBufferAttribute;
+  readonly lanes: InstancedBufferAttribute;
+}
+
+function marks(name: Marks["name"], columns: Float32Array<ArrayBuffer>, lanes: Float32Array<ArrayBuffer>): Marks {
+  return {
+    name,
+    columns: new InstancedBufferAttribute(columns, 4),
+    lanes: new InstancedBufferAttribute(lanes, 1),
+  };
+}
+
+function withMarks(shape: InstancedBufferGeometry, { name, columns, lanes }: Marks): InstancedBufferGeometry {
   const geometry = shape.clone();
   geometry.setAttribute(name, columns);
+  geometry.setAttribute("lane", lanes);
   geometry.instanceCount = columns.count;
   return geometry;
 }
@@ -43,13 +59,19 @@ export class NoteBlocks {
   readonly object = new Group();
   readonly uniforms = { ...createLaneUniforms(), pixelAngle: { value: 0.001 } };
   readonly #shapes: { readonly block: InstancedBufferGeometry; readonly card: InstancedBufferGeometry };
-  readonly #line = createLineGeometry(1);
+  readonly #line: InstancedBufferGeometry;
   readonly #materials: { readonly block: ShaderMaterial; readonly halo: ShaderMaterial; readonly line: ShaderMaterial };
+  readonly #staff: InstancedBufferGeometry;
+  /** Lanes whose colours a show gives; the others' go by the first player's. */
+  readonly #colored = new Set<Color>();
   #chunks: DrawnChunk[] = [];
+  #lanes = 1;
 
   /** @param stations cross-sections along a block, by how much its bend should show. */
   constructor(stations: number) {
     this.object.name = "blocks";
+    // As many pieces as a block has: a ledger line bends with its note.
+    this.#line = createLineGeometry(stations);
     this.#shapes = { block: createBlockGeometry(stations), card: createCardGeometry(stations) };
     const common = { uniforms: this.uniforms, transparent: true };
     this.#materials = {
@@ -71,9 +93,50 @@ export class NoteBlocks {
         fragmentShader: LINE_FRAGMENT,
       }),
     };
-    const staff = new Float32Array(STAFF_LINES.flatMap((step) => [-FOREVER, FOREVER, step, step]));
-    const lines = withColumns(createLineGeometry(6 * stations), "line", new InstancedBufferAttribute(staff, 4));
-    this.object.add(this.#mesh(lines, "line", ORDER.lines));
+    const staves = Array.from({ length: MAX_LANES }, (_, lane) => STAFF_LINES.map((step) => ({ lane, step }))).flat();
+    const columns = new Float32Array(staves.flatMap(({ step }) => [-FOREVER, FOREVER, step, step]));
+    const lanes = new Float32Array(staves.map(({ lane }) => lane));
+    this.#staff = withMarks(createLineGeometry(6 * stations), marks("line", columns, lanes));
+    this.#staff.instanceCount = STAFF_LINES.length;
+    this.object.add(this.#mesh(this.#staff, "line", ORDER.lines));
+  }
+
+  /** How many notes lie in each player's lane. */
+  get laneNotes(): readonly number[] {
+    const counts = Array.from({ length: this.#lanes }, () => 0);
+    for (const { chunk } of this.#chunks) for (const lane of chunk.noteLanes) counts[lane] = (counts[lane] ?? 0) + 1;
+    return counts;
+  }
+
+  /** The colours of the lanes' blocks as they were drawn last; read, never kept. */
+  get laneColors(): readonly Color[] {
+    return this.uniforms.colors.value.slice(0, this.#lanes);
+  }
+
+  /** A show gives these colours, which are among `uniforms`, itself. */
+  setOwnColors(colors: readonly Color[]): void {
+    this.#colored.clear();
+    for (const color of colors) this.#colored.add(color);
+  }
+
+  /** Color the lanes whose colour no show gives, by the first player's. */
+  colorLanes(): void {
+    for (const { value: colors } of [this.uniforms.colors, this.uniforms.soundingColors]) {
+      const [base] = colors;
+      for (let lane = 1; lane < this.#lanes; lane++) {
+        const color = colors[lane];
+        if (base && color && !this.#colored.has(color)) companionColor(base, lane, color);
+      }
+    }
+  }
+
+  /** Arrange the lanes by where the players stand across the stage, metres; positive is the audience's right. */
+  arrange(places: readonly number[]): void {
+    const arrangement = arrangeLanes(places.slice(0, MAX_LANES));
+    const { laneScale, heights, shifts } = this.uniforms;
+    laneScale.value = arrangement.scale;
+    arrangement.heights.forEach((height, lane) => (heights.value[lane] = height));
+    arrangement.shifts.forEach((shift, lane) => (shifts.value[lane] = shift));
   }
 
   #mesh(geometry: InstancedBufferGeometry, material: "block" | "halo" | "line", order: number): Mesh {
@@ -82,24 +145,28 @@ export class NoteBlocks {
     mesh.frustumCulled = false;
     mesh.matrixAutoUpdate = false;
     mesh.renderOrder = order;
+    // Hairs that a floor's mirror image would not show.
+    if (material === "line") mesh.layers.set(OUTLINE_LAYER);
     return mesh;
   }
 
   /** Lay the blocks out anew. */
   setScore(score: ScoreView): void {
     this.#clear();
+    this.#lanes = Math.min(Math.max(score.players, 1), MAX_LANES);
+    this.#staff.instanceCount = STAFF_LINES.length * this.#lanes;
     this.#chunks = layOut(score).map((chunk) => {
       const object = new Group();
       if (chunk.notes.length > 0) {
-        const notes = new InstancedBufferAttribute(chunk.notes, 4);
+        const notes = marks("note", chunk.notes, chunk.noteLanes);
         object.add(
-          this.#mesh(withColumns(this.#shapes.block, "note", notes), "block", ORDER.blocks),
-          this.#mesh(withColumns(this.#shapes.card, "note", notes), "halo", ORDER.halos),
+          this.#mesh(withMarks(this.#shapes.block, notes), "block", ORDER.blocks),
+          this.#mesh(withMarks(this.#shapes.card, notes), "halo", ORDER.halos),
         );
       }
       if (chunk.lines.length > 0) {
-        const lines = new InstancedBufferAttribute(chunk.lines, 4);
-        object.add(this.#mesh(withColumns(this.#line, "line", lines), "line", ORDER.lines));
+        const lines = marks("line", chunk.lines, chunk.lineLanes);
+        object.add(this.#mesh(withMarks(this.#line, lines), "line", ORDER.lines));
       }
       this.object.add(object);
       return { chunk, object };
@@ -130,5 +197,6 @@ export class NoteBlocks {
     for (const material of Object.values(this.#materials)) material.dispose();
     for (const shape of Object.values(this.#shapes)) shape.dispose();
     this.#line.dispose();
+    this.#staff.dispose();
   }
 }

@@ -1,6 +1,12 @@
-/** The lane: where a moment of the score and a height on the staff lie in the room, as GLSL. */
+/** The lanes: where a moment of the score and a height on the staff lie in the room, as GLSL. */
 
 import { Color, UniformsLib, UniformsUtils, Vector3 } from "three";
+
+/** Lanes that there can be, one a player. */
+export const MAX_LANES = 8;
+
+/** A number for each lane, and the same for vectors and colours. */
+const perLane = <T>(make: () => T): T[] => Array.from({ length: MAX_LANES }, make);
 
 /** Measures of both arrangements, metres unless said otherwise. */
 export const LANE = {
@@ -24,11 +30,16 @@ export function createLaneUniforms() {
     speed: { value: 0.6 },
     /** 0 toward_bell, 1 lane_below. */
     arrangement: { value: 0 },
-    /** Middle of the bell's mouth, in the world. */
-    bell: { value: new Vector3(0, 1.3, 0.75) },
+    /** Middle of each bell's mouth, in the world. */
+    bells: { value: perLane(() => new Vector3(0, 1.3, 0.75)) },
+    /** toward_bell: height to which each ribbon goes, metres; lane_below: up the desk from its middle, metres. */
+    heights: { value: perLane(() => LANE.bell.height as number) },
+    shifts: { value: perLane(() => 0) },
+    /** How large the lanes are drawn, as a share of one that is alone. */
+    laneScale: { value: 1 },
     toKey: { value: new Vector3() },
-    color: { value: new Color(0.1, 0.12, 0.2) },
-    soundingColor: { value: new Color(1, 0.6, 0.2) },
+    colors: { value: perLane(() => new Color(0.1, 0.12, 0.2)) },
+    soundingColors: { value: perLane(() => new Color(1, 0.6, 0.2)) },
     opacity: { value: 1 },
     glow: { value: 1 },
   };
@@ -37,14 +48,18 @@ export function createLaneUniforms() {
 const f = (value: number): string => value.toFixed(4);
 
 /**
- * `Place lanePlace(float ahead, float step)`: a point of the staff `ahead` metres after the sounding moment, with the
+ * `Place lanePlace(float ahead, float step)`: a point of the staff of the lane that the mark lies in, `ahead` metres after the sounding moment, with the
  * directions along the lane, up the staff and out of it, the staff's scale there, and how much it is seen.
  */
 export const LANE_PLACE = /* glsl */ `
 uniform float songTime;
 uniform float speed;
 uniform float arrangement;
-uniform vec3 bell;
+uniform vec3 bells[${MAX_LANES}];
+uniform float heights[${MAX_LANES}];
+uniform float shifts[${MAX_LANES}];
+uniform float laneScale;
+attribute float lane;
 struct Place {
   vec3 point;
   vec3 along;
@@ -66,21 +81,23 @@ float laneEnd() {
 }
 Place lanePlace(float ahead, float step) {
   Place place;
+  int number = int(lane + 0.5);
+  vec3 bell = bells[number];
   if (arrangement < 0.5) {
     float spread = smoothstep(0.0, ${f(LANE.bell.funnel)}, ahead);
     float turn = min(ahead / ${f(LANE.bell.radius)}, ${f(LANE.bell.turn)});
     float straight = ahead - turn * ${f(LANE.bell.radius)};
     vec2 across = ${f(LANE.bell.radius)} * vec2(1.0 - cos(turn), sin(turn)) + straight * vec2(sin(turn), cos(turn));
-    place.scale = mix(${f(LANE.bell.narrowest)}, 1.0, spread);
-    float centre = mix(bell.y, ${f(LANE.bell.height)}, smoothstep(0.0, ${f(1.6 * LANE.bell.funnel)}, ahead));
+    place.scale = mix(${f(LANE.bell.narrowest)}, 1.0, spread) * laneScale;
+    float centre = mix(bell.y, heights[number], smoothstep(0.0, ${f(1.6 * LANE.bell.funnel)}, ahead));
     place.point = vec3(bell.x + ${f(LANE.bell.side)} * across.x, centre + (step - 4.0) * STEP * place.scale, bell.z + across.y);
     place.along = vec3(${f(LANE.bell.side)} * sin(turn), 0.0, cos(turn));
     place.up = vec3(0.0, 1.0, 0.0);
   } else {
-    place.scale = 1.0;
+    place.scale = laneScale;
     place.along = vec3(1.0, 0.0, 0.0);
     place.up = vec3(0.0, ${f(Math.cos(LANE.below.lean))}, ${f(-Math.sin(LANE.below.lean))});
-    place.point = vec3(${f(LANE.below.now)} + ahead, ${f(LANE.below.height)}, ${f(LANE.below.near)}) + place.up * (step - 4.0) * STEP;
+    place.point = vec3(${f(LANE.below.now)} + ahead, ${f(LANE.below.height)}, ${f(LANE.below.near)}) + place.up * ((step - 4.0) * STEP * place.scale + shifts[number]);
   }
   place.out_ = cross(place.along, place.up);
   place.sight = smoothstep(laneEnd(), laneEnd() - 0.7, ahead) * smoothstep(laneStart() - 0.001, laneStart() + (arrangement < 0.5 ? 0.02 : 0.4), ahead);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import type { ScoreNote } from "../score";
+import { playedScore, type ScoreNote } from "../score";
 import { CHUNK_NOTES, layOut, UNPLAYABLE, valveMask } from "./layout";
 import { staffStep } from "./staff";
 
@@ -10,6 +10,7 @@ function melody(count: number): ScoreNote[] {
     duration_s: 0.2,
     written_pitch: 60 + ((i * 7) % 24),
     valves: i % 5 === 0 ? null : [1, 3].slice(0, i % 3),
+    player: 0,
   }));
 }
 
@@ -26,7 +27,7 @@ describe("valveMask", () => {
 describe("layOut", () => {
   it("keeps every note once, in time, whatever order it came in", () => {
     const notes = melody(3 * CHUNK_NOTES + 5);
-    const chunks = layOut({ notes: [...notes].reverse(), bar_lines_s: [] });
+    const chunks = layOut({ notes: [...notes].reverse(), bar_lines_s: [], players: 1 });
     expect(chunks).toHaveLength(4);
     const columns = chunks.flatMap((chunk) => [...chunk.notes]);
     expect(columns).toHaveLength(4 * notes.length);
@@ -42,7 +43,7 @@ describe("layOut", () => {
 
   it("keeps every bar line once, on the staff's height", () => {
     const bars = Array.from({ length: 60 }, (_, i) => i);
-    const chunks = layOut({ notes: melody(150), bar_lines_s: bars });
+    const chunks = layOut({ notes: melody(150), bar_lines_s: bars, players: 1 });
     const drawn: number[] = [];
     for (const { lines } of chunks) {
       for (let i = 0; i < lines.length; i += 4) {
@@ -57,7 +58,11 @@ describe("layOut", () => {
   });
 
   it("covers its own notes and lines with each chunk's time", () => {
-    for (const { startS, endS, notes, lines } of layOut({ notes: melody(200), bar_lines_s: [0, 2, 4, 70] })) {
+    for (const { startS, endS, notes, lines } of layOut({
+      notes: melody(200),
+      bar_lines_s: [0, 2, 4, 70],
+      players: 1,
+    })) {
       for (let i = 0; i < notes.length; i += 4) {
         const onset = notes[i] ?? Number.NaN;
         expect(onset).toBeGreaterThanOrEqual(startS);
@@ -71,12 +76,47 @@ describe("layOut", () => {
   });
 
   it("rules a ledger line under a low note, as long as the note", () => {
-    const [chunk] = layOut({ notes: [{ onset_s: 1, duration_s: 2, written_pitch: 60, valves: [] }], bar_lines_s: [] });
+    const [chunk] = layOut({
+      notes: [{ onset_s: 1, duration_s: 2, written_pitch: 60, valves: [], player: 0 }],
+      bar_lines_s: [],
+      players: 1,
+    });
     expect([...(chunk?.lines ?? [])]).toEqual([1, 3, -2, -2]);
   });
 
   it("draws the bar lines of an empty part, and nothing of an empty score", () => {
-    expect(layOut({ notes: [], bar_lines_s: [0, 2] })[0]?.lines).toHaveLength(8);
-    expect(layOut({ notes: [], bar_lines_s: [] })).toEqual([]);
+    expect(layOut({ notes: [], bar_lines_s: [0, 2], players: 1 })[0]?.lines).toHaveLength(8);
+    expect(layOut({ notes: [], bar_lines_s: [], players: 1 })).toEqual([]);
+  });
+
+  it("keeps each player's notes in their own lane, and rules bar lines in all of them", () => {
+    const notes = melody(CHUNK_NOTES + 20).map((note, i) => ({ ...note, player: i % 3 }));
+    const chunks = layOut({ notes, bar_lines_s: [0, 4, 8], players: 3 });
+    const lanes = chunks.flatMap(({ noteLanes }) => [...noteLanes]);
+    expect(lanes).toEqual(notes.map(({ player }) => player));
+    const bars = chunks.flatMap(({ lines, lineLanes }) =>
+      [...lineLanes].filter((_, i) => lines[4 * i + 2] !== lines[4 * i + 3]),
+    );
+    expect(bars).toEqual([0, 1, 2, 0, 1, 2, 0, 1, 2]);
+    for (const { notes: columns, noteLanes, lines, lineLanes } of chunks) {
+      expect([columns.length, lines.length]).toEqual([4 * noteLanes.length, 4 * lineLanes.length]);
+    }
+  });
+});
+
+describe("playedScore", () => {
+  it("leaves out what nobody on the stage plays", () => {
+    const [first, second, third] = melody(3);
+    if (first === undefined || second === undefined || third === undefined) throw new Error("three notes");
+    const wire = [
+      { ...first, player: null },
+      { ...second, player: 1 },
+      { ...third, player: 2 },
+    ];
+    expect(playedScore({ notes: wire, bar_lines_s: [1] }, 2)).toEqual({
+      notes: [wire[1]],
+      bar_lines_s: [1],
+      players: 2,
+    });
   });
 });

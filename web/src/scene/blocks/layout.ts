@@ -15,8 +15,11 @@ export interface Chunk {
   readonly endS: number;
   /** onset s, duration s, staff step, valve mask of each note. */
   readonly notes: Float32Array<ArrayBuffer>;
+  /** Whose lane each note lies in. */
+  readonly noteLanes: Float32Array<ArrayBuffer>;
   /** start s, end s, start step, end step of each ledger and bar line. */
   readonly lines: Float32Array<ArrayBuffer>;
+  readonly lineLanes: Float32Array<ArrayBuffer>;
 }
 
 /** Bit v − 1 for each valve v that is down; 0 is open. */
@@ -24,12 +27,38 @@ export function valveMask(valves: readonly number[] | null): number {
   return valves === null ? UNPLAYABLE : valves.reduce((mask, valve) => mask | (1 << (valve - 1)), 0);
 }
 
-function ledgerLines(note: ScoreNote, step: number): number[] {
-  return ledgerSteps(step).flatMap((line) => [note.onset_s, note.onset_s + note.duration_s, line, line]);
+/** Four numbers a mark, and the lane of each. */
+class Columns {
+  readonly #values: number[] = [];
+  readonly #lanes: number[] = [];
+
+  add(lane: number, ...values: [number, number, number, number]): void {
+    this.#values.push(...values);
+    this.#lanes.push(lane);
+  }
+
+  get count(): number {
+    return this.#lanes.length;
+  }
+
+  get values(): Float32Array<ArrayBuffer> {
+    return new Float32Array(this.#values);
+  }
+
+  get lanes(): Float32Array<ArrayBuffer> {
+    return new Float32Array(this.#lanes);
+  }
+}
+
+function addLedgerLines(lines: Columns, note: ScoreNote, step: number): void {
+  for (const line of ledgerSteps(step)) {
+    lines.add(note.player, note.onset_s, note.onset_s + note.duration_s, line, line);
+  }
 }
 
 /**
- * Divide a score into chunks, by onset; every bar line belongs to the chunk in whose time it lies.
+ * Divide a score into chunks, by onset, whoever plays; every bar line belongs to the chunk in whose time it lies, and
+ * is ruled in every lane.
  */
 export function layOut(score: ScoreView): Chunk[] {
   const notes = [...score.notes].sort((a, b) => a.onset_s - b.onset_s);
@@ -39,23 +68,24 @@ export function layOut(score: ScoreView): Chunk[] {
   for (let first = 0; first < Math.max(notes.length, 1); first += CHUNK_NOTES) {
     const members = notes.slice(first, first + CHUNK_NOTES);
     const until = notes[first + CHUNK_NOTES]?.onset_s ?? Number.POSITIVE_INFINITY;
-    const columns: number[] = [];
-    const lines: number[] = [];
+    const columns = new Columns();
+    const lines = new Columns();
     let startS = members[0]?.onset_s ?? Number.POSITIVE_INFINITY;
     let endS = startS === Number.POSITIVE_INFINITY ? Number.NEGATIVE_INFINITY : startS;
     for (const note of members) {
       const step = staffStep(note.written_pitch);
-      columns.push(note.onset_s, note.duration_s, step, valveMask(note.valves));
-      lines.push(...ledgerLines(note, step));
+      columns.add(note.player, note.onset_s, note.duration_s, step, valveMask(note.valves));
+      addLedgerLines(lines, note, step);
       endS = Math.max(endS, note.onset_s + note.duration_s);
     }
     for (let at = bars[bar]; at !== undefined && at < until; at = bars[++bar]) {
-      lines.push(at, at, 0, 8);
+      for (let lane = 0; lane < score.players; lane++) lines.add(lane, at, at, 0, 8);
       startS = Math.min(startS, at);
       endS = Math.max(endS, at);
     }
-    if (columns.length + lines.length > 0) {
-      chunks.push({ startS, endS, notes: new Float32Array(columns), lines: new Float32Array(lines) });
+    if (columns.count + lines.count > 0) {
+      const [notes, noteLanes] = [columns.values, columns.lanes];
+      chunks.push({ startS, endS, notes, noteLanes, lines: lines.values, lineLanes: lines.lanes });
     }
   }
   return chunks;

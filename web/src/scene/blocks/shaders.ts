@@ -1,7 +1,7 @@
 /** The blocks, their halos and the staff's lines, as GLSL. */
 
 import { BLOCK } from "./block-geometry";
-import { LANE_PLACE } from "./lane";
+import { LANE_PLACE, MAX_LANES } from "./lane";
 
 const f = (value: number): string => value.toFixed(4);
 
@@ -27,6 +27,11 @@ export const BLOCK_VERTEX = /* glsl */ `
 ${LANE_PLACE}
 ${NOTE_SPAN}
 attribute float inset;
+uniform vec3 colors[${MAX_LANES}];
+uniform vec3 soundingColors[${MAX_LANES}];
+varying float vLane;
+varying vec3 vColor;
+varying vec3 vSoundingColor;
 varying vec3 vFace;
 varying vec2 vInside;
 varying float vLength;
@@ -38,6 +43,9 @@ varying vec3 vToEye;
 void main() {
   float start, end;
   vec4 mvPosition = vec4(0.0, 0.0, 0.0, 1.0);
+  vLane = lane;
+  vColor = colors[int(lane + 0.5)];
+  vSoundingColor = soundingColors[int(lane + 0.5)];
   if (noteSpan(start, end)) {
     float extent = end - start;
     float ahead = mix(start, end, position.x);
@@ -76,11 +84,12 @@ vec3 valveColor(int valve) {
 export const BLOCK_FRAGMENT = /* glsl */ `
 #include <common>
 #include <fog_pars_fragment>
-uniform vec3 color;
-uniform vec3 soundingColor;
 uniform float opacity;
 uniform float glow;
 uniform vec3 toKey;
+varying float vLane;
+varying vec3 vColor;
+varying vec3 vSoundingColor;
 varying vec3 vFace;
 varying vec2 vInside;
 varying float vLength;
@@ -96,6 +105,8 @@ void main() {
   vec3 normal = normalize(vNormalWorld);
   vec3 eye = normalize(vToEye);
   bool playable = vMask > -0.5;
+  vec3 color = vColor;
+  vec3 soundingColor = vSoundingColor;
   vec3 body = playable ? color : mix(color, vec3(dot(color, vec3(0.3333))), 0.7) * 0.5;
 
   // Lacquer: a matt body under a clear coat that catches the window.
@@ -144,6 +155,13 @@ void main() {
     float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.45);
     if (playable) surface = mix(surface, mark, share * facing);
   }
+  // A line along the block for the second player, two for the third: hue does not speak alone.
+  float grooves = floor(vLane + 0.5);
+  float across = vInside.y / 0.011 + 0.5 * (grooves - 1.0);
+  float fromGroove = 0.011 * abs(across - clamp(floor(across + 0.5), 0.0, grooves - 1.0));
+  float behindMarks = step(0.031, vInside.x) * step(vInside.x, vLength - 0.006);
+  float groove = (1.0 - smoothstep(0.0009, 0.0009 + pixel, fromGroove)) * step(0.5, grooves) * behindMarks;
+  surface = mix(surface, INK, 0.6 * groove * facing);
   // What is not played is an empty frame, faint before what is.
   if (!playable) {
     float frame = 1.0 - smoothstep(0.003, 0.003 + pixel, inward);
@@ -163,12 +181,15 @@ export const HALO_VERTEX = /* glsl */ `
 ${LANE_PLACE}
 ${NOTE_SPAN}
 uniform float glow;
+uniform vec3 soundingColors[${MAX_LANES}];
+varying vec3 vSoundingColor;
 varying vec2 vFrom;
 varying float vSight;
 const float REACH = 0.16;
 void main() {
   float start, end;
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  vSoundingColor = soundingColors[int(lane + 0.5)];
   vFrom = vec2(0.0);
   vSight = 0.0;
   if (sounding() > 0.5 && glow > 0.0 && noteSpan(start, end)) {
@@ -189,15 +210,15 @@ void main() {
 
 export const HALO_FRAGMENT = /* glsl */ `
 #include <common>
-uniform vec3 soundingColor;
 uniform float glow;
 uniform float opacity;
+varying vec3 vSoundingColor;
 varying vec2 vFrom;
 varying float vSight;
 void main() {
   float falloff = max(0.0, 1.0 - length(vFrom));
   float light = falloff * falloff * falloff * glow / (1.0 + 0.35 * glow) * 0.11 * opacity * max(vSight, 0.35);
-  gl_FragColor = vec4(soundingColor * light, 1.0);
+  gl_FragColor = vec4(vSoundingColor * light, 1.0);
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
 }

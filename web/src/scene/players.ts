@@ -1,0 +1,109 @@
+/** Who stands on the stage: each player's body and bell. */
+
+import { type Object3D, type Ray, Vector3 } from "three";
+
+import type { RigModel } from "../rig";
+
+/** How near to a player's middle a ray has to pass, metres: an arm's breadth. */
+const REACH = 0.3;
+const BELL_NODE = "socket_bell";
+
+/** The bell's mouth: a node, and the point in its frame. */
+interface Bell {
+  readonly node: Object3D;
+  readonly offset: Vector3;
+}
+
+interface StandingPlayer {
+  readonly hips: Object3D | null;
+  readonly head: Object3D | null;
+  readonly feet: readonly Object3D[];
+  readonly bell: Bell | null;
+}
+
+/** Where a player stands and which way, metres and radians about +Y from facing the audience. */
+export interface Stand {
+  readonly x: number;
+  readonly z: number;
+  readonly facing: number;
+}
+
+const low = new Vector3();
+const high = new Vector3();
+const ahead = new Vector3();
+
+export class Players {
+  readonly #players: StandingPlayer[] = [];
+
+  /** @param models with the player that each belongs to, a place in the cast. */
+  constructor(models: readonly { readonly model: RigModel; readonly player: number }[]) {
+    for (let player = 0; models.some((each) => each.player === player); player++) {
+      const own = models.filter((each) => each.player === player).map(({ model }) => model);
+      this.#players.push({
+        hips: findJoint(own, "hips"),
+        head: findJoint(own, "head"),
+        feet: ["leftFoot", "rightFoot"].flatMap((joint) => findJoint(own, joint) ?? []),
+        bell: findBell(own),
+      });
+    }
+  }
+
+  get count(): number {
+    return this.#players.length;
+  }
+
+  /** Take the place of each bell's mouth, in the world; after the scene's world matrices are up to date. */
+  readBells(into: readonly Vector3[]): void {
+    this.#players.forEach(({ bell }, player) => {
+      if (bell !== null) into[player]?.copy(bell.offset).applyMatrix4(bell.node.matrixWorld);
+    });
+  }
+
+  /** Where everybody stands, in the cast's order. */
+  stands(): Stand[] {
+    return this.#players.map(({ hips }) => {
+      if (hips === null) return { x: 0, z: 0, facing: 0 };
+      low.setFromMatrixPosition(hips.matrixWorld);
+      ahead.setFromMatrixColumn(hips.matrixWorld, 2);
+      return { x: low.x, z: low.z, facing: Math.atan2(ahead.x, ahead.z) };
+    });
+  }
+
+  /** The player whom a ray meets first, a place in the cast; null for none. */
+  pick(ray: Ray): number | null {
+    let nearest = Number.POSITIVE_INFINITY;
+    let picked: number | null = null;
+    this.#players.forEach(({ head, feet }, player) => {
+      if (head === null) return;
+      high.setFromMatrixPosition(head.matrixWorld);
+      low.set(0, 0, 0);
+      for (const foot of feet) low.addScaledVector(ahead.setFromMatrixPosition(foot.matrixWorld), 1 / feet.length);
+      if (feet.length === 0) low.copy(high).setY(0);
+      const away = ray.distanceSqToSegment(low, high, ahead);
+      const distance = ahead.distanceTo(ray.origin);
+      if (away > REACH * REACH || distance >= nearest) return;
+      nearest = distance;
+      picked = player;
+    });
+    return picked;
+  }
+}
+
+function findJoint(models: readonly RigModel[], joint: string): Object3D | null {
+  for (const model of models) {
+    const node = model.findJoint(joint);
+    if (node !== null) return node;
+  }
+  return null;
+}
+
+/** The mouth of the first bell among the models: the rig's contact, or else the model's socket. */
+function findBell(models: readonly RigModel[]): Bell | null {
+  for (const model of models) {
+    const contact = model.findContact("bell");
+    if (contact !== null) return contact;
+    const node = model.object.getObjectByName(BELL_NODE);
+    if (node !== undefined) return { node, offset: new Vector3() };
+  }
+  return null;
+}

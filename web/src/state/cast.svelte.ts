@@ -1,0 +1,136 @@
+import { ProblemError } from "../connection";
+import type { Cast, CastFields, Casting, CastingFields } from "../generated/protocol";
+import { playerInk } from "./player-inks";
+
+/** A field of a casting, or what is done with the cast as a whole. */
+export type CastPlace = keyof CastingFields | "add" | "leave";
+
+/** What the server refused, and where in the cast it was asked for. */
+export interface Refusal {
+  readonly player: number;
+  readonly place: CastPlace;
+  readonly words: string;
+}
+
+/** A part that nobody on the stage plays, and why. */
+export interface UnplayedPart {
+  readonly part: number;
+  readonly part_name: string;
+  readonly reason: string;
+}
+
+/** What a server that finds the cast by itself says beside. */
+type FoundCasting = Casting & { readonly cast_because?: readonly string[]; readonly handedness?: "right" | "left" };
+type FoundCast = Omit<Cast, "castings"> & {
+  readonly castings: readonly FoundCasting[];
+  readonly unplayed?: readonly UnplayedPart[];
+};
+
+/** Who plays: the cast as the server has it, and the player whom this page's strips follow. */
+export class CastState {
+  castings = $state.raw<readonly FoundCasting[]>([]);
+  /** What nobody plays, where the server says it. */
+  unplayed = $state.raw<readonly UnplayedPart[]>([]);
+  refusal = $state.raw<Refusal | null>(null);
+  /** Colours of the players' blocks on the stage, as they are read on a pane; none before they are drawn. */
+  inks = $state.raw<readonly string[]>([]);
+  /** A change is on its way. */
+  busy = $state(false);
+  #followed = $state(0);
+  /** Place in the cast of the player whom the strips follow. */
+  readonly followed = $derived.by(() => Math.max(0, Math.min(this.#followed, this.castings.length - 1)));
+  readonly #put: (fields: CastFields) => Promise<Cast>;
+  readonly #tell: (error: unknown) => void;
+
+  /**
+   * @param put asks the server for another cast.
+   * @param tell shows what went wrong where no place of the cast is to blame.
+   */
+  constructor(cast: FoundCast, put: (fields: CastFields) => Promise<Cast>, tell: (error: unknown) => void) {
+    this.take(cast);
+    this.#put = put;
+    this.#tell = tell;
+  }
+
+  /** Take the cast as the server has it now. */
+  take(cast: FoundCast): void {
+    this.castings = cast.castings;
+    this.unplayed = cast.unplayed ?? [];
+  }
+
+  /** A player's colour in panels and strips. */
+  ink(player: number): string {
+    return playerInk(this.inks, player);
+  }
+
+  /** The followed player's casting. */
+  get casting(): FoundCasting | null {
+    return this.castings[this.followed] ?? null;
+  }
+
+  /** Let the strips follow another player. */
+  follow(player: number): void {
+    if (player >= 0 && player < this.castings.length) this.#followed = player;
+  }
+
+  /** Change fields of a player's casting; another part is played alone unless others are joined in the same change. */
+  async change(player: number, changes: CastingFields): Promise<void> {
+    const [place] = Object.keys(changes) as CastPlace[];
+    const alone = changes.part !== undefined && changes.joined_parts === undefined ? { joined_parts: [] } : {};
+    const castings = this.castings.map((casting, number) =>
+      number === player ? { ...fieldsOf(casting), ...alone, ...changes } : fieldsOf(casting),
+    );
+    if (place !== undefined) await this.#ask(castings, { player, place });
+  }
+
+  /** Let one more play, the part that suits best of those that nobody plays, and follow them. */
+  async add(figure: string, instrument: string): Promise<void> {
+    const player = this.castings.length;
+    const castings = [...this.castings.map(fieldsOf), { player: figure, instrument }];
+    if (await this.#ask(castings, { player, place: "add" })) this.#followed = player;
+  }
+
+  /** Leave a player out. */
+  async leaveOut(player: number): Promise<void> {
+    const castings = this.castings.filter((_, number) => number !== player).map(fieldsOf);
+    const followed = this.followed;
+    if ((await this.#ask(castings, { player, place: "leave" })) && followed > player) this.#followed = followed - 1;
+  }
+
+  async #ask(castings: CastingFields[], asked: Omit<Refusal, "words">): Promise<boolean> {
+    this.busy = true;
+    this.refusal = null;
+    try {
+      this.take(await this.#put({ castings }));
+      return true;
+    } catch (error) {
+      if (error instanceof ProblemError && error.status === 422) this.refusal = { ...asked, words: wordsOf(error) };
+      else this.#tell(error);
+      return false;
+    } finally {
+      this.busy = false;
+    }
+  }
+}
+
+/** A casting as it is asked for: without how it came out. */
+export function fieldsOf(casting: FoundCasting): CastingFields {
+  const { part, instrument, player, seat, seat_chosen, transposition, written, octave_fit, joined_parts } = casting;
+  return {
+    part,
+    instrument,
+    player,
+    seat: seat_chosen ? seat : null,
+    transposition,
+    written,
+    octave_fit,
+    joined_parts,
+    ...(casting.handedness === undefined ? {} : { handedness: casting.handedness }),
+  };
+}
+
+/** A refusal in the server's words, each fault once. */
+function wordsOf({ detail, title, errors }: ProblemError): string {
+  const faults = errors.map(({ location, detail: told }) => (location === null ? told : `${location}: ${told}`));
+  return faults.length > 0 ? faults.join("; ") : detail === "" ? title : detail;
+}
