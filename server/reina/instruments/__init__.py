@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from reina.instruments.brass.family import FAMILY
-from reina.instruments.casting import MAX_PLAYERS, Cast, CastError, Casting
+from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
+from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.describe import describe_notes, describe_score
+from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
@@ -25,6 +27,7 @@ BRASS: Mapping[str, Instrument] = MappingProxyType({**INSTRUMENTS, **FAMILY})
 
 __all__ = [
     "BRASS",
+    "HANDEDNESS",
     "INSTRUMENTS",
     "MAX_PLAYERS",
     "Cast",
@@ -35,7 +38,11 @@ __all__ = [
     "Line",
     "PartRanking",
     "PlayedPart",
+    "UnplayedPart",
+    "casting_reasons",
     "describe_notes",
     "describe_score",
+    "find_cast",
     "pitch_name",
+    "unplayed_parts",
 ]

@@ -28,6 +28,11 @@ class Instrument(Protocol):
         ...
 
     @property
+    def handedness(self) -> tuple[str, ...]:
+        """Which of `HANDEDNESS` it can be played with."""
+        ...
+
+    @property
     def valve_count(self) -> int:
         """How many valves it has."""
         ...
@@ -35,6 +40,10 @@ class Instrument(Protocol):
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What of it moves in every frame: its valves, 0 up and 1 down, and its slide, 0 in and 1 out."""
+        ...
+
+    def can_play(self, sounding_pitch: int) -> bool:
+        """Return whether it has a note, a MIDI number as it sounds."""
         ...
 
     def written_pitch(self, sounding_pitch: int) -> int:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
-from reina.instruments import Cast, CastError
+from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
 from reina.music import NotInScoreError
 from reina.performance import SEATS, SEATS_FOR, Performance
 from reina.protocol import Manifest, build_manifest
@@ -17,7 +18,7 @@ from reina.stage import write_default_show
 
 if TYPE_CHECKING:
     from reina.curves import ParameterRegistry
-    from reina.instruments import Casting, Instrument, PartRanking, PlayedPart
+    from reina.instruments import Casting, Instrument, PartRanking, PlayedPart, UnplayedPart
     from reina.music import Score, ScoreWarning
     from reina.performance import Performer, Seat
     from reina.sessions.stage import Stage
@@ -72,13 +73,16 @@ class Production:
             stage: Who can play what.
             score: What is played.
             show: The show around it; when None, one is written from the form of the music.
-            cast: Who plays what; the trumpeter the part that suits best when None.
+            cast: Who plays what, or that the score is to say so; the trumpeter the part that suits best when
+                None.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
             NotInScoreError: The score has no such part.
         """
         cast = cast or Cast()
+        if cast.is_to_be_found:
+            cast = stage.found_cast(score, cast.sequence)
         registry = stage.registry(len(cast.castings))
         castings, played, rankings = _prepare(stage, score, cast)
         performers = [
@@ -114,6 +118,16 @@ class Production:
     def instrument(self) -> Instrument:
         """The first player's instrument."""
         return self.performers[0].instrument
+
+    @cached_property
+    def casting_reasons(self) -> tuple[tuple[str, ...], ...]:
+        """Why there is each player."""
+        return casting_reasons(self.score, self.cast, self.stage.kinds)
+
+    @cached_property
+    def unplayed(self) -> tuple[UnplayedPart, ...]:
+        """The parts that nobody plays, and why."""
+        return unplayed_parts(self.score, self.cast, self.stage.kinds)
 
     @property
     def sounding(self) -> tuple[PlayedParts, ...]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
-from reina.instruments import INSTRUMENTS, CastError
+from reina.instruments import HANDEDNESS, INSTRUMENTS, CastError, find_cast
 from reina.performance import Performer, player_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from reina.curves import Parameter
     from reina.instruments import Instrument, PlayedPart
-    from reina.instruments.casting import Casting
+    from reina.instruments.casting import Cast, Casting
     from reina.music import Score
     from reina.performance import Seat
     from reina.skeleton import Hold, Rig
@@ -83,7 +83,7 @@ class Stage:
         """A casting's instrument.
 
         Raises:
-            CastError: There is none of that name, or the player cannot play it.
+            CastError: There is none of that name, or the player cannot play it, or not so.
         """
         if casting.instrument not in self.instruments:
             known = ", ".join(self.instruments)
@@ -97,7 +97,24 @@ class Stage:
                 f"there is no player {casting.player!r}; there are {known} for the {casting.instrument}",
                 location=f"{place}player",
             )
-        return self.kinds[casting.instrument]
+        instrument = self.kinds[casting.instrument]
+        if casting.handedness not in instrument.handedness:
+            known = " or ".join(instrument.handedness)
+            told = f"is played {known}-handed, not {casting.handedness}-handed"
+            if casting.handedness not in HANDEDNESS:
+                told = f"is played {known}-handed; there is no handedness {casting.handedness!r}"
+            raise CastError(f"the {instrument.title} {told}", location=f"{place}handedness")
+        return instrument
+
+    def found_cast(self, score: Score, sequence: int | None = None) -> Cast:
+        """The cast that a score asks for by itself.
+
+        Args:
+            score: The score.
+            sequence: Which sequence of the file it is, as `Cast` has it.
+        """
+        players = {name: self.players(name) for name in self.instruments}
+        return find_cast(score, self.kinds, players, sequence=sequence)
 
     def performer(
         self,

@@ -58,6 +58,11 @@ class ValvedBrass:
         return self.model.rig
 
     @property
+    def handedness(self) -> tuple[str, ...]:
+        """The right hand's alone: its valves lie under the right hand and its slide ring under the left."""
+        return ("right",)
+
+    @property
     def valve_count(self) -> int:
         """How many valves it has."""
         return self.model.valve_count
@@ -66,6 +71,10 @@ class ValvedBrass:
     def parameters(self) -> tuple[Parameter, ...]:
         """Its valves, 0 up and 1 down, and the third valve's slide, 0 in and 1 out."""
         return self._parameters
+
+    def can_play(self, sounding_pitch: int) -> bool:
+        """Return whether it has a note, a MIDI number as it sounds."""
+        return sounding_pitch in self.model.chart
 
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
