@@ -1,4 +1,4 @@
-"""Reads scores and shows, small ones on a thread, long ones in a process of their own."""
+"""Reads scores and shows, writes MIDI: what is short on a thread, what is long in a process of its own."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from typing import cast as typed
 
 from reina.curves.shown import shown
+from reina.instruments.as_played import score_as_played
 from reina.music import read_score
+from reina.music.midi import write_midi
 from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
 from reina.sessions.production import Production, read_show
 from reina.sessions.workers.pool import WorkerPool
@@ -31,6 +33,8 @@ T = TypeVar("T")
 
 LONG_BYTES = 64_000
 """A longer file is read in a process; what takes a thread some tenths of a second is not worth one."""
+MIDI_BYTES = 16
+"""A note that is written weighs about as much as so many bytes that are read."""
 PACKED = 30
 """A compressed score counts as so many times its size, about what JSON shrinks by."""
 
@@ -85,6 +89,12 @@ class Reader:
             ShowError: It is no track of the parameter.
         """
         return await self._read(len(data), read_written_track, data, parameter, unit)
+
+    async def midi(self, production: Production) -> bytes:
+        """Write the score of a production as its players play it, as a MIDI file."""
+        played = [performer.played for performer in production.performers]
+        score = await asyncio.to_thread(score_as_played, production.score, played)
+        return await self._read(MIDI_BYTES * len(score.notes), write_midi, score)
 
     async def aclose(self) -> None:
         """Stop the processes."""
