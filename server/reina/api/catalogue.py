@@ -1,24 +1,48 @@
 """What the server has for everybody: the show's parameters, and its health."""
 
+from __future__ import annotations
+
 from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, Request
 
 import reina
-from reina.api.http.access import Store
+from reina.api.http.access import Store, Watched
+from reina.curves import ParameterRegistry
+from reina.instruments import MAX_PLAYERS
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, ShowParameterList
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
+
+    from reina.curves import Parameter
 
 router = APIRouter(tags=["server"])
 
 
 @router.get("/parameters")
 async def list_parameters(store: Store) -> ShowParameterList:
-    """Every show parameter in the frame's order, and every interpolation that a keyframe may name."""
-    return ShowParameterList.model_validate(store.stage.registry().describe())
+    """Every parameter of the largest cast in the frame's order, and every interpolation of keyframes.
+
+    What a session has of them says `GET /sessions/{id}/parameters`.
+    """
+    stage = store.stage
+    return _listed(stage.registry(MAX_PLAYERS), stage.streamed(MAX_PLAYERS))
+
+
+@router.get("/sessions/{session_id}/parameters")
+async def list_session_parameters(session: Watched) -> ShowParameterList:
+    """Every parameter of a session's cast in the frame's order, and every interpolation of keyframes."""
+    performers = session.production.performers
+    streamed = [parameter for performer in performers for parameter in performer.parameters]
+    return _listed(session.production.registry, streamed)
+
+
+def _listed(registry: ParameterRegistry, streamed: Sequence[Parameter]) -> ShowParameterList:
+    described = registry.describe()
+    others = ParameterRegistry(streamed).describe()["parameters"]
+    return ShowParameterList.model_validate({**described, "streamed": others})
 
 
 @router.get("/health")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from reina.performance.amounts import PLAYER_PARAMETERS, Amounts
 from reina.performance.face import Face
 from reina.performance.frame import Float32Array, SkeletonLayout
 from reina.performance.gesture_planners import GESTURE_PLANNERS
+from reina.performance.glances import CURVES, GLANCE_PARAMETER, GlanceAmount, add_glances
 from reina.performance.idle_motion import IdleMotion
 from reina.performance.mute import Mute, mute_parameter
 from reina.performance.player_body import PlayerBody
@@ -23,6 +25,8 @@ from reina.performance.stances import Stances
 from reina.rotations import same_hemisphere
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from reina.curves import Parameter, ParameterRegistry
     from reina.instruments import Instrument, PlayedPart
     from reina.instruments.trumpet.gestures import Curve
@@ -38,13 +42,29 @@ def player_prefix(number: int) -> str:
     return f"players/{number + 1}/" if number else ""
 
 
-def player_parameters(number: int) -> tuple[Parameter, ...]:
-    """What a show may move of a cast's player, the first being 0."""
+def player_parameters(number: int, *, alone: bool = True) -> tuple[Parameter, ...]:
+    """What a show may move of a cast's player.
+
+    Args:
+        number: The player's place in the cast, the first being 0.
+        alone: Whether nobody else plays; there is nobody to look at then.
+    """
     prefix = player_prefix(number)
-    return tuple(
-        replace(parameter, path=prefix + parameter.path)
-        for parameter in (*PLAYER_PARAMETERS, *POSE_PARAMETERS)
-    )
+    own = (*PLAYER_PARAMETERS, *POSE_PARAMETERS, *(() if alone else (GLANCE_PARAMETER,)))
+    return tuple(replace(parameter, path=prefix + parameter.path) for parameter in own)
+
+
+def streamed_parameters(instrument: Instrument, player_rig: Rig, number: int) -> tuple[Parameter, ...]:
+    """What a cast's player gives to every frame beside the show: the instrument's, and the face.
+
+    Args:
+        instrument: What is played.
+        player_rig: Who plays.
+        number: The player's place in the cast, the first being 0.
+    """
+    prefix = player_prefix(number)
+    own = (*instrument.parameters, mute_parameter(instrument.name), *Face(player_rig).parameters)
+    return tuple(replace(parameter, path=prefix + parameter.path) for parameter in own)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +93,7 @@ class Performer:
         number: The player's place in the cast, the first being 0.
         seat: Where the player stands.
         seed: Which of many equal ways of moving.
+        glances: How the player looks at others, as `plan_glances` gives it.
 
     Raises:
         RigError: The rigs lack something that playing needs.
@@ -91,6 +112,7 @@ class Performer:
         number: int = 0,
         seat: Seat = SEATS["middle"],
         seed: int = 0,
+        glances: Mapping[str, Curve] = MappingProxyType({}),
     ) -> None:
         self.played = played
         """The part as it is played."""
@@ -122,13 +144,15 @@ class Performer:
             for name in (*valves, *lifts, *streamed, *_GESTURES)
             if name not in curves
         }
-        self._curves = MotionCurves(curves | at_rest)
+        self._curves = MotionCurves(curves | at_rest | dict(glances))
         self._valve_rows: IntArray = self._curves.index(valves)
         self._lift_rows: IntArray = self._curves.index(lifts)
         self._streamed_rows: IntArray = self._curves.index(streamed)
         self._slide_rows = {
             name: self._curves.names.index(name) for name in SLIDE_FINGERS if name in streamed
         }
+        self._glance_rows: IntArray = self._curves.index(CURVES if glances else ())
+        self._glance_amount = GlanceAmount(registry, self.prefix)
         self._gesture_rows = dict(zip(_GESTURES, self._curves.index(_GESTURES).tolist(), strict=True))
 
         self.skeletons = (
@@ -138,10 +162,7 @@ class Performer:
             ),
         )
         """The player's and the instrument's."""
-        own = (*instrument.parameters, mute_parameter(instrument.name), *self._face.parameters)
-        self.parameters: tuple[Parameter, ...] = tuple(
-            replace(parameter, path=self.prefix + parameter.path) for parameter in own
-        )
+        self.parameters: tuple[Parameter, ...] = streamed_parameters(instrument, player_rig, number)
         """What it gives to every frame beside the show."""
 
     def evaluate(self, times_s: FloatArray, shown: FloatArray, stance: FloatArray) -> PerformerFrames:
@@ -160,7 +181,10 @@ class Performer:
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
         slides = {name: curves[row] for name, row in self._slide_rows.items()}
         stood = self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None])
-        signals = self._body_signals(times_s, gestures, amounts, self._pose_keys.read(shown))
+        keyed = self._pose_keys.read(shown)
+        if self._glance_rows.size:
+            keyed = add_glances(keyed, curves[self._glance_rows], self._glance_amount.read(shown))
+        signals = self._body_signals(times_s, gestures, amounts, keyed)
         pose = self._body.solve(signals, lowered, valves, lifts, slides, stood)
 
         rotations = np.empty((len(times_s), *self._still.shape), dtype=np.float32)

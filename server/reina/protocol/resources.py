@@ -434,9 +434,12 @@ class Interpolation(WireModel):
 
 
 class ShowParameterList(WireModel):
-    """Every show parameter in the frame's order, and every interpolation."""
+    """Every parameter in the frame's order, and every interpolation."""
 
     parameters: list[ShowParameter]
+    """What a show can move. The first player's paths stand alone, the second's begin with `players/2/`."""
+    streamed: list[ShowParameter]
+    """What the players give to a frame beside the show, such as valves; no keyframe moves it."""
     interpolations: list[Interpolation]
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
 from reina.music import NotInScoreError
-from reina.performance import SEATS, SEATS_FOR, Performance
+from reina.performance import SEATS, SEATS_FOR, Performance, plan_glances
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
@@ -85,9 +85,13 @@ class Production:
             cast = stage.found_cast(score, cast.sequence)
         registry = stage.registry(len(cast.castings))
         castings, played, rankings = _prepare(stage, score, cast)
+        seats = _seats(cast)
+        glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, score, part, registry)
-            for number, (casting, seat, part) in enumerate(zip(castings, _seats(cast), played, strict=True))
+            stage.performer(casting, number, seat, score, part, registry, looks)
+            for number, (casting, seat, part, looks) in enumerate(
+                zip(castings, seats, played, glances, strict=True)
+            )
         ]
         show = _show_for(score, played[0]) if show is None else rebound(show, registry)
         show_plan = show.plan(registry, time_map(score), triggers=triggers(score, played))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
 from reina.instruments import HANDEDNESS, INSTRUMENTS, CastError, find_cast
-from reina.performance import Performer, player_parameters
+from reina.performance import Performer, show_parameters, streamed_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from reina.curves import Parameter
     from reina.instruments import Instrument, PlayedPart
     from reina.instruments.casting import Cast, Casting
+    from reina.instruments.trumpet.gestures import Curve
     from reina.music import Score
     from reina.performance import Seat
     from reina.skeleton import Hold, Rig
@@ -76,8 +77,17 @@ class Stage:
 
     def registry(self, players: int = 1) -> ParameterRegistry:
         """Everything that a show of so many players can move."""
-        own = (parameter for number in range(players) for parameter in player_parameters(number))
-        return ParameterRegistry((*self.parameters, *own))
+        return ParameterRegistry(show_parameters(players, self.parameters))
+
+    def streamed(self, players: int = 1) -> tuple[Parameter, ...]:
+        """All that so many players can give to a frame beside the show, whoever they are and on whatever."""
+        found = {
+            parameter.path: parameter
+            for number in range(players)
+            for player, instrument in self.holds
+            for parameter in streamed_parameters(self.kinds[instrument], self.rigs[player], number)
+        }
+        return tuple(found.values())
 
     def instrument(self, casting: Casting, place: str) -> Instrument:
         """A casting's instrument.
@@ -124,6 +134,7 @@ class Stage:
         score: Score,
         played: PlayedPart,
         registry: ParameterRegistry,
+        glances: Mapping[str, Curve],
     ) -> Performer:
         """Who plays a casting that names what there is.
 
@@ -134,6 +145,7 @@ class Stage:
             score: What is played.
             played: The part as it is played.
             registry: The show's parameters.
+            glances: How the player looks at the others.
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
@@ -147,4 +159,5 @@ class Stage:
             number=number,
             seat=seat,
             seed=number,
+            glances=glances,
         )

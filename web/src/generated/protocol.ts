@@ -410,9 +410,12 @@ export interface RigList {
   rigs: RigSummary[]
 }
 
-/** Every show parameter in the frame's order, and every interpolation. */
+/** Every parameter in the frame's order, and every interpolation. */
 export interface ShowParameterList {
+  /** What a show can move. The first player's paths stand alone, the second's begin with players/2/. */
   parameters: ShowParameter[]
+  /** What the players give to a frame beside the show, such as valves; no keyframe moves it. */
+  streamed: ShowParameter[]
   interpolations: Interpolation[]
 }
 
