@@ -1,22 +1,19 @@
 """What the server has for everybody: the show's parameters, and its health."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, Request
 
 import reina
 from reina.api.http.access import Store, Watched
-from reina.curves import ParameterRegistry
+from reina.curves import Parameter, ParameterRegistry
 from reina.instruments import MAX_PLAYERS
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, ShowParameterList
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from reina.curves import Parameter
+    from collections.abc import Callable
 
 router = APIRouter(tags=["server"])
 

@@ -16,6 +16,7 @@ from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.instruments.trumpet import TRUMPET
+from reina.instruments.tune import TunePassage, who_has_tune
 
 INSTRUMENTS: Mapping[str, Instrument] = MappingProxyType(
     {instrument.name: instrument for instrument in (TRUMPET, *FAMILY.values()) if instrument.rig}
@@ -38,6 +39,7 @@ __all__ = [
     "Line",
     "PartRanking",
     "PlayedPart",
+    "TunePassage",
     "UnplayedPart",
     "casting_reasons",
     "describe_notes",
@@ -45,4 +47,5 @@ __all__ = [
     "find_cast",
     "pitch_name",
     "unplayed_parts",
+    "who_has_tune",
 ]

@@ -257,6 +257,16 @@ class Casting(CastingSummary):
     """The parts that the instrument could play, best first."""
 
 
+class TunePassage(WireModel):
+    """A stretch in which one player has the tune."""
+
+    start_s: float
+    end_s: float
+    """Where the next begins."""
+    player: int
+    """The player's place in the cast."""
+
+
 class UnplayedPart(WireModel):
     """A part that nobody plays; it is heard."""
 
@@ -285,6 +295,8 @@ class Cast(WireModel):
     castings: list[Casting]
     unplayed: list[UnplayedPart]
     """Every other part of the score, in its order."""
+    tune: list[TunePassage]
+    """Who is heard above the others, from the beginning to the end: the higher, livelier, louder line."""
 
 
 class InstrumentSummary(WireModel):

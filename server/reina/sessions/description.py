@@ -83,7 +83,11 @@ def cast_resource(production: Production) -> resources.Cast:
         resources.Casting(**dict(casting), choices=part_choices(ranking))
         for casting, ranking in zip(summary.castings, production.rankings, strict=True)
     ]
-    return resources.Cast(**dict(summary) | {"castings": castings})
+    tune = [
+        resources.TunePassage(start_s=passage.start_s, end_s=passage.end_s, player=passage.player)
+        for passage in production.tune
+    ]
+    return resources.Cast(**dict(summary) | {"castings": castings, "tune": tune})
 
 
 def cast_summary(production: Production) -> resources.CastSummary:

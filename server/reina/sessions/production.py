@@ -11,14 +11,16 @@ from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
 from reina.music import NotInScoreError
 from reina.performance import SEATS, SEATS_FOR, Performance, plan_glances
 from reina.protocol import Manifest, build_manifest
-from reina.sessions.music_arrays import music_form, time_map, triggers
+from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
 from reina.sound.plan import PlayedParts
-from reina.stage import write_default_show
+from reina.stage import CastForm, Place, write_default_show
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from reina.curves import ParameterRegistry
-    from reina.instruments import Casting, Instrument, PartRanking, PlayedPart, UnplayedPart
+    from reina.instruments import Casting, Instrument, PartRanking, PlayedPart, TunePassage, UnplayedPart
     from reina.music import Score, ScoreWarning
     from reina.performance import Performer, Seat
     from reina.sessions.stage import Stage
@@ -93,7 +95,7 @@ class Production:
                 zip(castings, seats, played, glances, strict=True)
             )
         ]
-        show = _show_for(score, played[0]) if show is None else rebound(show, registry)
+        show = _show_for(score, played, seats) if show is None else rebound(show, registry)
         show_plan = show.plan(registry, time_map(score), triggers=triggers(score, played))
         performance = Performance(performers, show_plan, duration_s=score.duration_s)
         return cls(
@@ -117,6 +119,16 @@ class Production:
     def played(self) -> PlayedPart:
         """The first player's part as it is played."""
         return self.performers[0].played
+
+    @property
+    def seats(self) -> tuple[Seat, ...]:
+        """Where each player stands."""
+        return tuple(performer.seat for performer in self.performers)
+
+    @cached_property
+    def tune(self) -> tuple[TunePassage, ...]:
+        """Who has the tune when."""
+        return tune_of(self.score, [performer.played for performer in self.performers])
 
     @property
     def instrument(self) -> Instrument:
@@ -148,7 +160,8 @@ class Production:
     @property
     def has_default_show(self) -> bool:
         """Whether the show is still the one that was written from the form of this music."""
-        return self.show == _show_for(self.score, self.played)
+        played = [performer.played for performer in self.performers]
+        return self.show == _show_for(self.score, played, self.seats)
 
     def with_show(self, show: Show) -> Production:
         """The same with another show; what was planned of the players is kept."""
@@ -227,5 +240,13 @@ def _seats(cast: Cast) -> tuple[Seat, ...]:
     return tuple(seats)
 
 
-def _show_for(score: Score, played: PlayedPart) -> Show:
-    return write_default_show(music_form(score, played), title=score.title)
+def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat]) -> Show:
+    """The show that is written for a cast."""
+    if len(played) == 1 and seats[0].is_middle:
+        return write_default_show(music_form(score, played[0]), title=score.title)
+    tune = tune_of(score, played)
+    cast = CastForm(
+        places=tuple(Place(seat.x_m, seat.z_m, seat.facing_rad) for seat in seats),
+        tune=tuple((passage.start_s, passage.player) for passage in tune),
+    )
+    return write_default_show(tune_form(score, played, tune), title=score.title, cast=cast)
