@@ -130,7 +130,9 @@ class Performer:
         self._still = np.concatenate([self._body.held, instrument_rig.skeleton.rest_rotations]).astype(
             np.float32
         )
-        self._root_rest: FloatArray = player_rig.skeleton.rest_rotations[0]
+        self._roots_rest: FloatArray = np.stack(
+            [player_rig.skeleton.rest_rotations[0], instrument_rig.skeleton.rest_rotations[0]]
+        )
         self._face = Face(player_rig)
         self._mute = Mute(score, played.line, registry, self.prefix)
 
@@ -182,8 +184,9 @@ class Performer:
         slides = {name: curves[row] for name, row in self._slide_rows.items()}
         stood = self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None])
         keyed = self._pose_keys.read(shown)
-        if self._glance_rows.size:
-            keyed = add_glances(keyed, curves[self._glance_rows], self._glance_amount.read(shown))
+        glances = curves[self._glance_rows]
+        if glances.any():
+            keyed = add_glances(keyed, glances, self._glance_amount.read(shown))
         signals = self._body_signals(times_s, gestures, amounts, keyed)
         pose = self._body.solve(signals, lowered, valves, lifts, slides, stood)
 
@@ -194,10 +197,8 @@ class Performer:
         roots = np.stack([pose.root_positions, pose.instrument_positions], axis=1)
         if not self.seat.is_middle:
             roots = self.seat.place(roots)
-            root = self.seat.turn(rotations[:, 0].astype(np.float64))
-            rotations[:, 0] = same_hemisphere(root, self._root_rest)
-            horn = self.seat.turn(pose.instrument_rotations)
-            rotations[:, -1] = horn * np.where(horn[:, 3:] < 0.0, -1.0, 1.0)
+            turned = self.seat.turn(rotations[:, [0, -1]].astype(np.float64))
+            rotations[:, [0, -1]] = same_hemisphere(turned, self._roots_rest)
         weights = self._face.evaluate(self._face_signals(times_s, gestures, amounts, lowered))
         mute = self._mute.evaluate(times_s, shown)[:, None]
         parameters = np.concatenate([curves[self._streamed_rows].T, mute, weights], axis=1)
