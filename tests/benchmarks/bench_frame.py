@@ -19,13 +19,14 @@ from typing import TYPE_CHECKING
 import mido
 import numpy as np
 
-from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS
+from reina.instruments.player import SEATS, SEATS_FOR, Engagement, Performer, cast_parameters, plan_glances
 from reina.music import read_score
-from reina.performance import SEATS, SEATS_FOR, Performance, Performer, plan_glances, show_parameters
+from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest, encode_block
 from reina.show import Show, TimeMap
 from reina.skeleton import load_hold, load_rig
+from reina.stage import stage_registry
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,7 +55,8 @@ def part(notes: int) -> bytes:
 
 def performance(notes: int, tracks: int = 12, players: int = 1) -> Performance:
     """So many players, each with such a part, under a show with so many tracks, twelve at most."""
-    registry = ParameterRegistry(show_parameters(players))
+    instrument = INSTRUMENTS["trumpet"]
+    registry = stage_registry().extended(cast_parameters([instrument] * players))
     numbers = [p for p in registry if p.type == "number"][:tracks]
     documents = [
         {
@@ -67,7 +69,6 @@ def performance(notes: int, tracks: int = 12, players: int = 1) -> Performance:
         for parameter in numbers
     ]
     score = read_score(part(notes))
-    instrument = INSTRUMENTS["trumpet"]
     show = Show.from_document({"version": 1, "tracks": documents}, registry)
     names = SEATS_FOR[1] if players == 1 else tuple(SEATS)[1:]
     seats = [SEATS[names[number % len(names)]] for number in range(players)]
@@ -77,17 +78,19 @@ def performance(notes: int, tracks: int = 12, players: int = 1) -> Performance:
     trumpet = load_rig(RIGS / "trumpet")
     performers = [
         Performer(
-            score=score,
-            played=part_of,
-            instrument=instrument,
-            player_rig=rigs[number % 2],
-            instrument_rig=trumpet,
-            hold=holds[number % 2],
-            registry=registry,
-            number=number,
-            seat=seat,
-            seed=number,
-            glances=looks,
+            Engagement(
+                score=score,
+                played=part_of,
+                instrument=instrument,
+                player_rig=rigs[number % 2],
+                instrument_rigs={instrument.name: trumpet},
+                hold=holds[number % 2],
+                registry=registry,
+                number=number,
+                seat=seat,
+                seed=number,
+                glances=looks,
+            )
         )
         for number, (part_of, seat, looks) in enumerate(
             zip(played, seats, plan_glances(played, seats), strict=True)

@@ -130,7 +130,7 @@ def test_every_part_is_heard(data_dir: Path) -> None:
 
 def test_parts_without_a_program_are_trumpet_or_piano(data_dir: Path) -> None:
     long_note = track("Track 1", [67], 4.0, 4.0)
-    trumpet = listen(data_dir, score_of(long_note), [PlayedParts((0,))])
+    trumpet = listen(data_dir, score_of(long_note), [PlayedParts((0,), program=56)])
     named = listen(data_dir, score_of({**long_note, "name": "B-flat Trumpet"}))
     piano = listen(data_dir, score_of(long_note))
     assert np.array_equal(trumpet, named)

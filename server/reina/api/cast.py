@@ -10,7 +10,7 @@ from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
 from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting
-from reina.performance import SEATS
+from reina.instruments.player import SEATS
 from reina.protocol import resources
 from reina.sessions.description import cast_resource
 

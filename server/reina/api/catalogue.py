@@ -8,7 +8,6 @@ from fastapi import APIRouter, Request
 import reina
 from reina.api.http.access import Store, Watched
 from reina.curves import Parameter, ParameterRegistry
-from reina.instruments import MAX_PLAYERS
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, ShowParameterList
 
@@ -25,7 +24,7 @@ async def list_parameters(store: Store) -> ShowParameterList:
     What a session has of them says `GET /sessions/{id}/parameters`.
     """
     stage = store.stage
-    return _listed(stage.registry(MAX_PLAYERS), stage.streamed(MAX_PLAYERS))
+    return _listed(stage.largest_registry(), stage.streamed())
 
 
 @router.get("/sessions/{session_id}/parameters")

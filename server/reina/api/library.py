@@ -9,7 +9,6 @@ from fastapi import APIRouter
 
 from reina.api.http.access import ServerSettings, Store
 from reina.curves import interpolations
-from reina.instruments import MAX_PLAYERS
 from reina.protocol.links import API
 from reina.protocol.resources import ShowLibrary, ShowSummary
 from reina.show.show_schema import show_schema
@@ -31,7 +30,7 @@ def list_shows(settings: ServerSettings) -> ShowLibrary:
 @router.get("/shows/schema")
 def get_schema(store: Store) -> dict[str, Any]:
     """JSON Schema of shows, over the parameters and interpolations of this server."""
-    return show_schema(store.stage.registry(MAX_PLAYERS), interpolations())
+    return show_schema(store.stage.largest_registry(), interpolations())
 
 
 @lru_cache(maxsize=256)

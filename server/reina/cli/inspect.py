@@ -8,10 +8,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from reina.errors import InputError
-from reina.instruments import BRASS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
+from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
 from reina.music import Score, read_score
 
-DOWN, UP = "●", "○"
 REST = "–"
 
 
@@ -21,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file", type=Path, metavar="FILE", help="a MIDI file or a JSON score, gzip'd or zipped too"
     )
     parser.add_argument("--json", action="store_true", help="print JSON and not tables")
-    parser.add_argument("--instrument", choices=sorted(BRASS), default="trumpet", help="what plays it")
+    parser.add_argument("--instrument", choices=sorted(INSTRUMENTS), default="trumpet", help="what plays it")
     parser.add_argument("--part", type=int, help="the part to be played; the best one by default")
     parser.add_argument("--transposition", type=int, default=0, metavar="SEMITONES", help="move the part")
     parser.add_argument("--written", action="store_true", help="its pitches are written, not sounding ones")
@@ -41,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     file: Path = arguments.file
     try:
         score = read_score(file.read_bytes(), filename=file.name, sequence=arguments.sequence)
-        instrument = BRASS[arguments.instrument]
+        instrument = INSTRUMENTS[arguments.instrument]
         rankings = instrument.rank_parts(score)
         part = rankings[0].part if arguments.part is None else arguments.part
         played = instrument.play(
@@ -99,7 +98,7 @@ def _lines(
     yield from _section(f"Warnings: {len(warnings) or 'none'}")
     yield from _table(("kind", "place", "what"), [(w.kind, w.place, w.message) for w in warnings])
     yield from _section(f"Fingerings of {_named(played.parts)}, transposed by {played.transposition}")
-    heads = ("bar", "beat", "second", "lasts", "written", "sounds", "valves", "why")
+    heads = ("bar", "beat", "second", "lasts", "written", "sounds", "fingering", "why")
     yield from _table(heads, _fingerings(score, instrument, played))
 
 
@@ -134,12 +133,7 @@ def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> lis
     positions = score.metre_map.positions(score.notes.onset_beats[line.note_index])
     for place, position in enumerate(positions):
         pitch = int(line.sounding_pitch[place])
-        pressed = fingering.pressed(place)
-        valves = (
-            REST
-            if pressed is None
-            else " ".join(DOWN if valve + 1 in pressed else UP for valve in range(fingering.valves.shape[1]))
-        )
+        played_so = fingering.notes[place]
         rows.append(
             (
                 str(position.bar),
@@ -148,7 +142,7 @@ def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> lis
                 f"{line.end_s[place] - line.onset_s[place]:.3f}",
                 pitch_name(instrument.written_pitch(pitch)),
                 pitch_name(pitch),
-                valves,
+                REST if played_so is None else instrument.show_fingering(played_so),
                 fingering.reasons[place],
             )
         )

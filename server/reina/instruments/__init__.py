@@ -1,33 +1,29 @@
-"""Instruments: which part they play, what is playable of it, and with which fingering.
+"""Instruments: which part they play, what is playable of it, how it is fingered, and how their players move.
 
 Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 """
 
-from collections.abc import Mapping
-from types import MappingProxyType
-
-from reina.instruments.brass.family import FAMILY
 from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
 from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.describe import describe_notes, describe_score
 from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
+from reina.instruments.joined_parts import check_parts
+from reina.instruments.line import playable_line
+from reina.instruments.note_fingerings import (
+    KeysFingering,
+    NoteFingering,
+    SlideFingering,
+    StrikeFingering,
+    ValvesFingering,
+)
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
-from reina.instruments.ranking import PartRanking
-from reina.instruments.trumpet import TRUMPET
+from reina.instruments.ranking import PartRanking, Suitability, rank_parts
+from reina.instruments.registry import INSTRUMENTS
 from reina.instruments.tune import TunePassage, who_has_tune
 
-INSTRUMENTS: Mapping[str, Instrument] = MappingProxyType(
-    {instrument.name: instrument for instrument in (TRUMPET, *FAMILY.values()) if instrument.rig}
-)
-"""What a player can hold, by name: instruments with a rig."""
-
-BRASS: Mapping[str, Instrument] = MappingProxyType({**INSTRUMENTS, **FAMILY})
-"""All valved brass that has a fingering, with a rig or without, by name."""
-
 __all__ = [
-    "BRASS",
     "HANDEDNESS",
     "INSTRUMENTS",
     "MAX_PLAYERS",
@@ -36,16 +32,25 @@ __all__ = [
     "Casting",
     "Fingering",
     "Instrument",
+    "KeysFingering",
     "Line",
+    "NoteFingering",
     "PartRanking",
     "PlayedPart",
+    "SlideFingering",
+    "StrikeFingering",
+    "Suitability",
     "TunePassage",
     "UnplayedPart",
+    "ValvesFingering",
     "casting_reasons",
+    "check_parts",
     "describe_notes",
     "describe_score",
     "find_cast",
     "pitch_name",
+    "playable_line",
+    "rank_parts",
     "unplayed_parts",
     "who_has_tune",
 ]

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from reina.instruments.instrument import Instrument
+from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.music.score import Score
@@ -80,7 +81,7 @@ def describe_notes(
     """Return the notes of a score, or of one part; those that are played with their fingering.
 
     A note of the played part, or of one joined to it, has the pitch it is played at. A note that is not
-    played has no valves (None), with the reason.
+    played has no fingering (None), with the reason.
     """
     line, fingering = played.line, played.fingering
     place_in_line = {note: place for place, note in enumerate(line.note_index.tolist())}
@@ -91,10 +92,10 @@ def describe_notes(
         place = place_in_line.get(index)
         own = note.part in played.parts
         pitch = note.sounding_pitch + (played.transposition if own else 0)
-        valves: list[int] | None = None
+        played_so: NoteFingering | None = None
         reason = "another part than the player's"
         if place is not None:
-            valves, reason = fingering.pressed(place), fingering.reasons[place]
+            played_so, reason = fingering.notes[place], fingering.reasons[place]
         elif own:
             reason = "not in the playable line: another note of the part sounds at its time"
         described.append(
@@ -108,7 +109,8 @@ def describe_notes(
                 "sounding_pitch": pitch,
                 "written_pitch": instrument.written_pitch(pitch),
                 "velocity": note.velocity,
-                "valves": valves,
+                "valves": list(played_so.valves) if isinstance(played_so, ValvesFingering) else None,
+                "fingering": None if played_so is None else played_so.model_dump(mode="json"),
                 "reason": reason,
                 "played_duration_s": None
                 if place is None

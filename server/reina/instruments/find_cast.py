@@ -29,7 +29,8 @@ def find_cast(
         sequence: Which sequence of the file the score is, as `Cast` has it.
         most: How many play at once at most.
     """
-    ranking = [choice.part for choice in instruments[INSTRUMENT].rank_parts(score)]
+    usual = instruments.get(INSTRUMENT) or next(iter(instruments.values()))
+    ranking = [choice.part for choice in usual.rank_parts(score)]
     chosen: list[int] = []
     joined: dict[int, list[int]] = {}
     notes_of = PartNotes(score)
@@ -45,7 +46,7 @@ def find_cast(
         elif role.kind is Kind.OWN and len(chosen) < most:
             chosen.append(part)
     if len(chosen) < 2:
-        return Cast((Casting(part=ranking[0]),), sequence, auto=True)
+        return Cast((Casting(part=ranking[0], instrument=usual.name),), sequence, auto=True)
     castings: list[Casting] = []
     for part in (chosen[0], *_in_order(score, chosen[1:])):
         found = family_part(score.parts[part])

@@ -1,59 +1,60 @@
 """What an instrument is to the rest of Reina."""
 
-from collections.abc import Sequence
-from typing import Protocol
+from __future__ import annotations
 
-from reina.curves.parameter import Parameter
-from reina.instruments.played import PlayedPart
-from reina.instruments.ranking import PartRanking
-from reina.music.score import Score
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from reina.curves import Parameter
+    from reina.instruments.note_fingerings import NoteFingering
+    from reina.instruments.played import PlayedPart
+    from reina.instruments.player.engagement import Engagement
+    from reina.instruments.player.instrument_body import InstrumentBody
+    from reina.instruments.ranking import PartRanking
+    from reina.kinematics import Curve, MotionCurves
+    from reina.music.score import Score
+
+MAX_PITCH = 127
+"""The highest MIDI number of a pitch."""
 
 
-class Instrument(Protocol):
-    """An instrument that a player can hold."""
+class Instrument(ABC):
+    """An instrument and its playing: which part, how it is fingered and written, how its player moves."""
+
+    name: str
+    """Its name in the registry and the first word of its parameters' paths."""
+    title: str
+    """Its name for people."""
+    rig: str = ""
+    """Name of its folder under rigs/, which a player's hold is named after too; empty if it has none yet."""
+    program: int | None = None
+    """The General MIDI program, from 0, that it sounds with where the score says none."""
+    parameters: tuple[Parameter, ...] = ()
+    """What of it moves in every frame; the paths begin with its name."""
+    handedness: tuple[str, ...] = ("right",)
+    """With which hand leading it can be played: of `HANDEDNESS`."""
+    show_parameters: tuple[Parameter, ...] = ()
+    """What a show may choose of it; the paths begin with ``player/``."""
 
     @property
-    def name(self) -> str:
-        """Its name in `INSTRUMENTS` and the first word of its parameters' paths."""
-        ...
+    def skeletons(self) -> Mapping[str, str]:
+        """Its skeletons in the frame by name, and each one's rig; its own is the first."""
+        return {self.name: self.rig}
 
-    @property
-    def title(self) -> str:
-        """Its name for people."""
-        ...
-
-    @property
-    def rig(self) -> str:
-        """Name of its folder under rigs/."""
-        ...
-
-    @property
-    def handedness(self) -> tuple[str, ...]:
-        """Which of `HANDEDNESS` it can be played with."""
-        ...
-
-    @property
-    def valve_count(self) -> int:
-        """How many valves it has."""
-        ...
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """What of it moves in every frame: its valves, 0 up and 1 down, and its slide, 0 in and 1 out."""
-        ...
+    # --- its part
 
     def can_play(self, sounding_pitch: int) -> bool:
-        """Return whether it has a note, a MIDI number as it sounds."""
-        ...
+        """Return whether it has a note, a MIDI number as it sounds; it has every one by default."""
+        return 0 <= sounding_pitch <= MAX_PITCH
 
-    def written_pitch(self, sounding_pitch: int) -> int:
-        """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
-        ...
-
+    @abstractmethod
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
         """Rank the parts of a score by how well they suit it, the best first."""
-        ...
 
+    @abstractmethod
     def play(
         self,
         score: Score,
@@ -77,4 +78,40 @@ class Instrument(Protocol):
         Raises:
             NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
         """
-        ...
+
+    # --- its notation
+
+    def written_pitch(self, sounding_pitch: int) -> int:
+        """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
+        return sounding_pitch
+
+    def show_fingering(self, fingering: NoteFingering) -> str:
+        """Return a note's fingering as a table of text has it."""
+        return str(fingering)
+
+    # --- its motion
+
+    @abstractmethod
+    def plan_gestures(self, played: PlayedPart, *, seed: int = 0) -> dict[str, Curve]:
+        """Plan everything that its player does, once.
+
+        Args:
+            played: A part as `play` returns it.
+            seed: Varies what no score says.
+
+        Returns:
+            Curves by name: its own, and those of `reina.instruments.player.GESTURES` that its player makes;
+            the others are 0.
+        """
+
+    @abstractmethod
+    def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:
+        """Return what turns its player's curves into poses.
+
+        Args:
+            engagement: Who plays what, where, on which rigs.
+            curves: What is planned: `plan_gestures`, and all `GESTURES`.
+
+        Raises:
+            RigError: The rigs lack something that playing needs.
+        """

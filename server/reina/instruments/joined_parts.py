@@ -9,29 +9,35 @@ from reina.music.errors import NotInScoreError
 from reina.music.score import Score
 
 
-def check_joined_parts(score: Score, part: int, joined_parts: Sequence[int]) -> tuple[int, ...]:
+def check_parts(score: Score, part: int, joined_parts: Sequence[int]) -> tuple[int, ...]:
     """Return the parts that are joined to a part, ascending.
 
     Args:
         score: The score.
-        part: Index of the part that they are joined to; the score has it.
+        part: Index of the part that they are joined to.
         joined_parts: Their indices, in any order.
 
     Raises:
-        NotInScoreError: If the score lacks one of them, or it is drums, `part` itself or named twice.
+        NotInScoreError: If the score lacks the part or one that is joined, or a joined one is `part` itself,
+            named twice, or drums where `part` is none, or the other way round.
     """
+    if not 0 <= part < len(score.parts):
+        raise NotInScoreError(
+            f"there is no part {part}; there are 0 to {len(score.parts) - 1}", location="part"
+        )
+    drums = score.parts[part].is_drums
     for place, joined in enumerate(joined_parts):
         fault = None
         if not 0 <= joined < len(score.parts):
             fault = f"there is no part {joined}"
         elif joined == part:
             fault = f"part {joined} is the part that the others are joined to"
-        elif score.parts[joined].is_drums:
-            fault = f"part {joined} (“{score.parts[joined].name}”) is drums"
+        elif score.parts[joined].is_drums != drums:
+            fault = f"part {joined} (“{score.parts[joined].name}”) is {'not ' if drums else ''}drums"
         elif joined in joined_parts[:place]:
             fault = f"part {joined} is named twice"
         if fault is not None:
-            others = [other.index for other in score.parts if other.index != part and not other.is_drums]
+            others = [other.index for other in score.parts if other.index != part and other.is_drums == drums]
             raise NotInScoreError(
                 f"{fault}; parts that can be joined to part {part}: {_as_runs(others) or 'none'}",
                 location=f"joined_parts/{place}",

@@ -2,18 +2,21 @@
 
 from dataclasses import dataclass
 
+from reina.instruments.note_fingerings import NoteFingering
 from reina.music.arrays import BoolArray, FloatArray, IntArray
 from reina.music.warnings import ScoreWarning
 
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """The playable line of a part: M notes, one at a time, as read-only columns.
+    """The playable line of a part: M notes as read-only columns.
+
+    Of an instrument that plays one note at a time no note ends after the next one's onset.
 
     Attributes:
         note_index: (M,) index into the score's notes.
-        onset_s: (M,) seconds, increasing.
-        end_s: (M,) seconds; none is after the next onset.
+        onset_s: (M,) seconds, ascending.
+        end_s: (M,) seconds.
         sounding_pitch: (M,) MIDI number as played: transposed.
         velocity: (M,) in 0..1.
         phrase: (M,) number of the phrase, from 0; a new one begins after a rest long enough to breathe in.
@@ -36,31 +39,17 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Fingering:
-    """How each of the M notes of a line is fingered, as read-only columns.
+    """How each of the M notes of a line is fingered, or struck.
 
     Attributes:
-        valves: (M, V) bool, whether each valve is down; the first column is valve 1, the one nearest the
-            face.
-        playable: (M,) bool; where not, no valve is down.
+        notes: Of each note what the wire says of it; None where it cannot be played.
+        playable: (M,) bool, read-only.
         reasons: Of each note what was chosen and why, or why it cannot be played.
-        primary: (M,) bool, whether it is the usual fingering.
-        cents: (M,) how far the note is off equal temperament before the player corrects it by the lips;
-            positive is sharp; 0 where not playable.
-        slide: (M,) extension of the third valve's slide, 0 in, 1 out as far as it goes.
     """
 
-    valves: BoolArray
+    notes: tuple[NoteFingering | None, ...]
     playable: BoolArray
     reasons: tuple[str, ...]
-    primary: BoolArray
-    cents: FloatArray
-    slide: FloatArray
-
-    def pressed(self, note: int) -> list[int] | None:
-        """Return the numbers of the valves that are down at a note of the line; None if not playable."""
-        if not self.playable[note]:
-            return None
-        return [valve + 1 for valve, down in enumerate(self.valves[note].tolist()) if down]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +60,7 @@ class PlayedPart:
         part: Index of the part.
         transposition: Semitones by which its pitches were moved, octave fit and written pitch included.
         line: The playable line.
-        fingering: Of each note of the line.
+        fingering: Of each note of the line; an instrument's own columns beside what all have.
         warnings: What was dropped, shortened, moved or cannot be played.
         joined_parts: Indices of the parts that are played together with it, ascending; their notes are in the
             line too.

@@ -39,15 +39,17 @@ class Suitability:
         names: Weight of each kind of name (`part_names.KINDS`), the weightiest that fits counts.
         lowest: Lowest sounding pitch.
         highest: Highest sounding pitch.
+        drums: Weight of a part of drums.
     """
 
     programs: Mapping[int, float]
     names: Mapping[str, float]
     lowest: int
     highest: int
+    drums: float = -20.0
 
 
-IN_RANGE, ONE_AT_A_TIME, DRUMS, FEW_NOTES, LATER_DESK = 3.0, 2.0, -20.0, -1.5, -0.2
+IN_RANGE, ONE_AT_A_TIME, FEW_NOTES, LATER_DESK = 3.0, 2.0, -1.5, -0.2
 HALF_OUT_OF_RANGE = -3.0
 
 
@@ -64,7 +66,7 @@ def rank_parts(score: Score, suitability: Suitability) -> tuple[PartRanking, ...
 def _rank(part: Part, notes: Notes, most_notes: int, suitability: Suitability) -> PartRanking:
     evidence: list[tuple[float, str]] = []
     if part.is_drums:
-        evidence.append((DRUMS, "drums"))
+        evidence.append((suitability.drums, "drums"))
     evidence += _of_program(part, suitability)
     evidence += _of_name(part, suitability)
     inside = float(

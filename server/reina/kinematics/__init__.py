@@ -11,7 +11,7 @@ from reina.kinematics.finger_plane import (
 from reina.kinematics.iterative import solve_ccd, solve_damped_least_squares, solve_fabrik
 from reina.kinematics.joint_chain import ChainSolution, JointChain
 from reina.kinematics.joint_limits import clamp_to_limits, excess_over_limits, limit_angles
-from reina.kinematics.motion_curves import MotionCurves, minimum_jerk
+from reina.kinematics.motion_curves import Curve, MotionCurves, minimum_jerk
 from reina.kinematics.planar_finger import (
     TABLE_1_RAD,
     VALVE_PHI_RAD,
@@ -28,6 +28,7 @@ __all__ = [
     "VALVE_PHI_RAD",
     "ChainSolution",
     "CoupledFinger",
+    "Curve",
     "FingerChains",
     "JointChain",
     "LimbPose",

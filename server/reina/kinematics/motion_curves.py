@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from reina.rotations.arrays import ArrayLike, FloatArray, IntArray
+
+Curve: TypeAlias = "tuple[FloatArray, float]"
+"""Movements ``(start_s, end_s, value)``, ``(M, 3)``, and the value before the first."""
 
 
 def minimum_jerk(fraction: ArrayLike) -> FloatArray:

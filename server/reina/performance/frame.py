@@ -5,34 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 if TYPE_CHECKING:
     from reina.curves import Parameter
+    from reina.instruments.player import SkeletonLayout
+    from reina.instruments.player.instrument_body import Float32Array
     from reina.rotations.arrays import BoolArray, FloatArray
 
 BLOCK_FRAMES = 60
 """Frames are evaluated in aligned blocks of so many, so that no byte depends on how a frame was asked for."""
-
-Float32Array = NDArray[np.float32]
-
-
-@dataclass(frozen=True)
-class SkeletonLayout:
-    """A skeleton in the frame.
-
-    Attributes:
-        name: Its name there.
-        rig: Its rig.
-        joints: Its joints' names, parents first.
-        player: Whose it is: a place in the cast, the first being 0.
-    """
-
-    name: str
-    rig: str
-    joints: tuple[str, ...]
-    player: int = 0
 
 
 @dataclass(frozen=True)
@@ -41,8 +21,8 @@ class FrameLayout:
 
     Attributes:
         fps: Frames a second of song time; frame k shows k / fps.
-        skeletons: Of each performer the player, then the instrument.
-        parameters: The show's, then what each performer gives: valves, slide, face.
+        skeletons: Of each performer the player's, then the instrument's.
+        parameters: The show's, then what each performer gives: what moves of the instrument, and the face.
     """
 
     fps: int

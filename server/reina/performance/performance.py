@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.instruments.player import StanceChoice
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
-from reina.performance.stance_choice import StanceChoice
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.performance.performer import Performer
+    from reina.instruments.player import Performer
     from reina.rotations.arrays import FloatArray
     from reina.show import ShowPlan
 

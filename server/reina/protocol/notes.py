@@ -1,20 +1,13 @@
 """A note as the wire shows it: in the score, and in `note_on` and `note_off`."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
+from reina.instruments import NoteFingering
 from reina.protocol.model import WireModel
 
 MidiPitch = Annotated[int, Field(ge=0, le=127)]
-
-
-class ValvesFingering(WireModel):
-    """How valved brass plays a note."""
-
-    type: Literal["valves"] = "valves"
-    valves: list[int]
-    """The valves that are down, ascending; [] is open."""
 
 
 class WireNote(WireModel):
@@ -38,7 +31,7 @@ class WireNote(WireModel):
     """0 to 1."""
     valves: list[int] | None
     """The valves that are down, ascending; [] is open, null is not playable, not played, no valves."""
-    fingering: ValvesFingering | None
+    fingering: NoteFingering | None
     """How it is played, by the kind of instrument; null where it is not."""
     reason: str
     """Why it is played so, or why it is not."""

@@ -1,6 +1,5 @@
 """Unit quaternions (x, y, z, w), and matrices, rotation vectors, Euler angles and curves made of them."""
 
-from reina.rotations.arcs import shortest_arc, swing_twist, twist_angle
 from reina.rotations.euler import ORDERS, from_euler, to_euler
 from reina.rotations.exponential import about_axis, exp, exp_matrix, from_axis_angle, log, log_matrix
 from reina.rotations.interpolation import slerp, slerp_matrix, spline, squad, squad_controls
@@ -40,14 +39,11 @@ __all__ = [
     "normalize",
     "rotate",
     "same_hemisphere",
-    "shortest_arc",
     "slerp",
     "slerp_matrix",
     "spline",
     "squad",
     "squad_controls",
-    "swing_twist",
     "to_euler",
     "to_matrix",
-    "twist_angle",
 ]

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reina.instruments import ValvesFingering
 from reina.protocol import resources
 from reina.protocol.messages import Transport
-from reina.protocol.notes import ValvesFingering, WireNote
+from reina.protocol.notes import WireNote
 from reina.protocol.transport import Loop, TransportState
 
 if TYPE_CHECKING:
@@ -157,14 +158,14 @@ class NoteTable:
         """A note by its place in the score's table."""
         production = self._production
         note = production.score.notes[index]
-        pitch, valves, reason = note.sounding_pitch, None, NOT_PLAYED
+        pitch, played_so, reason = note.sounding_pitch, None, NOT_PLAYED
         player = self._player_of_part.get(note.part)
         performer = production.performers[player or 0]
         number = self._line_of_note.get(index)
         if number is not None:
             fingering = performer.played.fingering
             pitch = int(performer.played.line.sounding_pitch[number])
-            valves, reason = fingering.pressed(number), fingering.reasons[number]
+            played_so, reason = fingering.notes[number], fingering.reasons[number]
         elif player is not None:
             # What the player leaves out stands, and is heard, where the rest of the part does.
             moved = pitch + performer.played.transposition
@@ -179,8 +180,8 @@ class NoteTable:
             sounding_pitch=pitch,
             written_pitch=performer.instrument.written_pitch(pitch),
             velocity=note.velocity,
-            valves=valves,
-            fingering=None if valves is None else ValvesFingering(valves=valves),
+            valves=list(played_so.valves) if isinstance(played_so, ValvesFingering) else None,
+            fingering=played_so,
             reason=reason,
             player=player,
             in_played_part=player is not None,

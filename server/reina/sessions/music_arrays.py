@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.instruments import who_has_tune
+from reina.instruments import ValvesFingering, who_has_tune
 from reina.show import TimeMap, Triggers
 from reina.stage import MusicForm
 
@@ -36,29 +36,33 @@ def time_map(score: Score) -> TimeMap:
 def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
     """All notes of a score as events that tracks may answer, those of the players' lines as they sound.
 
-    After the valves' columns stands one more, which is down for notes that nobody fingers, so that they are
-    not taken for open ones.
+    Notes that nobody plays on valves are not taken for open ones.
     """
     notes = score.notes
     part = notes.part.astype(np.int64)
     joined_to = part.copy()
     pitch = notes.sounding_pitch.astype(np.int64)
-    columns = max(one.fingering.valves.shape[1] for one in played)
-    valves = np.zeros((len(notes), columns + 1), dtype=np.bool_)
-    valves[:, -1] = True
+    pressed: dict[int, tuple[int, ...]] = {}
     for one in played:
         line, fingering = one.line, one.fingering
         pitch[line.note_index] = line.sounding_pitch
-        fingered = line.note_index[fingering.playable]
-        valves[fingered, : fingering.valves.shape[1]] = fingering.valves[fingering.playable]
-        valves[fingered, -1] = False
+        for note, played_so in zip(line.note_index.tolist(), fingering.notes, strict=True):
+            if isinstance(played_so, ValvesFingering):
+                pressed[note] = played_so.valves
         joined_to[np.isin(part, one.joined_parts)] = one.part
+    columns = max(map(max, filter(None, pressed.values())), default=0)
+    valves = np.zeros((len(notes), columns), dtype=np.bool_)
+    for note, down in pressed.items():
+        valves[note, [valve - 1 for valve in down]] = True
+    fingered = np.zeros(len(notes), dtype=np.bool_)
+    fingered[list(pressed)] = True
     return Triggers(
         onset_s=notes.onset_s,
         part=part,
         pitch=pitch,
         velocity=notes.velocity,
         valves=valves,
+        fingered=fingered,
         end_s=score.duration_s,
         joined_to=joined_to,
     )

@@ -8,8 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
+from reina.instruments.player import SEATS, SEATS_FOR, plan_glances
 from reina.music import NotInScoreError
-from reina.performance import SEATS, SEATS_FOR, Performance, plan_glances
+from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 
     from reina.curves import ParameterRegistry
     from reina.instruments import Casting, Instrument, PartRanking, PlayedPart, TunePassage, UnplayedPart
+    from reina.instruments.player import Performer, Seat
     from reina.music import Score, ScoreWarning
-    from reina.performance import Performer, Seat
     from reina.sessions.stage import Stage
 
 
@@ -85,8 +86,8 @@ class Production:
         cast = cast or Cast()
         if cast.is_to_be_found:
             cast = stage.found_cast(score, cast.sequence)
-        registry = stage.registry(len(cast.castings))
         castings, played, rankings = _prepare(stage, score, cast)
+        registry = stage.registry(tuple(casting.instrument for casting in castings))
         seats = _seats(cast)
         glances = plan_glances(played, seats)
         performers = [
@@ -148,8 +149,10 @@ class Production:
     @property
     def sounding(self) -> tuple[PlayedParts, ...]:
         """What of the score the players play, as it sounds."""
-        played = (performer.played for performer in self.performers)
-        return tuple(PlayedParts(one.parts, one.transposition) for one in played)
+        return tuple(
+            PlayedParts(one.played.parts, one.played.transposition, one.instrument.program)
+            for one in self.performers
+        )
 
     @property
     def warnings(self) -> tuple[ScoreWarning, ...]:

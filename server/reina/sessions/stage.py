@@ -6,21 +6,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
-from reina.instruments import HANDEDNESS, INSTRUMENTS, CastError, find_cast
-from reina.performance import Performer, show_parameters, streamed_parameters
+from reina.instruments import HANDEDNESS, INSTRUMENTS, MAX_PLAYERS, CastError, find_cast
+from reina.instruments.player import Engagement, Performer, cast_parameters, streamed_parameters
+from reina.performance import show_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from reina.curves import Parameter
     from reina.instruments import Instrument, PlayedPart
     from reina.instruments.casting import Cast, Casting
-    from reina.instruments.trumpet.gestures import Curve
+    from reina.instruments.player import Seat
+    from reina.kinematics import Curve
     from reina.music import Score
-    from reina.performance import Seat
     from reina.skeleton import Hold, Rig
 
 FIRST_PLAYER = "trumpeter"
@@ -55,14 +56,17 @@ class Stage:
         """
         holds: dict[tuple[str, str], Hold] = {}
         for name, instrument in INSTRUMENTS.items():
+            if not instrument.rig:
+                continue
             found = {path.parents[1].name for path in rigs_dir.glob(f"*/holds/{instrument.rig}.json")}
             for player in sorted(found, key=lambda player: (player != FIRST_PLAYER, player)):
                 holds[player, name] = load_hold(rigs_dir / player, instrument.rig)
         if not holds:
             # Nobody can play: say what of the first player is not there.
             load_hold(rigs_dir / load_rig(rigs_dir / FIRST_PLAYER).name, next(iter(INSTRUMENTS.values())).rig)
-        instruments = {INSTRUMENTS[name].rig for _, name in holds}
-        rigs = {name: load_rig(rigs_dir / name) for name in {player for player, _ in holds} | instruments}
+        names = {player for player, _ in holds}
+        names |= {rig for _, held in holds for rig in INSTRUMENTS[held].skeletons.values()}
+        rigs = {name: load_rig(rigs_dir / name) for name in names}
         kinds = {instrument: INSTRUMENTS[instrument] for _, instrument in holds}
         return cls(rigs=rigs, holds=holds, kinds=kinds)
 
@@ -75,17 +79,27 @@ class Stage:
         """Who can play an instrument, by name."""
         return tuple(player for player, held in self.holds if held == instrument)
 
-    def registry(self, players: int = 1) -> ParameterRegistry:
-        """Everything that a show of so many players can move."""
-        return ParameterRegistry(show_parameters(players, self.parameters))
+    def registry(self, instruments: Sequence[str] | None = None) -> ParameterRegistry:
+        """Everything that a show can move where these are played, by the names that there are.
 
-    def streamed(self, players: int = 1) -> tuple[Parameter, ...]:
-        """All that so many players can give to a frame beside the show, whoever they are and on whatever."""
+        Args:
+            instruments: Each player's, in the cast's order; by default the first that there is, alone.
+        """
+        played = self.instruments[:1] if instruments is None else instruments
+        own = cast_parameters([self.kinds[name] for name in played])
+        return ParameterRegistry((*self.parameters, *own))
+
+    def largest_registry(self) -> ParameterRegistry:
+        """Everything that a show of the largest cast can move, whatever its players play."""
+        return ParameterRegistry(show_parameters(self.kinds.values(), MAX_PLAYERS, self.parameters))
+
+    def streamed(self) -> tuple[Parameter, ...]:
+        """All that the largest cast can give to a frame beside the show, whoever plays what."""
         found = {
             parameter.path: parameter
-            for number in range(players)
+            for number in range(MAX_PLAYERS)
             for player, instrument in self.holds
-            for parameter in streamed_parameters(self.kinds[instrument], self.rigs[player], number)
+            for parameter in streamed_parameters(number, self.kinds[instrument], self.rigs[player])
         }
         return tuple(found.values())
 
@@ -149,15 +163,17 @@ class Stage:
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
-            score=score,
-            played=played,
-            instrument=instrument,
-            player_rig=self.rigs[casting.player],
-            instrument_rig=self.rigs[instrument.rig],
-            hold=self.holds[casting.player, casting.instrument],
-            registry=registry,
-            number=number,
-            seat=seat,
-            seed=number,
-            glances=glances,
+            Engagement(
+                score=score,
+                played=played,
+                instrument=instrument,
+                player_rig=self.rigs[casting.player],
+                instrument_rigs={name: self.rigs[rig] for name, rig in instrument.skeletons.items()},
+                hold=self.holds[casting.player, casting.instrument],
+                registry=registry,
+                number=number,
+                seat=seat,
+                seed=number,
+                glances=glances,
+            )
         )

@@ -41,7 +41,8 @@ class NoteFilter:
         if self.valves is not None:
             count = triggers.valves.shape[1]
             wanted = np.array([valve in self.valves for valve in range(1, count + 1)], dtype=np.bool_)
-            passed &= np.all(triggers.valves == wanted, axis=1) & (max(self.valves, default=0) <= count)
+            passed &= triggers.fingered & np.all(triggers.valves == wanted, axis=1)
+            passed &= max(self.valves, default=0) <= count
         return passed
 
 

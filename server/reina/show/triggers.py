@@ -31,6 +31,7 @@ class Triggers:
         pitch: ``(N,)`` MIDI number as sounded.
         velocity: ``(N,)`` 0..1.
         valves: ``(N, V)`` which valves are down; V is 0 where nobody knows.
+        fingered: ``(N,)`` which notes are played on valves at all; by default all.
         end_s: Where beats and bars end.
         joined_to: ``(N,)`` index of the part that each note's part is joined to; its own part otherwise.
     """
@@ -40,6 +41,7 @@ class Triggers:
     pitch: IntArray = field(default_factory=_no_integers)
     velocity: FloatArray = field(default_factory=_no_floats)
     valves: BoolArray = field(default_factory=lambda: np.zeros((0, 0), dtype=np.bool_))
+    fingered: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
     end_s: float = 0.0
     joined_to: IntArray = field(default_factory=_no_integers)
 
@@ -47,9 +49,12 @@ class Triggers:
         counts = {column.shape[0] for column in (self.onset_s, self.part, self.pitch, self.velocity)}
         if self.valves.size == 0:
             object.__setattr__(self, "valves", np.zeros((self.onset_s.size, 0), dtype=np.bool_))
+        if self.fingered.size == 0:
+            object.__setattr__(self, "fingered", np.ones(self.onset_s.size, dtype=np.bool_))
         if self.joined_to.size == 0:
             object.__setattr__(self, "joined_to", self.part)
-        if counts | {self.valves.shape[0], self.joined_to.shape[0]} != {self.onset_s.size}:
+        others = {self.valves.shape[0], self.fingered.shape[0], self.joined_to.shape[0]}
+        if counts | others != {self.onset_s.size}:
             raise ValueError("the columns of triggers are of one length, one entry a note")
         if np.any(np.diff(self.onset_s) < 0.0):
             raise ValueError("triggers stand in the order of their onsets")

@@ -4,7 +4,7 @@ The plan is canonical: scores that sound the same give the same bytes, and so sh
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -52,13 +52,15 @@ class PlayedParts:
     """What of a score one of the players plays.
 
     Attributes:
-        parts: Indices of the parts; they are trumpets unless the file says otherwise.
+        parts: Indices of the parts.
         transposition: Semitones by which they sound higher than the score says, as they are played: octave
             fit and written pitch included. What is no pitch then is not heard, as it is not played.
+        program: What they sound with unless the file says otherwise; None: what their names say.
     """
 
     parts: tuple[int, ...]
     transposition: int = 0
+    program: int | None = None
 
 
 @dataclass(frozen=True)
@@ -102,7 +104,7 @@ def plan_sound(score: Score, played: Sequence[PlayedParts] = ()) -> SoundPlan:
             f"the score lasts {minutes:.0f} minutes; sound is made for at most {LONGEST_S / 60:.0f}: "
             "cut it, or send a song with it"
         )
-    voices, voice_of_note = _voices(score, {part for one in played for part in one.parts})
+    voices, voice_of_note = _voices(score, {part: one.program for one in played for part in one.parts})
     keys = score.notes.sounding_pitch.astype(np.int64)
     for one in played:
         keys += np.where(np.isin(score.notes.part, one.parts), one.transposition, 0)
@@ -119,7 +121,9 @@ def _is_key(keys: NDArray[np.int64]) -> NDArray[np.bool_]:
     return (keys >= 0) & (keys < KEYS)
 
 
-def _voices(score: Score, trumpet_parts: Collection[int]) -> tuple[list[_Voice], NDArray[np.int64]]:
+def _voices(
+    score: Score, program_of_part: Mapping[int, int | None]
+) -> tuple[list[_Voice], NDArray[np.int64]]:
     """Return the voices of a score, seated, and (N,) which one each note belongs to."""
     notes = score.notes
     keys = notes.part.astype(np.int64) << 16 | notes.channel
@@ -140,9 +144,7 @@ def _voices(score: Score, trumpet_parts: Collection[int]) -> tuple[list[_Voice],
         programs = changes[index]
         begins_with_it = programs and notes.program[first[index]] != NO_PROGRAM
         program = (
-            programs.pop(0)[1]
-            if begins_with_it
-            else default_program(part, is_trumpet=part.index in trumpet_parts)
+            programs.pop(0)[1] if begins_with_it else default_program(part, program_of_part.get(part.index))
         )
         voices.append(_Voice(part, value & 0xFFFF, program, tuple(programs)))
     return _seat(voices), voice_of_note

@@ -3,21 +3,21 @@
 from reina.music.instrument_names import program_of_name
 from reina.music.score import Part
 
-PIANO, TRUMPET = 0, 56
+PIANO = 0
 
 
-def default_program(part: Part, *, is_trumpet: bool = False) -> int:
-    """Return a part's program; without one: a trumpet if chosen as one, else by its name, else a piano.
+def default_program(part: Part, player_program: int | None = None) -> int:
+    """Return a part's program; without one: its player's instrument's, else by its name, else a piano.
 
     Args:
         part: The part; its own program, where it has one, is returned.
-        is_trumpet: Whether the trumpeter plays it.
+        player_program: That of the instrument on which a player plays it, if one does.
     """
     if part.program is not None:
         return part.program
     if part.is_drums:
         return 0
-    if is_trumpet:
-        return TRUMPET
+    if player_program is not None:
+        return player_program
     program = program_of_name(part.name)
     return PIANO if program is None else program

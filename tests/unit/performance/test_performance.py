@@ -6,8 +6,8 @@ import pytest
 
 from reina import rotations as r
 from reina.curves import ParameterRegistry
+from reina.instruments.player.pose_keys import POSE_PARAMETERS
 from reina.performance import BLOCK_FRAMES, FrameBlock, Performance
-from reina.performance.pose_keys import POSE_PARAMETERS
 from reina.show import Show, TimeMap
 from reina.skeleton import Hold, Point, Rig, forward_kinematics
 

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reina.instruments import INSTRUMENTS
+from reina.instruments.player import Engagement, Performer, player_parameters
 from reina.music import read_score
-from reina.performance import Performance, Performer, player_parameters
+from reina.performance import Performance
 from reina.rotations import to_matrix
 from reina.show import Show, TimeMap
 from reina.skeleton import forward_kinematics, load_hold, load_rig
@@ -113,7 +114,7 @@ class Played:
 
 def play(name: str, path: Path, times_s: Array, horn: str = "trumpet") -> Played:
     """A player's frames of an example at some times, on one of the instruments."""
-    registry = stage_registry().extended(player_parameters(0))
+    registry = stage_registry().extended(player_parameters(0, INSTRUMENTS["trumpet"]))
     show = Show.from_document({"version": 1, "tracks": []}, registry)
     player, held = load_rig(ROOT / "rigs" / name), load_rig(ROOT / "rigs" / horn)
     skeleton = player.skeleton
@@ -122,13 +123,15 @@ def play(name: str, path: Path, times_s: Array, horn: str = "trumpet") -> Played
     score = read_score(path.read_bytes(), filename=path.name)
     instrument = INSTRUMENTS[horn]
     performer = Performer(
-        score=score,
-        played=instrument.play(score, instrument.rank_parts(score)[0].part),
-        instrument=instrument,
-        player_rig=player,
-        instrument_rig=held,
-        hold=load_hold(ROOT / "rigs" / name, horn),
-        registry=registry,
+        Engagement(
+            score=score,
+            played=instrument.play(score, instrument.rank_parts(score)[0].part),
+            instrument=instrument,
+            player_rig=player,
+            instrument_rigs={instrument.name: held},
+            hold=load_hold(ROOT / "rigs" / name, horn),
+            registry=registry,
+        )
     )
     plan = show.plan(registry, TimeMap.steady())
     performance = Performance([performer], plan, duration_s=score.duration_s)

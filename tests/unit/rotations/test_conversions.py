@@ -104,35 +104,3 @@ def test_unknown_orders_are_named(order: str) -> None:
         r.from_euler(np.zeros(max(len(order), 1)), order)
     with pytest.raises(ValueError, match=r"not known; the orders are xyx"):
         r.to_euler(r.IDENTITY, order)
-
-
-def test_shortest_arc_reaches_and_is_short() -> None:
-    ends = AXES[::-1]
-    q = r.shortest_arc(AXES * 3.0, ends * 0.2)
-    np.testing.assert_allclose(r.rotate(q, AXES), ends, atol=1e-14)
-    angle = np.arctan2(np.linalg.norm(np.cross(AXES, ends), axis=-1), np.sum(AXES * ends, axis=-1))
-    np.testing.assert_allclose(r.angle_between(q, r.IDENTITY), angle, atol=1e-14)
-
-
-def test_shortest_arc_of_the_same_and_of_opposite_directions() -> None:
-    np.testing.assert_allclose(r.shortest_arc(AXES, AXES), np.broadcast_to(r.IDENTITY, (200, 4)), atol=1e-15)
-    np.testing.assert_allclose(r.rotate(r.shortest_arc(AXES, -AXES), AXES), -AXES, atol=1e-12)
-    tilted = np.array([1.0, 1e-9, 0.0])
-    np.testing.assert_allclose(r.rotate(r.shortest_arc([1.0, 0, 0], tilted), [1.0, 0, 0]), tilted, atol=1e-16)
-    with pytest.raises(ValueError, match="length zero"):
-        r.shortest_arc([0.0, 0, 0], [1.0, 0, 0])
-
-
-def test_swing_and_twist_make_the_rotation_again() -> None:
-    swing, twist = r.swing_twist(QUATERNIONS[:200], AXES)
-    np.testing.assert_allclose(r.multiply(swing, twist), QUATERNIONS[:200], atol=1e-14)
-    np.testing.assert_allclose(r.rotate(twist, AXES), AXES, atol=1e-14)
-    np.testing.assert_allclose(r.dot(swing[:, :3], AXES), 0.0, atol=1e-14)
-    np.testing.assert_allclose(
-        np.abs(r.twist_angle(QUATERNIONS[:200], AXES)), r.angle_between(twist, r.IDENTITY), atol=1e-13
-    )
-
-
-def test_a_swing_by_a_half_turn_has_no_twist() -> None:
-    swing, twist = r.swing_twist(r.about_axis(1, np.pi), [1.0, 0.0, 0.0])
-    assert r.angle_between(twist, r.IDENTITY) < 1e-15 or abs(r.dot(swing[:3], [1.0, 0, 0])) < 1e-15

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, read
 
+from reina.instruments import ValvesFingering
 from reina.music import MusicClock
 from reina.protocol import FrameFlag
-from reina.protocol.notes import ValvesFingering, WireNote
+from reina.protocol.notes import WireNote
 from reina.sessions.audience import Audience
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.viewer import Viewer
@@ -36,7 +37,7 @@ def note(index: int) -> WireNote:
         written_pitch=62 + index,
         velocity=0.8,
         valves=[1],
-        fingering=ValvesFingering(valves=[1]),
+        fingering=ValvesFingering(valves=(1,)),
         reason="the usual fingering",
         player=0,
         in_played_part=True,

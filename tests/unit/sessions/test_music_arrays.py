@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from tests.integration.scores import duet, relay, scale
 
-from reina.instruments import INSTRUMENTS, PlayedPart
+from reina.instruments import INSTRUMENTS, PlayedPart, ValvesFingering
 from reina.music import Score, read_score
 from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.show import EventResponse, NoteFilter
@@ -44,9 +44,12 @@ def test_the_players_notes_are_at_the_pitch_that_sounds() -> None:
 def test_open_notes_are_those_that_are_fingered_open() -> None:
     # B♭3, written C4, is open; the flute above is not fingered at all.
     score, line = played(duet(), part=1)
-    fingered = [line.fingering.pressed(note) for note in range(len(line.line))]
+    fingered = [
+        list(note.valves) if isinstance(note, ValvesFingering) else None for note in line.fingering.notes
+    ]
     open_onsets = [line.line.onset_s[note] for note, valves in enumerate(fingered) if valves == []]
     assert onsets(score, line, NoteFilter(valves=())) == open_onsets
+    assert onsets(score, line, NoteFilter(valves=(4,))) == [], "notes of other parts press no valve 4"
     for valves in ((1,), (1, 2), (1, 3)):
         expected = [line.line.onset_s[n] for n, pressed in enumerate(fingered) if pressed == list(valves)]
         assert onsets(score, line, NoteFilter(valves=valves)) == expected

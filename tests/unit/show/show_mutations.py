@@ -12,7 +12,8 @@ from tests.document_mutations import mutate_document
 from tests.mutations import Format, mutate
 
 from reina.curves.interpolation import BUILT_IN
-from reina.performance import player_parameters
+from reina.instruments import INSTRUMENTS
+from reina.instruments.player import player_parameters
 from reina.sessions.production import read_show
 from reina.show import Show, ShowError, TimeMap, Triggers
 from reina.stage import stage_registry
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import random
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "shows"
-REGISTRY = stage_registry().extended(player_parameters(0))
+REGISTRY = stage_registry().extended(player_parameters(0, INSTRUMENTS["trumpet"]))
 TIME_MAP = TimeMap(
     beats=lambda seconds: np.where(seconds < 4, seconds * 2, 8 + (seconds - 4) * 3),
     seconds=lambda beats: np.where(beats < 8, beats / 2, 4 + (beats - 8) / 3),

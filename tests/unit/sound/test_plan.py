@@ -100,13 +100,15 @@ def volume(value: int) -> tuple[int, bytes]:
 )
 def test_a_part_without_a_program_sounds_by_choice_or_name(name: str, chosen: bool, program: int) -> None:
     part = a_part(0, name)
-    assert default_program(part, is_trumpet=chosen) == program
-    plan = plan_sound(a_score([(0, 0.0, 1.0, 60, 0.8)], [part]), [PlayedParts((0,))] if chosen else [])
+    assert default_program(part, 56 if chosen else None) == program
+    plan = plan_sound(
+        a_score([(0, 0.0, 1.0, 60, 0.8)], [part]), [PlayedParts((0,), program=56)] if chosen else []
+    )
     assert list(programs(plan).values()) == [program]
 
 
 def test_the_file_s_program_wins_over_choice_and_name() -> None:
-    assert default_program(a_part(0, "Trumpet", 60), is_trumpet=True) == 60
+    assert default_program(a_part(0, "Trumpet", 60), 56) == 60
 
 
 def test_program_changes_within_a_piece_are_kept() -> None:
@@ -159,7 +161,7 @@ def test_controls_go_with_every_part_of_their_channel() -> None:
 def test_the_trumpet_part_alone_is_transposed() -> None:
     rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (1, 0.0, 1.0, 60, 0.8)]
     score = a_score(rows, [a_part(0, "Trumpet"), a_part(1, "Piano")])
-    plan = plan_sound(score, [PlayedParts((0,), -2)])
+    plan = plan_sound(score, [PlayedParts((0,), -2, 56)])
     assert dict(zip(plan.notes["channel"].tolist(), plan.notes["key"].tolist(), strict=True)) == {
         0: 58,
         1: 60,
@@ -169,7 +171,7 @@ def test_the_trumpet_part_alone_is_transposed() -> None:
 def test_parts_joined_to_the_trumpet_part_are_transposed_with_it_and_are_trumpets_too() -> None:
     rows: list[Row] = [(0, 0.0, 1.0, 60, 0.8), (1, 0.0, 1.0, 62, 0.8), (2, 0.0, 1.0, 64, 0.8)]
     score = a_score(rows, [a_part(number, f"Track {number}") for number in range(3)])
-    plan = plan_sound(score, [PlayedParts((0, 2), -2)])
+    plan = plan_sound(score, [PlayedParts((0, 2), -2, 56)])
     assert plan.notes["key"].tolist() == [58, 62, 62]
     assert sorted(programs(plan).values()) == [0, 56, 56]
 

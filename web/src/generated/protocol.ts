@@ -189,7 +189,7 @@ export interface WireNote {
   /** The valves that are down, ascending; [] is open, null is not playable, not played, no valves. */
   valves: number[] | null
   /** How it is played, by the kind of instrument; null where it is not. */
-  fingering: ValvesFingering | null
+  fingering: ValvesFingering | SlideFingering | StrikeFingering | KeysFingering | null
   /** Why it is played so, or why it is not. */
   reason: string
   /** Who plays its part: a place in the cast, 0 being the first; null if nobody does. */
@@ -583,6 +583,13 @@ export interface InterpolationOption {
   documentation: string
 }
 
+/** How an instrument with keys or finger holes plays a note. */
+export interface KeysFingering {
+  type: "keys"
+  /** The keys that are down, or the holes that are shut, by name. */
+  keys: string[]
+}
+
 /** The span of song time that is played over and over. */
 export interface Loop {
   start_s: number
@@ -708,6 +715,15 @@ export interface SkeletonManifest {
   root_offset: number
 }
 
+/** How an instrument with a slide plays a note. */
+export interface SlideFingering {
+  type: "slide"
+  /** The position's name: 1 is in. */
+  position: string
+  /** How far the slide is out, metres. */
+  extension_m: number
+}
+
 /** The sound that goes with the score. */
 export interface SongState {
   /** Another one whenever the sound is another: what was fetched from it before may be kept. */
@@ -728,6 +744,17 @@ export interface StreamLinks {
   song: string
   /** Rig name to its description. */
   rigs: Record<string, string>
+}
+
+/** How percussion plays a note: with a hand or with a foot; the other is null. */
+export interface StrikeFingering {
+  type: "strike"
+  hand: "left" | "right" | null
+  foot: "left" | "right" | null
+  /** What is struck: a piece that the instrument's rig names. */
+  piece: string
+  /** Where on the piece. */
+  zone: string
 }
 
 /** A tempo and where it begins. */

@@ -19,6 +19,7 @@ class BrassModel:
     Attributes:
         name: For programs: ``trumpet``.
         title: For people: ``B♭ trumpet``.
+        program: The General MIDI program, from 0, that it sounds with where the score says none.
         rig: Name of its rig, or "" if it has none yet.
         written_above_sounding: Semitones from a sounding pitch to the one written for the player.
         chart_above_sounding: Semitones from a sounding pitch to the one under which it stands in the
@@ -33,6 +34,7 @@ class BrassModel:
 
     name: str
     title: str
+    program: int
     rig: str
     written_above_sounding: int
     chart_above_sounding: int
@@ -91,6 +93,7 @@ def _model(table: Mapping[str, Any]) -> BrassModel:
     return BrassModel(
         name=table["name"],
         title=table["title"],
+        program=table["program"],
         rig=table.get("rig", ""),
         written_above_sounding=table["written_above_sounding"],
         chart_above_sounding=table["chart_above_sounding"],

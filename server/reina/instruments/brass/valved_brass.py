@@ -5,21 +5,30 @@ from functools import cached_property
 
 import numpy as np
 
-from reina.curves.parameter import Parameter
+from reina.curves import Parameter
+from reina.instruments.brass.body import BrassBody
 from reina.instruments.brass.chart import ChartEntry
+from reina.instruments.brass.fingering import BrassFingering, BrassPart, pressed
+from reina.instruments.brass.gestures import plan_gestures
 from reina.instruments.brass.model import BrassModel
+from reina.instruments.brass.mute import MUTE_CHOICE, mute_parameter
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
-from reina.instruments.joined_parts import check_joined_parts, notes_of_parts
+from reina.instruments.instrument import Instrument
+from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import playable_line
+from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
 from reina.instruments.octaves import fitting_octaves
 from reina.instruments.pitch_names import pitch_name
-from reina.instruments.played import Fingering, Line, PlayedPart
+from reina.instruments.played import Line, PlayedPart
+from reina.instruments.player.engagement import Engagement
 from reina.instruments.ranking import PartRanking, rank_parts
+from reina.kinematics import Curve, MotionCurves
 from reina.music.arrays import read_only
-from reina.music.errors import NotInScoreError
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
+
+DOWN, UP = "●", "○"
 
 MAX_TOLD = 200
 """How many dropped or shortened notes are told of one by one; all of them stand in the line."""
@@ -31,46 +40,30 @@ SLIDE_FROM_CENTS = 10.0
 """What is less sharp is left to the lips."""
 
 
-class ValvedBrass:
-    """An `Instrument` made from a `BrassModel`."""
+MIDDLE_ABOVE_FUNDAMENTAL = 22
+"""Semitones from the open tube's first harmonic to the pitch that asks for neither much nor little effort."""
+
+
+class ValvedBrass(Instrument):
+    """An instrument made from a `BrassModel`."""
+
+    show_parameters = (MUTE_CHOICE,)
 
     def __init__(self, model: BrassModel, costs: Costs | None = None) -> None:
         self.model = model
+        self.name, self.title = model.name, model.title
+        self.rig, self.program = model.rig, model.program
         self._costs = costs or Costs()
-        self._parameters = _parameters(model)
+        self._moved = _moved(model)
+        self.parameters = (*self._moved, mute_parameter(model.name))
 
     def __repr__(self) -> str:
         return f"ValvedBrass({self.model.name!r})"
 
     @property
-    def name(self) -> str:
-        """Its name, the first word of its parameters' paths."""
-        return self.model.name
-
-    @property
-    def title(self) -> str:
-        """Its name for people."""
-        return self.model.title
-
-    @property
-    def rig(self) -> str:
-        """Name of its folder under rigs/; empty if it has none yet."""
-        return self.model.rig
-
-    @property
-    def handedness(self) -> tuple[str, ...]:
-        """The right hand's alone: its valves lie under the right hand and its slide ring under the left."""
-        return ("right",)
-
-    @property
     def valve_count(self) -> int:
         """How many valves it has."""
         return self.model.valve_count
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """Its valves, 0 up and 1 down, and the third valve's slide, 0 in and 1 out."""
-        return self._parameters
 
     def can_play(self, sounding_pitch: int) -> bool:
         """Return whether it has a note, a MIDI number as it sounds."""
@@ -93,25 +86,9 @@ class ValvedBrass:
         written: bool = False,
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
-    ) -> PlayedPart:
-        """Make a part playable and finger it.
-
-        Args:
-            score: The score.
-            part: Index of the part.
-            transposition: Semitones to add to its pitches.
-            written: Whether its pitches are the written ones of this instrument and not those that sound.
-            octave_fit: Whether to move it by the octaves that bring most of its notes into range.
-            joined_parts: Indices of further parts that are played with it, as if their notes were its own.
-
-        Raises:
-            NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
-        """
-        if not 0 <= part < len(score.parts):
-            raise NotInScoreError(
-                f"there is no part {part}; there are 0 to {len(score.parts) - 1}", location="part"
-            )
-        joined = check_joined_parts(score, part, joined_parts)
+    ) -> BrassPart:
+        """As `Instrument.play`."""
+        joined = check_parts(score, part, joined_parts)
         log = WarningLog(MAX_TOLD)
         place = f"part {part}"
         if written:
@@ -138,9 +115,26 @@ class ValvedBrass:
             index = line.note_index[note]
             where = f"part {score.notes.part[index]}, note {index} at {line.onset_s[note]:.3f} s"
             log.add("not_playable", where, fingering.reasons[note])
-        return PlayedPart(part, transposition, line, fingering, log.warnings(), joined_parts=joined)
+        return BrassPart(part, transposition, line, fingering, log.warnings(), joined_parts=joined)
 
-    def finger(self, line: Line) -> Fingering:
+    def show_fingering(self, fingering: NoteFingering) -> str:
+        """Return a note's fingering as a table of text has it: a mark for each valve."""
+        if not isinstance(fingering, ValvesFingering):
+            return str(fingering)
+        valves = range(1, self.valve_count + 1)
+        return " ".join(DOWN if valve in fingering.valves else UP for valve in valves)
+
+    def plan_gestures(self, played: PlayedPart, *, seed: int = 0) -> dict[str, Curve]:
+        """Plan everything that its player does."""
+        middle_pitch = self.model.tube.fundamental + MIDDLE_ABOVE_FUNDAMENTAL
+        return plan_gestures(played, middle_pitch=middle_pitch, seed=seed)
+
+    def body(self, engagement: Engagement, curves: MotionCurves) -> BrassBody:
+        """Return what turns its player's curves into poses."""
+        streamed = tuple(parameter.path.removeprefix(f"{self.name}/") for parameter in self._moved)
+        return BrassBody(engagement, curves, self.valve_count, streamed)
+
+    def finger(self, line: Line) -> BrassFingering:
         """Finger a line, phrase by phrase; what is out of range ends a phrase."""
         count = len(line)
         pitches: list[int] = line.sounding_pitch.tolist()
@@ -152,6 +146,7 @@ class ValvedBrass:
         primary = np.zeros(count, dtype=np.bool_)
         cents, slide = np.zeros(count), np.zeros(count)
         reasons = [self._out_of_range(pitch) for pitch in pitches]
+        notes: list[ValvesFingering | None] = [None] * count
         begin = 0
         while begin < count:
             if not playable[begin]:
@@ -177,15 +172,17 @@ class ValvedBrass:
             for index, choice in enumerate(taken):
                 note = begin + index
                 valves[note, [valve - 1 for valve in choice.valves]] = True
+                notes[note] = pressed(choice.valves)
                 primary[note] = choice.rank == 0
                 cents[note] = choice.cents
                 slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
                 reasons[note] = why(index, taken, primaries, written, onsets)
             begin = end
-        return Fingering(
-            valves=read_only(valves),
+        return BrassFingering(
+            notes=tuple(notes),
             playable=read_only(playable),
             reasons=tuple(reasons),
+            valves=read_only(valves),
             primary=read_only(primary),
             cents=read_only(cents),
             slide=read_only(slide),
@@ -232,7 +229,7 @@ def _octaves(number: int) -> str:
     return f"{abs(number)} octave{'' if abs(number) == 1 else 's'} {'up' if number > 0 else 'down'}"
 
 
-def _parameters(model: BrassModel) -> tuple[Parameter, ...]:
+def _moved(model: BrassModel) -> tuple[Parameter, ...]:
     documentation = {
         f"{model.name}/valve/{valve}": f"Valve {valve}: 0 up, 1 down."
         for valve in range(1, model.valve_count + 1)

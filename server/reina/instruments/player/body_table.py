@@ -15,7 +15,7 @@ from reina.rotations import conjugate, rotate
 from reina.skeleton import forward_kinematics
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
@@ -32,7 +32,6 @@ SIGNALS: tuple[str, ...] = (
     "effort",
     "gaze_left",
     "gaze_up",
-    "vibrato",
     "torso_bow",
     "torso_turn",
     "torso_tip",
@@ -42,7 +41,7 @@ SIGNALS: tuple[str, ...] = (
     "eyes_left",
     "eyes_up",
 )
-"""The rows of the matrix; the last eight are keyed by a show, in radians."""
+"""What moves every player's trunk and eyes; the last eight are keyed by a show, in radians."""
 
 TRUNK: tuple[str, ...] = (
     "hips",
@@ -67,7 +66,6 @@ TURNS: dict[str, dict[str, Vector]] = {
         "head": (0.014, 0.0, 0.0),
         "leftShoulder": (0.0, -0.012, 0.050),
         "rightShoulder": (0.0, 0.012, -0.050),
-        "instrument": (-0.010, 0.0, 0.0),
     },
     "sway_side": {
         "hips": (0.0, 0.0, 0.010),
@@ -82,7 +80,6 @@ TURNS: dict[str, dict[str, Vector]] = {
         "spine": (0.010, 0.0, 0.0),
         "chest": (0.010, 0.0, 0.0),
         "neck": (-0.010, 0.0, 0.0),
-        "instrument": (-0.008, 0.0, 0.0),
     },
     "sway_turn": {
         "hips": (0.0, 0.010, 0.0),
@@ -99,7 +96,6 @@ TURNS: dict[str, dict[str, Vector]] = {
         "head": (-0.018, 0.0, 0.0),
         "leftShoulder": (0.0, -0.010, -0.006),
         "rightShoulder": (0.0, 0.010, 0.006),
-        "instrument": (0.014, 0.0, 0.0),
     },
     "turn": {
         "hips": (0.0, 0.018, 0.0),
@@ -115,7 +111,6 @@ TURNS: dict[str, dict[str, Vector]] = {
         "head": (-0.022, 0.0, 0.0),
         "leftShoulder": (0.0, 0.0, 0.020),
         "rightShoulder": (0.0, 0.0, -0.020),
-        "instrument": (-0.026, 0.0, 0.0),
     },
     "gaze_left": {"leftEye": (0.0, 0.22, 0.0), "rightEye": (0.0, 0.22, 0.0)},
     "gaze_up": {"leftEye": (-0.10, 0.0, 0.0), "rightEye": (-0.10, 0.0, 0.0)},
@@ -128,7 +123,7 @@ TURNS: dict[str, dict[str, Vector]] = {
     "eyes_left": {"leftEye": (0.0, 1.0, 0.0), "rightEye": (0.0, 1.0, 0.0)},
     "eyes_up": {"leftEye": (-1.0, 0.0, 0.0), "rightEye": (-1.0, 0.0, 0.0)},
 }
-"""Signal -> joint (or the instrument, about the lips) -> turn."""
+"""Signal -> joint -> turn."""
 
 SHIFTS: dict[str, Vector] = {
     "breath": (0.0, 0.0015, 0.0),
@@ -139,30 +134,37 @@ SHIFTS: dict[str, Vector] = {
 }
 """Signal -> shift of the hips, metres."""
 
-HAND_SHIFTS: dict[str, Vector] = {"vibrato": (0.0, 0.0, 0.0008)}
-"""Signal -> shift of the right hand along the instrument, metres, in the instrument's frame."""
 
-
-def body_matrix(rig: Rig, joints: Sequence[str]) -> FloatArray:
+def body_matrix(
+    rig: Rig,
+    joints: Sequence[str],
+    signals: Sequence[str] = SIGNALS,
+    *,
+    turns: Sequence[Mapping[str, Vector]] = (),
+    shifts: Sequence[Mapping[str, Vector]] = (),
+) -> FloatArray:
     """The table as a matrix for a rig.
 
     Args:
         rig: The player's rig.
-        joints: Columns: three for each of these joints' rotation vectors, in the joint's own rest frame;
-            then three for the instrument's, three for the hips' shift and three for the right hand's.
+        joints: The first columns: three for each of these joints' rotation vectors, in the joint's own rest
+            frame.
+        signals: The rows: `SIGNALS`, and others that `turns` and `shifts` name.
+        turns: What else is turned, signal -> rotation vector, three columns each.
+        shifts: What else than the hips is shifted, signal -> metres, three columns each, after the hips'.
 
     Returns:
-        ``(len(SIGNALS), 3 * len(joints) + 9)``.
+        ``(len(signals), 3 * (len(joints) + len(turns) + 1 + len(shifts)))``.
     """
     _, rest_world = forward_kinematics(rig.skeleton, rig.skeleton.rest_rotations)
-    matrix = np.zeros((len(SIGNALS), len(joints) + 3, 3))
-    for row, signal in enumerate(SIGNALS):
-        turns = TURNS.get(signal, {})
+    others = (*turns, SHIFTS, *shifts)
+    matrix = np.zeros((len(signals), len(joints) + len(others), 3))
+    for row, signal in enumerate(signals):
+        of_signal = TURNS.get(signal, {})
         for column, joint in enumerate(joints):
-            if joint in turns:
+            if joint in of_signal:
                 world_to_joint = conjugate(rest_world[rig.skeleton.index(joint)])
-                matrix[row, column] = rotate(world_to_joint, turns[joint])
-        matrix[row, -3] = turns.get("instrument", (0.0, 0.0, 0.0))
-        matrix[row, -2] = SHIFTS.get(signal, (0.0, 0.0, 0.0))
-        matrix[row, -1] = HAND_SHIFTS.get(signal, (0.0, 0.0, 0.0))
-    return matrix.reshape(len(SIGNALS), -1)
+                matrix[row, column] = rotate(world_to_joint, of_signal[joint])
+        for column, other in enumerate(others, start=len(joints)):
+            matrix[row, column] = other.get(signal, (0.0, 0.0, 0.0))
+    return matrix.reshape(len(signals), -1)

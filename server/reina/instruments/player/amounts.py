@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.curves import Parameter
-from reina.performance.mute import MUTE_CHOICE
-from reina.performance.stances import STANCES
+from reina.instruments.player.stances import STANCES
 
 if TYPE_CHECKING:
     from reina.curves import ParameterRegistry
@@ -53,9 +52,10 @@ PLAYER_PARAMETERS: tuple[Parameter, ...] = (
         documentation="How the player stands under all playing; going to another takes a second and a half.",
     ),
     _amount("stance/amount", "How far the player moves in that stance.", maximum=1.5),
-    MUTE_CHOICE,
 )
-"""Amounts of gestures, 1 as played by default and 0 none; which stance is played in; and the mute."""
+"""Amounts of gestures, 1 as played by default and 0 none, and which stance is played in.
+
+One that an instrument's player has no gesture for has no effect."""
 
 
 class Amounts:

@@ -11,7 +11,6 @@ from reina.rotations import conjugate, rotate
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
-    from reina.kinematics.status import StatusArray
     from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
 
@@ -47,8 +46,6 @@ class PressingFingers:
                     f"{button.effector!r} is not on the hand that presses the buttons", location="buttons"
                 )
         self.chains = FingerChains(rig, [chain.name for chain in chains])
-        self.valves = [button.valve - 1 for button in buttons]
-        """Valve index of each finger."""
         # All that a target is made of, in the finger's own axes.
         to_hand = conjugate(hand_rotation)
         to_rest = self.chains.turn_to_rest
@@ -61,10 +58,8 @@ class PressingFingers:
         units = rotate(to_hand, np.eye(3))[:, None].repeat(len(buttons), axis=1)
         self._shift: FloatArray = to_rest(units).reshape(3, -1)
 
-    def solve(
-        self, valves: FloatArray, lifts: FloatArray, shifts: FloatArray
-    ) -> tuple[FloatArray, StatusArray]:
-        """The fingers' local rotations ``(F, K, 3, 4)`` and a status each ``(F, K)``.
+    def solve(self, valves: FloatArray, lifts: FloatArray, shifts: FloatArray) -> FloatArray:
+        """The fingers' local rotations ``(F, K, 3, 4)``, in the order of the rig's buttons.
 
         Args:
             valves: How far down each finger's valve is, ``(F, K)``.
@@ -72,4 +67,5 @@ class PressingFingers:
             shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
         """
         targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
-        return self.chains.solve_at_rest(targets - (shifts @ self._shift).reshape(targets.shape))
+        rotations, _ = self.chains.solve_at_rest(targets - (shifts @ self._shift).reshape(targets.shape))
+        return rotations

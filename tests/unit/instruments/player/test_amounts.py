@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from reina import rotations as r
+from reina.instruments.player.amounts import PLAYER_PARAMETERS
 from reina.performance import Performance
-from reina.performance.amounts import PLAYER_PARAMETERS
 from reina.skeleton import Rig
 
 NoteBeats = tuple[float, float, int]

@@ -10,7 +10,7 @@ from reina.curves import Parameter
 
 if TYPE_CHECKING:
     from reina.curves import ParameterRegistry
-    from reina.instruments import Line
+    from reina.instruments.played import Line
     from reina.music.score import Score
     from reina.rotations.arrays import FloatArray
 

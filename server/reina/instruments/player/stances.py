@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.performance.body_table import TRUNK
+from reina.instruments.player.body_table import TRUNK
 from reina.rotations import conjugate, log, multiply
 from reina.skeleton import retarget
 

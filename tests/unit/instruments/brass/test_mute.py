@@ -8,8 +8,8 @@ import pytest
 
 from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS
+from reina.instruments.brass.mute import Mute
 from reina.music import read_score
-from reina.performance.mute import Mute
 
 
 def muted(programs: list[tuple[float, int]], registry: ParameterRegistry) -> Mute:

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.curves import Parameter
-from reina.performance.pose_keys import LARGEST_GAZE_RAD, LARGEST_TURN_RAD
+from reina.instruments.player.pose_keys import LARGEST_GAZE_RAD, LARGEST_TURN_RAD
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.curves import ParameterRegistry
-    from reina.instruments import PlayedPart
-    from reina.instruments.trumpet.gestures import Curve
-    from reina.performance.seats import Seat
+    from reina.instruments.played import PlayedPart
+    from reina.instruments.player.seats import Seat
+    from reina.kinematics import Curve
     from reina.rotations.arrays import FloatArray
 
 GLANCE_PARAMETER = Parameter(

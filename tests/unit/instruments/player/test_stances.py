@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from reina.curves import ParameterRegistry
+from reina.instruments.player.stance_choice import PASSAGE_S, StanceChoice
+from reina.instruments.player.stances import STANCES, Stances
 from reina.performance import Performance
-from reina.performance.stance_choice import PASSAGE_S, StanceChoice
-from reina.performance.stances import STANCES, Stances
 from reina.show import Show, TimeMap
 from reina.skeleton import Rig
 

@@ -6,8 +6,8 @@ import pytest
 from numpy.typing import NDArray
 
 from reina import rotations as r
+from reina.instruments.brass.slide_finger import YIELDING_M, SlideFinger
 from reina.kinematics import FingerChains, excess_over_limits
-from reina.performance.slide_finger import YIELDING_M, SlideFinger
 from reina.skeleton import Hold, Rig, forward_kinematics
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.instruments.brass.fingering import brass_fingering
 from reina.instruments.line import BREATH_S
-from reina.kinematics.motion_curves import MotionCurves
 
 if TYPE_CHECKING:
     from reina.instruments.played import PlayedPart
@@ -64,7 +64,8 @@ def plan_strokes(played: PlayedPart) -> dict[str, FloatArray]:
         `MotionCurves` takes them, from 0. A valve is 0 up and 1 down; a lift is 0 on the cap and 1 off it.
     """
     line = played.line
-    down = played.fingering.valves & played.fingering.playable[:, None]
+    fingering = brass_fingering(played)
+    down = fingering.valves & fingering.playable[:, None]
     curves: dict[str, FloatArray] = {}
     for valve in range(down.shape[1]):
         # Each finger has its own small unevenness, the same whenever the part is played.
@@ -74,22 +75,6 @@ def plan_strokes(played: PlayedPart) -> dict[str, FloatArray]:
         curves[f"valve/{valve + 1}"] = strokes
         curves[f"lift/{valve + 1}"] = _lifts(strokes, line.onset_s, line.end_s, chance)
     return curves
-
-
-class ValveStrokes:
-    """The valves of a part over time.
-
-    Args:
-        played: The line and its fingering.
-    """
-
-    def __init__(self, played: PlayedPart) -> None:
-        plan = plan_strokes(played)
-        self._curves = MotionCurves({name: (table, 0.0) for name, table in plan.items() if name[0] == "v"})
-
-    def evaluate(self, times_s: FloatArray) -> FloatArray:
-        """How far down each valve is, 0..1, ``(F, V)``, at times ``(F,)``."""
-        return np.ascontiguousarray(self._curves.evaluate(times_s).T)
 
 
 def _strokes(

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.instruments.player.stances import STANCES
 from reina.kinematics import minimum_jerk
-from reina.performance.stances import STANCES
 from reina.show import ShowPlan
 
 if TYPE_CHECKING:

@@ -8,20 +8,28 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.unit.instruments.scores import NoteSpec, melody, score_of, written
 
-from reina.instruments import INSTRUMENTS, PlayedPart
+from reina.instruments import ValvesFingering
 from reina.instruments.brass.chart import Valves
+from reina.instruments.brass.family import FAMILY
+from reina.instruments.brass.fingering import BrassPart
 from reina.instruments.brass.phrase import Choice, Costs, choose, moved, note_cost, step_cost
-from reina.instruments.trumpet import TRUMPET
 from reina.music import ScoreError
 
+TRUMPET = FAMILY["trumpet"]
 
-def play(notes: list[NoteSpec]) -> PlayedPart:
-    return INSTRUMENTS["trumpet"].play(score_of(notes), 0)
+
+def play(notes: list[NoteSpec]) -> BrassPart:
+    return TRUMPET.play(score_of(notes), 0)
 
 
 def fingerings(notes: list[NoteSpec]) -> list[list[int] | None]:
     played = play(notes)
-    return [played.fingering.pressed(note) for note in range(len(played.line))]
+    return [pressed(played, note) for note in range(len(played.line))]
+
+
+def pressed(played: BrassPart, note: int) -> list[int] | None:
+    fingering = played.fingering.notes[note]
+    return list(fingering.valves) if isinstance(fingering, ValvesFingering) else None
 
 
 def test_slow_notes_take_the_usual_fingering():
@@ -30,7 +38,7 @@ def test_slow_notes_take_the_usual_fingering():
         played = play(melody(pitches, interval_s=0.5))
         assert played.fingering.primary.all()
         for note, pitch in enumerate(pitches):
-            assert played.fingering.pressed(note) == list(TRUMPET.model.chart[pitch].primary)
+            assert pressed(played, note) == list(TRUMPET.model.chart[pitch].primary)
 
 
 def test_valve_1_is_the_first_column():
@@ -97,7 +105,7 @@ def test_what_is_out_of_range_is_not_played_with_other_valves():
     played = play(melody([51, 52, 89, 90]))
     assert played.fingering.playable.tolist() == [False, True, True, False]
     assert not played.fingering.valves[[0, 3]].any()
-    assert [played.fingering.pressed(note) for note in range(4)] == [None, [1, 2, 3], [], None]
+    assert [pressed(played, note) for note in range(4)] == [None, [1, 2, 3], [], None]
     assert played.fingering.reasons[0] == "E♭3 lies below the lowest note of the B♭ trumpet, E3"
     assert played.fingering.reasons[3] == "F♯6 lies above the highest note of the B♭ trumpet, F6"
     assert [warning.kind for warning in played.warnings] == ["not_playable", "not_playable"]
@@ -116,17 +124,17 @@ def test_the_third_slide_goes_out_for_long_low_notes_only():
 
 def test_written_pitch_is_said_to_be_so():
     score = score_of(melody([72]))
-    played = INSTRUMENTS["trumpet"].play(score, 0, written=True)
+    played = TRUMPET.play(score, 0, written=True)
     assert played.transposition == -2
     assert played.line.sounding_pitch.tolist() == [70]
-    assert played.fingering.pressed(0) == []
+    assert pressed(played, 0) == []
     assert [warning.kind for warning in played.warnings] == ["written_pitch"]
-    assert INSTRUMENTS["trumpet"].play(score, 0).line.sounding_pitch.tolist() == [72]
+    assert TRUMPET.play(score, 0).line.sounding_pitch.tolist() == [72]
 
 
 def test_transposition_and_octave_fit_are_told():
     low = score_of(melody([40, 43, 45, 53]))
-    trumpet = INSTRUMENTS["trumpet"]
+    trumpet = TRUMPET
     as_it_is = trumpet.play(low, 0)
     assert as_it_is.fingering.playable.tolist() == [False, False, False, True]
     assert [w.kind for w in as_it_is.warnings].count("octave_fit_possible") == 1
@@ -143,7 +151,7 @@ def test_transposition_and_octave_fit_are_told():
 
 def test_a_part_that_is_not_there_is_refused():
     with pytest.raises(ScoreError, match="no part 1; there are 0 to 0"):
-        INSTRUMENTS["trumpet"].play(score_of(melody([60])), 1)
+        TRUMPET.play(score_of(melody([60])), 1)
 
 
 def test_a_rest_begins_anew():
@@ -210,11 +218,11 @@ def test_every_playable_note_is_played_with_a_fingering_of_its_chart(notes: list
         at += duration
     played = play(specs)
     for note, (pitch, _) in enumerate(notes):
-        pressed = played.fingering.pressed(note)
+        down = pressed(played, note)
         if 52 <= pitch <= 89:
             entry = TRUMPET.model.chart[pitch]
-            assert pressed is not None
-            assert tuple(pressed) in (entry.primary, *entry.alternates)
-            assert played.fingering.primary[note] == (tuple(pressed) == entry.primary)
+            assert down is not None
+            assert tuple(down) in (entry.primary, *entry.alternates)
+            assert played.fingering.primary[note] == (tuple(down) == entry.primary)
         else:
-            assert pressed is None
+            assert down is None

@@ -3,13 +3,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reina.instruments import Fingering, Line, PlayedPart
-from reina.instruments.trumpet.strokes import (
+from reina.instruments import Line, PlayedPart, ValvesFingering
+from reina.instruments.brass.fingering import BrassFingering, BrassPart
+from reina.instruments.brass.strokes import (
     LARGEST_SHARE,
     LONGEST_STROKE_S,
     PRESS_S,
     RELEASE_S,
-    ValveStrokes,
     plan_strokes,
 )
 from reina.kinematics import MotionCurves
@@ -34,19 +34,25 @@ def played(notes: list[Note], velocity: float = 0.7) -> PlayedPart:
         dropped=whole[:0],
         shortened=whole[:0],
     )
-    fingering = Fingering(
-        valves=valves,
+    fingering = BrassFingering(
+        notes=tuple(None if note[2] is None else ValvesFingering(valves=note[2]) for note in notes),
         playable=np.array([note[2] is not None for note in notes], dtype=np.bool_),
         reasons=("",) * count,
+        valves=valves,
         primary=np.ones(count, dtype=np.bool_),
         cents=np.zeros(count),
         slide=np.zeros(count),
     )
-    return PlayedPart(0, 0, line, fingering, ())
+    return BrassPart(0, 0, line, fingering, ())
 
 
 def at(part: PlayedPart, *times: float) -> np.ndarray:
-    return ValveStrokes(part).evaluate(np.array(times))
+    return valves(part).evaluate(np.array(times)).T
+
+
+def valves(part: PlayedPart) -> MotionCurves:
+    plan = plan_strokes(part)
+    return MotionCurves({name: (plan[name], 0.0) for name in ("valve/1", "valve/2", "valve/3")})
 
 
 def test_a_valve_is_down_for_its_note_and_up_around_it() -> None:
@@ -75,7 +81,7 @@ def test_strokes_take_the_time_that_players_take(velocity: float) -> None:
 def test_valves_stay_down_through_repeats_and_short_rests() -> None:
     part = played([(0.0, 0.5, (1,)), (0.5, 0.9, (1,)), (1.1, 1.5, (1,)), (2.5, 3.0, (1,))])
     times = np.linspace(0.0, 1.5, 500)
-    np.testing.assert_array_equal(ValveStrokes(part).evaluate(times)[:, 0], 1.0)
+    np.testing.assert_array_equal(valves(part).evaluate(times)[0], 1.0)
     # A rest long enough to breathe lets it up.
     assert at(part, 2.0)[0, 0] == 0.0
     assert at(part, 2.5)[0, 0] == 1.0
@@ -110,7 +116,7 @@ def lines(draw: st.DrawFn) -> list[Note]:
 @given(lines(), st.floats(0, 1))
 def test_every_note_has_its_valves_whatever_the_line(notes: list[Note], velocity: float) -> None:
     part = played(notes, velocity)
-    strokes = ValveStrokes(part)
+    strokes = valves(part)
     for index, (onset, end, fingering) in enumerate(notes):
         wanted = np.array([v in (fingering or ()) for v in (1, 2, 3)], dtype=np.float64)
         last = end
@@ -118,7 +124,7 @@ def test_every_note_has_its_valves_whatever_the_line(notes: list[Note], velocity
             following = notes[index + 1][0]
             last = min(end, following - min(LONGEST_STROKE_S, LARGEST_SHARE * (following - onset)) - 1e-9)
         times = np.linspace(onset, max(last, onset), 9)
-        values = strokes.evaluate(times)
+        values = strokes.evaluate(times).T
         if fingering is not None:
             np.testing.assert_array_equal(values, np.broadcast_to(wanted, values.shape))
         else:
@@ -143,4 +149,4 @@ def test_fingers_lift_only_off_valves_that_are_up(notes: list[Note]) -> None:
 def test_the_same_part_gives_the_same_bytes() -> None:
     part = played([(0.1 * i, 0.1 * i + 0.1, ((), (1,), (2, 3))[i % 3]) for i in range(200)])
     times = np.arange(1200) / 60
-    assert ValveStrokes(part).evaluate(times).tobytes() == ValveStrokes(part).evaluate(times).tobytes()
+    assert valves(part).evaluate(times).tobytes() == valves(part).evaluate(times).tobytes()

@@ -1,0 +1,54 @@
+"""What players share, whatever they play: phrasing, breath, trunk, legs, face, gaze, idling, stances."""
+
+from reina.instruments.player.body import PlayerBody, Standing
+from reina.instruments.player.engagement import Engagement
+from reina.instruments.player.glances import plan_glances
+from reina.instruments.player.held_pose import HeldPose
+from reina.instruments.player.instrument_body import BodyFrames, BodyMotion, InstrumentBody
+from reina.instruments.player.parameters import (
+    cast_parameters,
+    player_parameters,
+    player_prefix,
+    streamed_parameters,
+)
+from reina.instruments.player.performer import GESTURES, Performer, PerformerFrames
+from reina.instruments.player.phrasing import (
+    Phrases,
+    in_order,
+    movements,
+    phrases_of,
+    plan_breath,
+    plan_phrasing,
+)
+from reina.instruments.player.seats import SEATS, SEATS_FOR, Seat
+from reina.instruments.player.skeleton_layout import SkeletonLayout
+from reina.instruments.player.stance_choice import StanceChoice
+
+__all__ = [
+    "GESTURES",
+    "SEATS",
+    "SEATS_FOR",
+    "BodyFrames",
+    "BodyMotion",
+    "Engagement",
+    "HeldPose",
+    "InstrumentBody",
+    "Performer",
+    "PerformerFrames",
+    "Phrases",
+    "PlayerBody",
+    "Seat",
+    "SkeletonLayout",
+    "StanceChoice",
+    "Standing",
+    "cast_parameters",
+    "in_order",
+    "movements",
+    "phrases_of",
+    "plan_breath",
+    "plan_glances",
+    "plan_phrasing",
+    "player_parameters",
+    "player_prefix",
+    "streamed_parameters",
+]

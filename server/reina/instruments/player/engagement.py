@@ -1,0 +1,60 @@
+"""A casting with all that it names: what a performer is made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from reina.instruments.player.parameters import player_prefix
+from reina.instruments.player.seats import SEATS, Seat
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from reina.curves import ParameterRegistry
+    from reina.instruments.instrument import Instrument
+    from reina.instruments.played import PlayedPart
+    from reina.kinematics import Curve
+    from reina.music.score import Score
+    from reina.skeleton import Hold, Rig
+
+
+@dataclass(frozen=True, eq=False)
+class Engagement:
+    """Who plays what on which instrument, and where.
+
+    Attributes:
+        score: The score; its tempo and metre lead the body.
+        played: What the instrument makes of a part.
+        instrument: The instrument.
+        player_rig: The player's rig.
+        instrument_rigs: The rig of each of `Instrument.skeletons`, by the skeleton's name.
+        hold: How the player holds it.
+        registry: The show's parameters.
+        number: The player's place in the cast, the first being 0.
+        seat: Where the player stands.
+        seed: Which of many equal ways of moving.
+        glances: How the player looks at the others, as `plan_glances` gives it.
+    """
+
+    score: Score
+    played: PlayedPart
+    instrument: Instrument
+    player_rig: Rig
+    instrument_rigs: Mapping[str, Rig]
+    hold: Hold
+    registry: ParameterRegistry
+    number: int = 0
+    seat: Seat = SEATS["middle"]
+    seed: int = 0
+    glances: Mapping[str, Curve] = field(default_factory=dict[str, "Curve"])
+
+    @property
+    def prefix(self) -> str:
+        """What the paths of the player's parameters begin with."""
+        return player_prefix(self.number)
+
+    @property
+    def instrument_rig(self) -> Rig:
+        """The rig of what is held."""
+        return self.instrument_rigs[next(iter(self.instrument.skeletons))]

@@ -1,0 +1,20 @@
+"""Signals by name as the rows of a table."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from reina.rotations.arrays import FloatArray
+
+
+def stacked(rows: Mapping[str, FloatArray], names: Sequence[str]) -> FloatArray:
+    """Rows ``(F,)`` in the order of some names, ``(len(names), F)``.
+
+    As `numpy.stack`, which on many short rows takes several times as long.
+    """
+    return np.concatenate([rows[name] for name in names]).reshape(len(names), -1)
