@@ -496,7 +496,7 @@ export interface SessionChange {
   joined_parts?: number[] | null
   sequence?: number | null
   player?: string | null
-  handedness?: "right" | "left" | null
+  handedness?: "left" | "right" | null
   /** auto: the score itself says who plays it; the fields for one player are then left out. */
   cast?: "auto" | null
 }
