@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from reina.instruments.casting import MAX_PLAYERS, Cast, Casting
 from reina.instruments.instrument import Instrument
-from reina.instruments.part_roles import Kind, PartNotes, family_part, role_of
+from reina.instruments.part_names import KINDS
+from reina.instruments.part_roles import FAMILY, Kind, PartNotes, family_part, role_of
 from reina.music.gm import PROGRAM_NAMES
 from reina.music.instrument_names import instruments_of_name
 from reina.music.score import Part, Score
@@ -114,5 +115,5 @@ def _kind(part: Part) -> str:
         return "drums"
     named = instruments_of_name(part.name) if part.named else ()
     if named:
-        return named[0]
+        return next((name for name in named if KINDS.get(name) not in FAMILY), named[0])
     return f"“{part.name}”" if part.program is None else PROGRAM_NAMES[part.program]
