@@ -32,6 +32,7 @@ FIELD_LIMITS = {
     "joined_parts": 10_000,
     "sequence": 10,
     "player": 200,
+    "handedness": 10,
     "cast": 20_000,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS

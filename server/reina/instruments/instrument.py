@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from reina.kinematics import Curve, MotionCurves
     from reina.music.score import Score
 
+MAX_PITCH = 127
+"""The highest MIDI number of a pitch."""
+
 
 class Instrument(ABC):
     """An instrument and its playing: which part, how it is fingered and written, how its player moves."""
@@ -31,6 +34,8 @@ class Instrument(ABC):
     """The General MIDI program, from 0, that it sounds with where the score says none."""
     parameters: tuple[Parameter, ...] = ()
     """What of it moves in every frame; the paths begin with its name."""
+    handedness: tuple[str, ...] = ("right",)
+    """With which hand leading it can be played: of `HANDEDNESS`."""
     show_parameters: tuple[Parameter, ...] = ()
     """What a show may choose of it; the paths begin with ``player/``."""
 
@@ -40,6 +45,10 @@ class Instrument(ABC):
         return {self.name: self.rig}
 
     # --- its part
+
+    def can_play(self, sounding_pitch: int) -> bool:
+        """Return whether it has a note, a MIDI number as it sounds; it has every one by default."""
+        return 0 <= sounding_pitch <= MAX_PITCH
 
     @abstractmethod
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:

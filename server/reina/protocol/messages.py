@@ -90,6 +90,8 @@ class ScoreChanged(WireModel):
     """Whether the part is moved into range by octaves."""
     joined_parts: list[int]
     """Further parts that the player plays together with it, ascending."""
+    handedness: str
+    """Which of the player's hands leads."""
     duration_s: float
     """How long the music now lasts."""
     song: SongState

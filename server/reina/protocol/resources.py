@@ -1,6 +1,6 @@
 """The bodies of the HTTP interface."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, Json
 
@@ -13,6 +13,7 @@ from reina.protocol.notes import WireNote
 Title = Annotated[str, Field(min_length=1, max_length=200)]
 PlayerName = Annotated[str, Field(min_length=1, max_length=200)]
 PartIndex = Annotated[int, Field(ge=0)]
+Handedness = Literal["right", "left"]
 
 
 def _split_at_commas(text: str) -> list[str]:
@@ -102,6 +103,8 @@ class Session(WireModel):
     """Whether the part is moved by the octaves that bring most of its notes into range."""
     joined_parts: list[int]
     """Further parts that the player plays together with it, as if their notes were its own; ascending."""
+    handedness: str
+    """Which of the player's hands leads."""
     player: str
     """Who plays: a rig with a hold on the instrument."""
     players: list[str]
@@ -115,6 +118,8 @@ class Session(WireModel):
     parts: list[PartSummary]
     choices: list[PartChoice]
     """The parts that the instrument could play, best first."""
+    cast: "CastSummary"
+    """Everybody who plays: part, instrument, player and the like beside it are the first one's."""
     notes: int
     warnings: list[Warned]
     song: SongState
@@ -161,6 +166,9 @@ class SessionChange(WireModel):
     joined_parts: list[PartIndex] | None = None
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName | None = None
+    handedness: Handedness | None = None
+    cast: Literal["auto"] | None = None
+    """`auto`: the score itself says who plays it; the fields for one player are then left out."""
 
 
 class CastingFields(WireModel):
@@ -177,12 +185,22 @@ class CastingFields(WireModel):
     written: bool = False
     octave_fit: bool = False
     joined_parts: list[PartIndex] = Field(default_factory=list[int])
+    handedness: Handedness = "right"
+    """Which hand leads, where the instrument can be played so."""
 
 
 class CastFields(WireModel):
     """Who is to play what, the first player first."""
 
     castings: Annotated[list[CastingFields], Field(min_length=1, max_length=MAX_PLAYERS)]
+    sequence: Annotated[int, Field(ge=0)] | None = None
+    """Which sequence of a MIDI file of format 2; null leaves it as it is."""
+
+
+class AutoCast(WireModel):
+    """That the score itself is to say who plays it."""
+
+    cast: Literal["auto"]
     sequence: Annotated[int, Field(ge=0)] | None = None
     """Which sequence of a MIDI file of format 2; null leaves it as it is."""
 
@@ -202,11 +220,12 @@ class SessionFields(WireModel):
     """As `1,2`."""
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName = "trumpeter"
-    cast: Json[CastFields] | None = None
-    """Everybody who plays, as JSON; the fields for one player are then left out."""
+    handedness: Handedness = "right"
+    cast: Literal["auto"] | Json[CastFields] | None = None
+    """Everybody who plays, as JSON; or `auto`, the default where there is no field for one player."""
 
 
-class Casting(WireModel):
+class CastingSummary(WireModel):
     """What a player does, and how it came out."""
 
     part: int
@@ -218,6 +237,7 @@ class Casting(WireModel):
     written: bool
     octave_fit: bool
     joined_parts: list[int]
+    handedness: str
     sounding_transposition: int
     """Semitones by which the part is played away from the file's pitches."""
     notes: int
@@ -226,15 +246,57 @@ class Casting(WireModel):
     """How many of these the instrument has."""
     reasons: list[str]
     """Why this part suits the instrument, or does not."""
+    cast_because: list[str]
+    """Why there is a player for it: what the part is for, and what it is beside the parts of those before."""
+
+
+class Casting(CastingSummary):
+    """What a player does, how it came out, and what else there is."""
+
     choices: list[PartChoice]
     """The parts that the instrument could play, best first."""
 
 
-class Cast(WireModel):
-    """Who plays what, in the order of the players."""
+class TunePassage(WireModel):
+    """A stretch in which one player has the tune."""
+
+    start_s: float
+    end_s: float
+    """Where the next begins."""
+    player: int
+    """The player's place in the cast."""
+
+
+class UnplayedPart(WireModel):
+    """A part that nobody plays; it is heard."""
+
+    part: int
+    part_name: str
+    reason: str
+
+
+class CastSummary(WireModel):
+    """Who plays what, in the order of the players, and why nobody plays the rest."""
 
     sequence: int
+    auto: bool
+    """Whether the score itself said who plays; false once somebody has chosen."""
+    castings: list[CastingSummary]
+    unplayed: list[UnplayedPart]
+    """Every other part of the score, in its order."""
+
+
+class Cast(WireModel):
+    """Who plays what, in the order of the players, with what else each could play."""
+
+    sequence: int
+    auto: bool
+    """Whether the score itself said who plays; false once somebody has chosen."""
     castings: list[Casting]
+    unplayed: list[UnplayedPart]
+    """Every other part of the score, in its order."""
+    tune: list[TunePassage]
+    """Who is heard above the others, from the beginning to the end: the higher, livelier, louder line."""
 
 
 class InstrumentSummary(WireModel):
@@ -245,6 +307,8 @@ class InstrumentSummary(WireModel):
     rig: str
     players: list[str]
     """The rigs that hold it."""
+    handedness: list[str]
+    """Which hand may lead."""
 
 
 class InstrumentList(WireModel):
@@ -287,6 +351,7 @@ class Score(WireModel):
     octave_fit: bool
     joined_parts: list[int]
     """Further parts that the player plays together with it, ascending."""
+    handedness: str
     parts: list[PartSummary]
     tempi: list[Tempo]
     metres: list[Metre]
@@ -381,9 +446,12 @@ class Interpolation(WireModel):
 
 
 class ShowParameterList(WireModel):
-    """Every show parameter in the frame's order, and every interpolation."""
+    """Every parameter in the frame's order, and every interpolation."""
 
     parameters: list[ShowParameter]
+    """What a show can move. The first player's paths stand alone, the second's begin with `players/2/`."""
+    streamed: list[ShowParameter]
+    """What the players give to a frame beside the show, such as valves; no keyframe moves it."""
     interpolations: list[Interpolation]
 
 

@@ -58,6 +58,7 @@ def lead_fields(production: Production) -> dict[str, Any]:
         "written": lead.written,
         "octave_fit": lead.octave_fit,
         "joined_parts": list(lead.joined_parts),
+        "handedness": lead.handedness,
     }
 
 
@@ -78,15 +79,34 @@ def part_summaries(score: Score) -> list[resources.PartSummary]:
 
 def cast_resource(production: Production) -> resources.Cast:
     """Who plays what, and why."""
-    castings: list[resources.Casting] = []
-    for casting, performer, ranking in zip(
-        production.cast.castings, production.performers, production.rankings, strict=True
+    summary = cast_summary(production)
+    castings = [
+        resources.Casting(**dict(casting), choices=part_choices(ranking))
+        for casting, ranking in zip(summary.castings, production.rankings, strict=True)
+    ]
+    tune = [
+        resources.TunePassage(start_s=passage.start_s, end_s=passage.end_s, player=passage.player)
+        for passage in production.tune
+    ]
+    return resources.Cast(**dict(summary) | {"castings": castings, "tune": tune})
+
+
+def cast_summary(production: Production) -> resources.CastSummary:
+    """Who plays what, without what else each could play."""
+    score, cast = production.score, production.cast
+    castings: list[resources.CastingSummary] = []
+    for casting, performer, ranking, why in zip(
+        cast.castings,
+        production.performers,
+        production.rankings,
+        production.casting_reasons,
+        strict=True,
     ):
         played = performer.played
         castings.append(
-            resources.Casting(
+            resources.CastingSummary(
                 part=played.part,
-                part_name=production.score.parts[played.part].name,
+                part_name=score.parts[played.part].name,
                 instrument=casting.instrument,
                 player=casting.player,
                 seat=performer.seat.name,
@@ -94,14 +114,23 @@ def cast_resource(production: Production) -> resources.Cast:
                 written=casting.written,
                 octave_fit=casting.octave_fit,
                 joined_parts=list(played.joined_parts),
+                handedness=casting.handedness,
                 sounding_transposition=played.transposition,
                 notes=len(played.line),
                 playable=int(np.count_nonzero(played.fingering.playable)),
                 reasons=next(list(choice.reasons) for choice in ranking if choice.part == played.part),
-                choices=part_choices(ranking),
+                cast_because=list(why),
             )
         )
-    return resources.Cast(sequence=production.score.sequence, castings=castings)
+    return resources.CastSummary(
+        sequence=score.sequence,
+        auto=cast.auto,
+        castings=castings,
+        unplayed=[
+            resources.UnplayedPart(part=one.part, part_name=score.parts[one.part].name, reason=one.reason)
+            for one in production.unplayed
+        ],
+    )
 
 
 def part_choices(ranking: Iterable[PartRanking]) -> list[resources.PartChoice]:

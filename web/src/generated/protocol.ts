@@ -218,6 +218,8 @@ export interface Session {
   octave_fit: boolean
   /** Further parts that the player plays together with it, as if their notes were its own; ascending. */
   joined_parts: number[]
+  /** Which of the player's hands leads. */
+  handedness: string
   /** Who plays: a rig with a hold on the instrument. */
   player: string
   /** Who could. */
@@ -231,6 +233,8 @@ export interface Session {
   parts: PartSummary[]
   /** The parts that the instrument could play, best first. */
   choices: PartChoice[]
+  /** Everybody who plays: part, instrument, player and the like beside it are the first one's. */
+  cast: CastSummary
   notes: number
   warnings: Warned[]
   song: SongState
@@ -276,6 +280,8 @@ export interface ScoreChanged {
   octave_fit: boolean
   /** Further parts that the player plays together with it, ascending. */
   joined_parts: number[]
+  /** Which of the player's hands leads. */
+  handedness: string
   /** How long the music now lasts. */
   duration_s: number
   song: SongState
@@ -339,6 +345,7 @@ export interface Score {
   octave_fit: boolean
   /** Further parts that the player plays together with it, ascending. */
   joined_parts: number[]
+  handedness: string
   parts: PartSummary[]
   tempi: Tempo[]
   metres: Metre[]
@@ -403,9 +410,12 @@ export interface RigList {
   rigs: RigSummary[]
 }
 
-/** Every show parameter in the frame's order, and every interpolation. */
+/** Every parameter in the frame's order, and every interpolation. */
 export interface ShowParameterList {
+  /** What a show can move. The first player's paths stand alone, the second's begin with players/2/. */
   parameters: ShowParameter[]
+  /** What the players give to a frame beside the show, such as valves; no keyframe moves it. */
+  streamed: ShowParameter[]
   interpolations: Interpolation[]
 }
 
@@ -486,12 +496,49 @@ export interface SessionChange {
   joined_parts?: number[] | null
   sequence?: number | null
   player?: string | null
+  handedness?: "left" | "right" | null
+  /** auto: the score itself says who plays it; the fields for one player are then left out. */
+  cast?: "auto" | null
 }
 
 /** A track whose curve is asked for; it is not kept. */
 export interface CurvePreview {
   /** As a show has it, with its parameter; times without a unit of their own are in the show's. */
   track: Record<string, unknown>
+}
+
+/** Who plays what, in the order of the players, and why nobody plays the rest. */
+export interface CastSummary {
+  sequence: number
+  /** Whether the score itself said who plays; false once somebody has chosen. */
+  auto: boolean
+  castings: CastingSummary[]
+  /** Every other part of the score, in its order. */
+  unplayed: UnplayedPart[]
+}
+
+/** What a player does, and how it came out. */
+export interface CastingSummary {
+  part: number
+  part_name: string
+  instrument: string
+  player: string
+  seat: string
+  transposition: number
+  written: boolean
+  octave_fit: boolean
+  joined_parts: number[]
+  handedness: string
+  /** Semitones by which the part is played away from the file's pitches. */
+  sounding_transposition: number
+  /** How many notes the player plays, one at a time. */
+  notes: number
+  /** How many of these the instrument has. */
+  playable: number
+  /** Why this part suits the instrument, or does not. */
+  reasons: string[]
+  /** Why there is a player for it: what the part is for, and what it is beside the parts of those before. */
+  cast_because: string[]
 }
 
 /** A parameter's values over the times of a ShowCurves. */
@@ -723,6 +770,13 @@ export interface TimeKnots {
   seconds: number[]
   beats: number[]
   bars: number[]
+}
+
+/** A part that nobody plays; it is heard. */
+export interface UnplayedPart {
+  part: number
+  part_name: string
+  reason: string
 }
 
 /** How valved brass plays a note. */

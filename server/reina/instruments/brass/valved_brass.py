@@ -65,6 +65,10 @@ class ValvedBrass(Instrument):
         """How many valves it has."""
         return self.model.valve_count
 
+    def can_play(self, sounding_pitch: int) -> bool:
+        """Return whether it has a note, a MIDI number as it sounds."""
+        return sounding_pitch in self.model.chart
+
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
         return sounding_pitch + self.model.written_above_sounding
