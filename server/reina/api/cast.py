@@ -7,14 +7,15 @@ from fastapi import APIRouter, Body
 from reina.api.access import Controlled, Store, Watched
 from reina.api.body import BoundedRoute
 from reina.api.problems import ProblemError
-from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting
+from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting, Instrument
+from reina.notation import both_names
 from reina.performance import SEATS
 from reina.protocol import resources
 from reina.sessions.description import cast_resource
 
 router = APIRouter(tags=["cast"], route_class=BoundedRoute)
 
-ALONE = ("part", "transposition", "written", "octave_fit", "joined_parts", "player")
+ALONE = ("part", "transposition", "written", "octave_fit", "joined_parts", "usual_fingerings", "player")
 """Fields of the form that are for one player."""
 
 EXAMPLE = {"castings": [{"part": 0, "player": "soloist", "instrument": "cornet", "octave_fit": True}]}
@@ -30,6 +31,9 @@ async def list_instruments(store: Store) -> resources.InstrumentList:
                 title=INSTRUMENTS[name].title,
                 rig=INSTRUMENTS[name].rig,
                 players=list(store.stage.players(name)),
+                clef=INSTRUMENTS[name].clef,
+                valves=INSTRUMENTS[name].valve_count,
+                chart=_chart(INSTRUMENTS[name]),
             )
             for name in store.stage.instruments
         ],
@@ -81,3 +85,16 @@ def cast_of_fields(fields: resources.SessionFields) -> Cast:
 def _casting(fields: dict[str, Any]) -> Casting:
     fields["joined_parts"] = tuple(fields["joined_parts"])
     return Casting(**fields)
+
+
+def _chart(instrument: Instrument) -> list[resources.ChartLine]:
+    return [
+        resources.ChartLine(
+            sounding_pitch=note.sounding_pitch,
+            written_pitch=note.written_pitch,
+            sounding_names=list(both_names(note.sounding_pitch)),
+            written_names=list(both_names(note.written_pitch)),
+            fingerings=[list(fingering) for fingering in note.fingerings],
+        )
+        for note in instrument.fingering_chart
+    ]

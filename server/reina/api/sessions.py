@@ -78,6 +78,11 @@ _FORM: dict[str, Any] = {
                             "description": "indices of further parts that the player plays together with it, "
                             "as `1,2`",
                         },
+                        "usual_fingerings": {
+                            "type": "boolean",
+                            "default": False,
+                            "description": "take no fingering but the usual one of each note",
+                        },
                         "sequence": {
                             "type": "integer",
                             "minimum": 0,
@@ -93,7 +98,8 @@ _FORM: dict[str, Any] = {
                             "type": "string",
                             "contentMediaType": "application/json",
                             "description": "everybody who plays, as `PUT /sessions/{id}/cast` takes it, "
-                            "in place of part, transposition, written, octave_fit, joined_parts and player",
+                            "in place of part, transposition, written, octave_fit, joined_parts, "
+                            "usual_fingerings and player",
                         },
                     },
                 }

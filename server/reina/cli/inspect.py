@@ -8,8 +8,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from reina.errors import InputError
-from reina.instruments import BRASS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
+from reina.instruments import BRASS, Instrument, NoteNames, PartRanking, PlayedPart, describe_score
 from reina.music import Score, read_score
+from reina.notation import keys_of
 
 DOWN, UP = "●", "○"
 REST = "–"
@@ -33,6 +34,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PARTS",
         help="further parts that are played together with it, as 1,2",
     )
+    parser.add_argument(
+        "--usual-fingerings", action="store_true", help="take no fingering but the usual one of each note"
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -51,6 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
             written=arguments.written,
             octave_fit=arguments.octave_fit,
             joined_parts=arguments.joined_parts,
+            usual_fingerings=arguments.usual_fingerings,
         )
     except (OSError, InputError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
@@ -91,6 +96,8 @@ def _lines(
     yield from _section("Metre")
     metres = [(f"{s.onset_beats:g}", f"{s.numerator}/{s.denominator}") for s in score.metre_map.signatures]
     yield from _table(("beat", "metre"), metres)
+    yield from _section("Key")
+    yield from _table(("beat", "sounds", "written", "because"), _keys(score, instrument, played))
     yield from _section(f"Parts, the best for {instrument.name} first")
     yield from _table(
         ("", "part", "name", "program", "notes", "score", "because"), _parts(score, rankings, played)
@@ -101,6 +108,26 @@ def _lines(
     yield from _section(f"Fingerings of {_named(played.parts)}, transposed by {played.transposition}")
     heads = ("bar", "beat", "second", "lasts", "written", "sounds", "valves", "why")
     yield from _table(heads, _fingerings(score, instrument, played))
+
+
+_BECAUSE = {
+    "file": "the file says so",
+    "notes": "found from the notes",
+    "none": "the notes are in none",
+}
+
+
+def _keys(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:
+    above = instrument.written_pitch(0)
+    return [
+        (
+            f"{key.onset_beats:g}",
+            key.transposed(played.transposition).name,
+            key.transposed(played.transposition + above).name,
+            _BECAUSE[key.source],
+        )
+        for key in keys_of(score)
+    ]
 
 
 def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) -> list[tuple[str, ...]]:
@@ -131,9 +158,10 @@ def _mark(part: int, played: PlayedPart) -> str:
 def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     line, fingering = played.line, played.fingering
+    names = NoteNames(score, [(instrument, played)])
     positions = score.metre_map.positions(score.notes.onset_beats[line.note_index])
     for place, position in enumerate(positions):
-        pitch = int(line.sounding_pitch[place])
+        sounding, written = names.of(int(line.note_index[place]))
         pressed = fingering.pressed(place)
         valves = (
             REST
@@ -146,8 +174,8 @@ def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> lis
                 f"{position.beat:g}",
                 f"{line.onset_s[place]:.3f}",
                 f"{line.end_s[place] - line.onset_s[place]:.3f}",
-                pitch_name(instrument.written_pitch(pitch)),
-                pitch_name(pitch),
+                written,
+                sounding,
                 valves,
                 fingering.reasons[place],
             )

@@ -8,8 +8,10 @@ from types import MappingProxyType
 
 from reina.instruments.brass.family import FAMILY
 from reina.instruments.casting import MAX_PLAYERS, Cast, CastError, Casting
+from reina.instruments.chart_note import ChartNote
 from reina.instruments.describe import describe_notes, describe_score
 from reina.instruments.instrument import Instrument
+from reina.instruments.note_names import NoteNames, spell_line
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking
@@ -30,12 +32,15 @@ __all__ = [
     "Cast",
     "CastError",
     "Casting",
+    "ChartNote",
     "Fingering",
     "Instrument",
     "Line",
+    "NoteNames",
     "PartRanking",
     "PlayedPart",
     "describe_notes",
     "describe_score",
     "pitch_name",
+    "spell_line",
 ]

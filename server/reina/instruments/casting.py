@@ -29,6 +29,7 @@ class Casting:
         written: Whether the part is taken as notated for the instrument.
         octave_fit: Whether it is moved by the octaves that bring most of it into range.
         joined_parts: Further parts that are played together with it.
+        usual_fingerings: Whether no fingering is taken but the usual one of each note.
     """
 
     part: int | None = None
@@ -39,10 +40,11 @@ class Casting:
     written: bool = False
     octave_fit: bool = False
     joined_parts: tuple[int, ...] = ()
+    usual_fingerings: bool = False
 
     @property
     def sound(self) -> tuple[object, ...]:
-        """What of it is heard: who plays, and where, is not."""
+        """What of it is heard: who plays, where, and with which valves, is not."""
         heard = (self.part, self.transposition, self.written, self.octave_fit, self.joined_parts)
         return (*heard, self.instrument)
 

@@ -5,9 +5,11 @@ from typing import Any
 import numpy as np
 
 from reina.instruments.instrument import Instrument
+from reina.instruments.note_names import NoteNames
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.music.score import Score
+from reina.notation import keys_of
 
 
 def describe_score(
@@ -29,6 +31,7 @@ def describe_score(
     """
     ranking_of = {ranking.part: ranking for ranking in rankings or instrument.rank_parts(score)}
     counts = np.bincount(score.notes.part, minlength=len(score.parts)).tolist()
+    moved = played.transposition + instrument.written_pitch(0)
     bar_lines = score.metre_map.bar_lines(score.duration_beats)
     return {
         "title": score.title,
@@ -64,6 +67,17 @@ def describe_score(
             }
             for signature in score.metre_map.signatures
         ],
+        "keys": [
+            {
+                "onset_beats": key.onset_beats,
+                "name": key.name,
+                "fifths": key.fifths,
+                "written_name": (written := key.transposed(moved)).name,
+                "written_fifths": written.fifths,
+                "source": key.source,
+            }
+            for key in keys_of(score)
+        ],
         "pickup_beats": score.metre_map.pickup_beats,
         "bar_lines_s": score.tempo_map.seconds(bar_lines).tolist(),
         "notes": describe_notes(score, instrument, played, part),
@@ -85,12 +99,15 @@ def describe_notes(
     line, fingering = played.line, played.fingering
     place_in_line = {note: place for place, note in enumerate(line.note_index.tolist())}
     shortened = set(line.shortened.tolist())
+    names = NoteNames(score, [(instrument, played)])
+    usual = {note.sounding_pitch: note.fingerings[0] for note in instrument.fingering_chart}
     described: list[dict[str, Any]] = []
     for index in range(len(score.notes)) if part is None else score.note_indices(part).tolist():
         note = score.notes[index]
         place = place_in_line.get(index)
         own = note.part in played.parts
         pitch = note.sounding_pitch + (played.transposition if own else 0)
+        sounding_name, written_name = names.of(index)
         valves: list[int] | None = None
         reason = "another part than the player's"
         if place is not None:
@@ -107,8 +124,11 @@ def describe_notes(
                 "duration_beats": note.duration_beats,
                 "sounding_pitch": pitch,
                 "written_pitch": instrument.written_pitch(pitch),
+                "sounding_name": sounding_name,
+                "written_name": written_name,
                 "velocity": note.velocity,
                 "valves": valves,
+                "usual_valves": None if valves is None else list(usual[pitch]),
                 "reason": reason,
                 "played_duration_s": None
                 if place is None

@@ -1,8 +1,9 @@
 """What an instrument is to the rest of Reina."""
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Literal, Protocol
 
+from reina.instruments.chart_note import ChartNote
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.keyframes.parameter import Parameter
@@ -37,6 +38,16 @@ class Instrument(Protocol):
         """What of it moves in every frame: its valves, 0 up and 1 down, and its slide, 0 in and 1 out."""
         ...
 
+    @property
+    def clef(self) -> Literal["treble", "bass"]:
+        """The clef that it is written in."""
+        ...
+
+    @property
+    def fingering_chart(self) -> tuple[ChartNote, ...]:
+        """How each note that it has is fingered, from the lowest up."""
+        ...
+
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
         ...
@@ -54,6 +65,7 @@ class Instrument(Protocol):
         written: bool = False,
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
+        usual_fingerings: bool = False,
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -64,6 +76,7 @@ class Instrument(Protocol):
             written: Whether its pitches are the written ones of this instrument and not those that sound.
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
             joined_parts: Indices of further parts that are played with it, as if their notes were its own.
+            usual_fingerings: Whether to take no fingering but the usual one of each note.
 
         Raises:
             NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.

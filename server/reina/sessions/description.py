@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reina.instruments import NoteNames
+from reina.notation import keys_of
 from reina.protocol import resources
 from reina.protocol.messages import Transport
 from reina.protocol.notes import ValvesFingering, WireNote
@@ -57,6 +59,7 @@ def lead_fields(production: Production) -> dict[str, Any]:
         "written": lead.written,
         "octave_fit": lead.octave_fit,
         "joined_parts": list(lead.joined_parts),
+        "usual_fingerings": lead.usual_fingerings,
     }
 
 
@@ -93,6 +96,7 @@ def cast_resource(production: Production) -> resources.Cast:
                 written=casting.written,
                 octave_fit=casting.octave_fit,
                 joined_parts=list(played.joined_parts),
+                usual_fingerings=casting.usual_fingerings,
                 sounding_transposition=played.transposition,
                 notes=len(played.line),
                 playable=int(np.count_nonzero(played.fingering.playable)),
@@ -117,6 +121,13 @@ class NoteTable:
     def __init__(self, production: Production) -> None:
         self._production = production
         performers = list(enumerate(production.performers))
+        self._names = NoteNames(
+            production.score, [(one.instrument, one.played) for one in production.performers]
+        )
+        self._usual = [
+            {note.sounding_pitch: list(note.fingerings[0]) for note in one.instrument.fingering_chart}
+            for one in production.performers
+        ]
         self._player_of_part = {part: player for player, one in performers for part in one.played.parts}
         self._line_of_note = {
             note: number
@@ -129,6 +140,7 @@ class NoteTable:
         production = self._production
         note = production.score.notes[index]
         pitch, valves, reason = note.sounding_pitch, None, NOT_PLAYED
+        sounding_name, written_name = self._names.of(index)
         player = self._player_of_part.get(note.part)
         performer = production.performers[player or 0]
         number = self._line_of_note.get(index)
@@ -149,13 +161,34 @@ class NoteTable:
             duration_beats=note.duration_beats,
             sounding_pitch=pitch,
             written_pitch=performer.instrument.written_pitch(pitch),
+            sounding_name=sounding_name,
+            written_name=written_name,
             velocity=note.velocity,
             valves=valves,
+            usual_valves=None if valves is None else self._usual[player or 0][pitch],
             fingering=None if valves is None else ValvesFingering(valves=valves),
             reason=reason,
             player=player,
             in_played_part=player is not None,
         )
+
+
+def _keys(production: Production) -> list[resources.MusicKey]:
+    """The keys of the first player's part."""
+    score, moved = production.score, production.played.transposition
+    above = production.instrument.written_pitch(0)
+    return [
+        resources.MusicKey(
+            onset_beats=key.onset_beats,
+            onset_s=score.tempo_map.seconds(key.onset_beats),
+            name=(sounding := key.transposed(moved)).name,
+            fifths=sounding.fifths,
+            written_name=(written := key.transposed(moved + above)).name,
+            written_fifths=written.fifths,
+            source=key.source,
+        )
+        for key in keys_of(score)
+    ]
 
 
 def score_text(production: Production, title: str, part: int | None = None) -> bytes:
@@ -187,6 +220,7 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
             )
             for signature in metre_map.signatures
         ],
+        keys=_keys(production),
         bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
         notes=[],
         warnings=warned(production.warnings),

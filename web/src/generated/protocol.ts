@@ -184,12 +184,18 @@ export interface WireNote {
   sounding_pitch: number
   /** MIDI number as a player of the instrument reads it. */
   written_pitch: number
+  /** What it is called as it sounds, in the key of the music: F♯4; C4 is 60. */
+  sounding_name: string
+  /** What it is called in the part of who plays it. */
+  written_name: string
   /** 0 to 1. */
   velocity: number
   /** The valves that are down, ascending; [] is open, null is not playable, not played, no valves. */
   valves: number[] | null
   /** How it is played, by the kind of instrument; null where it is not. */
   fingering: ValvesFingering | null
+  /** What a beginner's chart shows for it; null as valves is. Where valves are others, reason says why. */
+  usual_valves: number[] | null
   /** Why it is played so, or why it is not. */
   reason: string
   /** Who plays its part: a place in the cast, 0 being the first; null if nobody does. */
@@ -218,6 +224,8 @@ export interface Session {
   octave_fit: boolean
   /** Further parts that the player plays together with it, as if their notes were its own; ascending. */
   joined_parts: number[]
+  /** Whether no fingering is taken but the usual one of each note. */
+  usual_fingerings: boolean
   /** Who plays: a rig with a hold on the instrument. */
   player: string
   /** Who could. */
@@ -276,6 +284,8 @@ export interface ScoreChanged {
   octave_fit: boolean
   /** Further parts that the player plays together with it, ascending. */
   joined_parts: number[]
+  /** Whether no fingering is taken but the usual one of each note. */
+  usual_fingerings: boolean
   /** How long the music now lasts. */
   duration_s: number
   song: SongState
@@ -339,9 +349,11 @@ export interface Score {
   octave_fit: boolean
   /** Further parts that the player plays together with it, ascending. */
   joined_parts: number[]
+  usual_fingerings: boolean
   parts: PartSummary[]
   tempi: Tempo[]
   metres: Metre[]
+  keys: MusicKey[]
   bar_lines_s: number[]
   /** By onset; of one part alone with ?part=. */
   notes: WireNote[]
@@ -484,6 +496,7 @@ export interface SessionChange {
   written?: boolean | null
   octave_fit?: boolean | null
   joined_parts?: number[] | null
+  usual_fingerings?: boolean | null
   sequence?: number | null
   player?: string | null
 }
@@ -548,6 +561,21 @@ export interface Metre {
   onset_s: number
   numerator: number
   denominator: number
+}
+
+/** A key and where it begins. */
+export interface MusicKey {
+  onset_beats: number
+  onset_s: number
+  /** As the first player's part sounds: E♭ major; no key where the notes are in none. */
+  name: string
+  /** Sharps of its signature; flats are negative. */
+  fifths: number
+  /** As it stands in the first player's part. */
+  written_name: string
+  written_fifths: number
+  /** Whether the file says it, or it is found from the notes. */
+  source: "file" | "notes" | "none"
 }
 
 /** One parameter of the frame. */

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -9,8 +10,10 @@ from reina.instruments.brass.chart import ChartEntry
 from reina.instruments.brass.model import BrassModel
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
+from reina.instruments.chart_note import ChartNote
 from reina.instruments.joined_parts import check_joined_parts, notes_of_parts
 from reina.instruments.line import playable_line
+from reina.instruments.note_names import spell_line
 from reina.instruments.octaves import fitting_octaves
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
@@ -20,6 +23,7 @@ from reina.music.arrays import read_only
 from reina.music.errors import NotInScoreError
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
+from reina.notation import keys_of, named
 
 MOST_TOLD = 200
 """How many dropped or shortened notes are told of one by one; all of them stand in the line."""
@@ -67,6 +71,19 @@ class ValvedBrass:
         """Its valves, 0 up and 1 down, and the third valve's slide, 0 in and 1 out."""
         return self._parameters
 
+    @property
+    def clef(self) -> Literal["treble", "bass"]:
+        """The clef that it is written in."""
+        return self.model.clef
+
+    @cached_property
+    def fingering_chart(self) -> tuple[ChartNote, ...]:
+        """How each note that it has is fingered, from the lowest up."""
+        return tuple(
+            ChartNote(pitch, self.written_pitch(pitch), (entry.primary, *entry.alternates))
+            for pitch, entry in self.model.chart.items()
+        )
+
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
         return sounding_pitch + self.model.written_above_sounding
@@ -84,6 +101,7 @@ class ValvedBrass:
         written: bool = False,
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
+        usual_fingerings: bool = False,
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -94,6 +112,7 @@ class ValvedBrass:
             written: Whether its pitches are the written ones of this instrument and not those that sound.
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
             joined_parts: Indices of further parts that are played with it, as if their notes were its own.
+            usual_fingerings: Whether to take no fingering but the usual one of each note.
 
         Raises:
             NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
@@ -124,15 +143,29 @@ class ValvedBrass:
                 f"moved by {_octaves(octaves)}, more of its notes would be in range",
             )
         line = playable_line(score, part, transposition, log, joined_parts=joined, playable=self.model.chart)
-        fingering = self.finger(line)
+        above = self.model.written_above_sounding
+        spelled = spell_line(score, line, keys_of(score), moved=transposition, written_above_sounding=above)
+        written_names = [
+            named(pitch + above, name)
+            for pitch, name in zip(line.sounding_pitch.tolist(), spelled.tolist(), strict=True)
+        ]
+        fingering = self.finger(line, written_names, usual_fingerings=usual_fingerings)
         for note in np.flatnonzero(~fingering.playable).tolist():
             index = line.note_index[note]
             where = f"part {score.notes.part[index]}, note {index} at {line.onset_s[note]:.3f} s"
             log.add("not_playable", where, fingering.reasons[note])
         return PlayedPart(part, transposition, line, fingering, log.warnings(), joined_parts=joined)
 
-    def finger(self, line: Line) -> Fingering:
-        """Finger a line, phrase by phrase; what is out of range ends a phrase."""
+    def finger(
+        self, line: Line, written_names: Sequence[str], *, usual_fingerings: bool = False
+    ) -> Fingering:
+        """Finger a line, phrase by phrase; what is out of range ends a phrase.
+
+        Args:
+            line: M notes.
+            written_names: What each is called in the player's part.
+            usual_fingerings: Whether to take no fingering but the usual one of each note.
+        """
         count = len(line)
         pitches: list[int] = line.sounding_pitch.tolist()
         onset_s: list[float] = line.onset_s.tolist()
@@ -153,7 +186,7 @@ class ValvedBrass:
                 end += 1
             span = slice(begin, end)
             choices = [
-                self._choices(pitch, until - onset >= SLIDE_FROM_S)
+                self._choices(pitch, until - onset >= SLIDE_FROM_S)[: 1 if usual_fingerings else None]
                 for pitch, onset, until in zip(pitches[span], onset_s[span], end_s[span], strict=True)
             ]
             taken = [
@@ -163,7 +196,6 @@ class ValvedBrass:
                 )
             ]
             primaries = [of_note[0] for of_note in choices]
-            written = [self.written_pitch(pitch) for pitch in pitches[span]]
             onsets = onset_s[span]
             for index, choice in enumerate(taken):
                 note = begin + index
@@ -171,7 +203,7 @@ class ValvedBrass:
                 primary[note] = choice.rank == 0
                 cents[note] = choice.cents
                 slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
-                reasons[note] = why(index, taken, primaries, written, onsets)
+                reasons[note] = why(index, taken, primaries, written_names[span], onsets)
             begin = end
         return Fingering(
             valves=read_only(valves),
