@@ -20,6 +20,7 @@ from reina.api import (
     lab,
     library,
     page,
+    part,
     problems,
     rigs,
     sessions,
@@ -103,6 +104,7 @@ def create_app(
         library,
         lab,
         cast,
+        part,
         catalogue,
         stream,
     ):

@@ -21,6 +21,7 @@ from reina.music.arrays import FloatArray, IntArray, read_only
 from reina.notation.keys import Key
 
 LETTERS = "FCGDAEB"
+"""By fifths: so sharps are added to a signature, and flats the other way round."""
 ACCIDENTALS = {-1: "♭", 0: "", 1: "♯"}
 FLATTEST, SHARPEST = -8, 12
 """F♭ and B♯: what has one accidental lies between."""

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reina.instruments import NoteNames
-from reina.notation import keys_of
 from reina.protocol import resources
 from reina.protocol.messages import Transport
 from reina.protocol.notes import ValvesFingering, WireNote
 from reina.protocol.transport import Loop, TransportState
+from reina.sessions.written_part import music_keys
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -173,24 +173,6 @@ class NoteTable:
         )
 
 
-def _keys(production: Production) -> list[resources.MusicKey]:
-    """The keys of the first player's part."""
-    score, moved = production.score, production.played.transposition
-    above = production.instrument.written_pitch(0)
-    return [
-        resources.MusicKey(
-            onset_beats=key.onset_beats,
-            onset_s=score.tempo_map.seconds(key.onset_beats),
-            name=(sounding := key.transposed(moved)).name,
-            fifths=sounding.fifths,
-            written_name=(written := key.transposed(moved + above)).name,
-            written_fifths=written.fifths,
-            source=key.source,
-        )
-        for key in keys_of(score)
-    ]
-
-
 def score_text(production: Production, title: str, part: int | None = None) -> bytes:
     """The whole score as JSON, or the notes of one part of it alone.
 
@@ -220,7 +202,7 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
             )
             for signature in metre_map.signatures
         ],
-        keys=_keys(production),
+        keys=music_keys(score, production.played.transposition, production.instrument.written_pitch(0)),
         bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
         notes=[],
         warnings=warned(production.warnings),

@@ -194,7 +194,7 @@ export interface WireNote {
   valves: number[] | null
   /** How it is played, by the kind of instrument; null where it is not. */
   fingering: ValvesFingering | null
-  /** What a beginner's chart shows for it; null as valves is. Where valves are others, reason says why. */
+  /** What a beginner's chart shows for it, null where valves is; where both differ, reason says why. */
   usual_valves: number[] | null
   /** Why it is played so, or why it is not. */
   reason: string
@@ -360,6 +360,36 @@ export interface Score {
   warnings: Warned[]
 }
 
+/** What a cast can be made of. */
+export interface InstrumentList {
+  instruments: InstrumentSummary[]
+  /** Where players can stand; left and right are theirs. */
+  seats: string[]
+  /** How many play at once at most. */
+  max_players: number
+}
+
+/** What one player plays, as notation. */
+export interface WrittenPart {
+  title: string
+  part_name: string
+  /** A place in the cast, 0 being the first. */
+  player: number
+  instrument: string
+  instrument_title: string
+  clef: "treble" | "bass"
+  /** Semitones from a pitch that sounds to the one that is written. */
+  written_above_sounding: number
+  /** Whether swung eighths are written even. */
+  swing: boolean
+  keys: MusicKey[]
+  tempi: PartTempo[]
+  /** The line, by onset. */
+  notes: PartNote[]
+  /** Up to the end of the last note. */
+  measures: PartMeasure[]
+}
+
 /** What came of an edit, an undo or a redo. */
 export interface ShowEdited extends ShowState {
   /** The show as it is now, but for its tracks: title, time, markers. */
@@ -507,6 +537,17 @@ export interface CurvePreview {
   track: Record<string, unknown>
 }
 
+/** How an instrument plays one note. */
+export interface ChartLine {
+  sounding_pitch: number
+  written_pitch: number
+  /** One name, or of a black key both: the sharp, then the flat. */
+  sounding_names: string[]
+  written_names: string[]
+  /** The usual one first, then the alternates; each the valves that are down, ascending. */
+  fingerings: number[][]
+}
+
 /** A parameter's values over the times of a ShowCurves. */
 export interface CurveLine {
   /** A list a component, each as long as times_s: colours linear sRGB, choices indices, as in frames. */
@@ -529,6 +570,21 @@ export interface Fault {
   detail: string
   /** The place in the input. */
   location: string | null
+}
+
+/** An instrument that somebody can play. */
+export interface InstrumentSummary {
+  name: string
+  title: string
+  rig: string
+  /** The rigs that hold it. */
+  players: string[]
+  /** The clef that it is written in. */
+  clef: "treble" | "bass"
+  /** How many it has. */
+  valves: number
+  /** Every note that it has, from the lowest up. */
+  chart: ChartLine[]
 }
 
 /** A way to come to a keyframe from the one before. */
@@ -597,6 +653,87 @@ export interface PartChoice {
   reasons: string[]
 }
 
+/** A note or a rest in a bar. */
+export interface PartEntry {
+  /** From the bar's beginning; a quarter has 48. */
+  begin_ticks: number
+  ticks: number
+  /** Which part of a whole note is written: 4 for a quarter. */
+  value: number
+  dots: number
+  /** Its place in notes; null for a rest. */
+  note: number | null
+  /** Whether it is the rest of whole bars. */
+  is_bar_rest: boolean
+  /** As the player reads it. */
+  written: PartPitch | null
+  sounding: PartPitch | null
+  /** Whether a tie comes from the note before. */
+  tied_from: boolean
+  /** Whether a tie goes to the next note. */
+  tied_to: boolean
+  /** Notes of a bar with one number are under one beam. */
+  beam: number | null
+  /** Entries of a bar with one number are a tuplet: three (or six) in the time of two (or four). */
+  tuplet: number | null
+  is_staccato: boolean
+  /** Before it. */
+  graces: PartGrace[]
+  /** A trill with this note of notes, which is the upper one. */
+  trill: number | null
+}
+
+/** A grace note. */
+export interface PartGrace {
+  /** Its place in notes. */
+  note: number
+  written: PartPitch
+  sounding: PartPitch
+}
+
+/** A bar, or several of rest as one. */
+export interface PartMeasure {
+  /** The first whole bar is 1, a pickup 0. */
+  number: number
+  /** How many bars of rest it stands for, else 1. */
+  bars: number
+  begin_s: number
+  end_s: number
+  /** How long each bar is: its entries last together as long. */
+  ticks: number
+  numerator: number
+  denominator: number
+  /** Of the signature as it sounds. */
+  fifths: number
+  /** Of the signature in the player's part. */
+  written_fifths: number
+  entries: PartEntry[]
+}
+
+/** A note of the line that is played. */
+export interface PartNote {
+  /** Its place in the score's table of notes. */
+  index: number
+  onset_s: number
+  end_s: number
+  sounding_name: string
+  written_name: string
+  /** The valves that are down, ascending; null where it cannot be played. */
+  valves: number[] | null
+  usual_valves: number[] | null
+  reason: string
+}
+
+/** Where a note stands on the staff. */
+export interface PartPitch {
+  /** For people: F♯5. */
+  name: string
+  letter: "A" | "B" | "C" | "D" | "E" | "F" | "G"
+  octave: number
+  /** What is printed before it; null where signature and bar say it already. */
+  accidental: "flat" | "natural" | "sharp" | null
+}
+
 /** One part of a score. */
 export interface PartSummary {
   index: number
@@ -606,6 +743,18 @@ export interface PartSummary {
   is_drums: boolean
   /** How many notes it has. */
   notes: number
+}
+
+/** A tempo that is printed. */
+export interface PartTempo {
+  /** Index into measures. */
+  measure: number
+  /** Where in it. */
+  begin_ticks: number
+  /** Quarter notes a minute; null where a word stands. */
+  bpm: number | null
+  /** rit., accel. or nothing. */
+  word: string
 }
 
 /** A rig in the list. */
