@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import random
     from collections.abc import Callable, Iterator
 
-MOST_PLACES = 5_000
+MAX_PLACES = 5_000
 """A document of more places is not made larger."""
 
 
@@ -98,7 +98,7 @@ def mutate_document(data: bytes, rng: random.Random) -> bytes | None:
         return None
     for _ in range(1 + int(rng.expovariate(0.5))):
         places = list(_places(document))
-        if not 0 < len(places) <= MOST_PLACES:
+        if not 0 < len(places) <= MAX_PLACES:
             break
         rng.choice(CHANGES)(rng.choice(places), places, rng)
     return json.dumps(document[0] if document else None).encode()

@@ -13,10 +13,10 @@ class InputError(ReinaError):
 
     Attributes:
         detail: What was wrong and what would be right, one sentence or two.
-        where: The place in the input (``"track 2, byte 118"``, ``"tracks/3/keyframes/0/value"``), or None.
+        location: The place in the input (``"track 2, byte 118"``, ``"tracks/3/keyframes/0/value"``), or None.
     """
 
-    def __init__(self, detail: str, *, where: str | None = None) -> None:
-        super().__init__(detail if where is None else f"{where}: {detail}")
+    def __init__(self, detail: str, *, location: str | None = None) -> None:
+        super().__init__(detail if location is None else f"{location}: {detail}")
         self.detail = detail
-        self.where = where
+        self.location = location

@@ -23,14 +23,14 @@ from tests.integration.scores import scale, song
 
 from reina.api.app import create_app
 from reina.api.settings import Settings
-from reina.keyframes import Parameter
-from reina.keyframes.interpolation import interpolations
+from reina.curves import Parameter
+from reina.curves.interpolation import interpolations
 from reina.sessions.stage import Stage
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
-    from reina.keyframes.value_types import TypeName, Value
+    from reina.curves.value_types import TypeName, Value
 
 TRACKS, KEYS, MOVED = 200, 500, 100
 SPAN_S = 240.0

@@ -20,11 +20,12 @@ import mido
 import numpy as np
 
 from reina.instruments import INSTRUMENTS
-from reina.keyframes import Show, TimeMap, stage_registry
 from reina.music import read_score
 from reina.performance import Performance, Performer, player_parameters
 from reina.protocol import build_manifest, encode_block
+from reina.show import Show, TimeMap
 from reina.skeleton import load_hold, load_rig
+from reina.stage import stage_registry
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -20,16 +20,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from machine import ROOT, heading, verdict
 
-from reina.keyframes import Parameter, ParameterRegistry, Show
-from reina.keyframes.interpolation import interpolations
+from reina.curves import Parameter, ParameterRegistry
+from reina.curves.interpolation import interpolations
+from reina.show import Show
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from reina.keyframes import ShowPlan
-    from reina.keyframes.value_types import TypeName
+    from reina.curves.value_types import TypeName
+    from reina.show import ShowPlan
 
 TRACKS, KEYS = 64, 1000
 BOUND_US = 12.0

@@ -20,7 +20,7 @@ from machine import heading, verdict
 
 RATE = 44_100
 FORMS = {"WAV": "PCM_16", "FLAC": "PCM_16", "MP3": "MPEG_LAYER_III", "OGG": "VORBIS", "OGG Opus": "OPUS"}
-LONGEST_S, MOST_MEMORY_MB = 5.0, 200.0
+LONGEST_S, MAX_MEMORY_MB = 5.0, 200.0
 
 
 def write(path: Path, form: str, seconds: int) -> None:
@@ -37,7 +37,7 @@ def write(path: Path, form: str, seconds: int) -> None:
 
 def probe(path: Path) -> tuple[float, float, float]:
     """Seconds of processor time, largest memory in MB, and the length that was found."""
-    command = [sys.executable, "-m", "reina.sessions.sound_worker", str(path), str(path) + ".peaks"]
+    command = [sys.executable, "-m", "reina.sound.recording.worker", str(path), str(path) + ".peaks"]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdout is not None
     told = process.stdout.read()
@@ -65,8 +65,8 @@ def main() -> int:
                 f"{form}, {duration_s:.0f} s, {size_mb:.1f} MB: {took_s:.2f} s, {memory_mb:.0f} MB of memory"
             )
     print(verdict("slowest", slowest, LONGEST_S, "s"))
-    print(verdict("largest", largest, MOST_MEMORY_MB, "MB"))
-    return 0 if slowest <= LONGEST_S and largest <= MOST_MEMORY_MB else 1
+    print(verdict("largest", largest, MAX_MEMORY_MB, "MB"))
+    return 0 if slowest <= LONGEST_S and largest <= MAX_MEMORY_MB else 1
 
 
 if __name__ == "__main__":

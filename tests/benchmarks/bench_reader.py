@@ -22,8 +22,8 @@ from machine import heading
 from reina.music import read_score
 
 SIZES = (1_000, 10_000, 100_000)
-MOST_S = 1.0
-MOST_GROWTH = 2.0
+MAX_S = 1.0
+MAX_GROWTH = 2.0
 """How much longer a note may take in the largest file than in the middle one."""
 
 
@@ -122,7 +122,7 @@ def main() -> int:
     largest = taken["reina", SIZES[-1]]
     growth = (largest / SIZES[-1]) / (taken["reina", SIZES[-2]] / SIZES[-2])
     print(f"a note of the largest file takes {growth:.2f} times as long as one of the middle file")
-    return 1 if max(largest, taken["json", SIZES[-1]]) > MOST_S or growth > MOST_GROWTH else 0
+    return 1 if max(largest, taken["json", SIZES[-1]]) > MAX_S or growth > MAX_GROWTH else 0
 
 
 if __name__ == "__main__":

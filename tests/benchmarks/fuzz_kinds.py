@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 
 from tests.mutations import mutate
 from tests.unit.music.mutations import json_seeds, midi_seeds, mutate_json, mutate_midi
-from tests.unit.sessions import recording_mutations, show_mutations
 from tests.unit.sessions.score_checks import check_score_played, stage
+from tests.unit.show import show_mutations
 from tests.unit.skeleton import test_fuzz as motion
+from tests.unit.sound.recording import recording_mutations
 
 if TYPE_CHECKING:
     import random

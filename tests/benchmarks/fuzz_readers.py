@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 NAMES = ("midi", "json", "bvh", "show", "recording")
 LONGEST_S = 1.0
-MOST_BYTES = 64 * 2**20
+MAX_BYTES = 64 * 2**20
 LARGEST = 64 * 1024
 """Size in bytes of the largest file that is tried with guidance."""
 HUNG_S = 30
@@ -105,7 +105,7 @@ class Examiner:
         tally.most_bytes = max(tally.most_bytes, used)
         if took_s > tally.slowest_s:
             tally.slowest_s, tally.slowest = took_s, data
-        if took_s > LONGEST_S or used > MOST_BYTES:
+        if took_s > LONGEST_S or used > MAX_BYTES:
             raise FailedError(f"{took_s:.2f} s, {used / 2**20:.0f} MiB; kept as {self._keep(data, 'failed')}")
         if (tally.read + tally.refused) % TOLD_EACH == 0:
             print(f"{self.name}: {tally}", flush=True)

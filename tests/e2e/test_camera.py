@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
-MOST_STOPS = 40
+MAX_STOPS = 40
 """The Tab key has gone round the whole page after so many presses."""
 GIVE_BACK = "Give the camera back to the show"
 AWAY = """([x, y, z]) => {
@@ -75,7 +75,7 @@ def orbit_by_keys(opened: Opened) -> None:
     """Go to the stage with Tab and around it with arrows, give the camera back and leave with the pointer."""
     page = opened.page
     where, target = stood(opened), np.asarray(opened.parameter("camera/target"))
-    for _ in range(MOST_STOPS):
+    for _ in range(MAX_STOPS):
         page.keyboard.press("Tab")
         if page.evaluate("document.activeElement.tagName") == "CANVAS":
             break

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING
 
+import mido
 import numpy as np
 import pytest
 from tests.integration.scores import scale, song
@@ -56,3 +58,25 @@ def test_an_export_that_cannot_be_is_refused(owned: Owned, query: dict[str, str]
     answer = owned.client.get(f"{owned.path}/export.bvh", params=query)
     assert answer.status_code == 422
     assert told in answer.json()["detail"]
+
+
+def test_the_score_is_taken_away_as_it_is_played(client: httpx.Client) -> None:
+    session = upload(client, scale(), song=("s.wav", song()), title="Scale", transposition=2)
+    answer = client.get(f"{session.path}/export.mid")
+    assert answer.status_code == 200
+    assert answer.headers["content-type"] == "audio/midi"
+    assert answer.headers["content-disposition"] == "attachment; filename*=UTF-8''Scale.mid"
+    told = client.get(f"{session.path}/score").json()["notes"]
+    assert _struck(answer.content) == [note["sounding_pitch"] for note in told]
+    assert _struck(answer.content) == [pitch + 2 for pitch in _struck(scale())]
+    session.change("DELETE")
+
+
+def _struck(data: bytes) -> list[int]:
+    """The pitches of a MIDI file's notes, track by track."""
+    messages = [message for track in mido.MidiFile(file=io.BytesIO(data)).tracks for message in track]
+    return [
+        message.note
+        for message in messages
+        if isinstance(message, mido.Message) and message.type == "note_on"
+    ]

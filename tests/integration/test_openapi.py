@@ -9,7 +9,7 @@ from tests.integration.scores import scale, song
 from tests.integration.server import upload
 
 from reina.api.app import create_app
-from reina.keyframes import EDITS
+from reina.show import EDITS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

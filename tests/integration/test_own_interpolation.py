@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 LIGHT = "lights/key/intensity"
 MODULE = '''
-from reina.keyframes import Keyframe, option
+from reina.curves import Keyframe, option
 
 class Power(Keyframe):
     """Follows a power of time."""

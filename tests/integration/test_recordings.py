@@ -11,7 +11,7 @@ import httpx
 import pytest
 from tests.integration.scores import scale
 from tests.integration.server import Owned, serve, upload
-from tests.unit.sessions.recordings import mp4, recording, wav
+from tests.unit.sound.recording.recordings import mp4, recording, wav
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

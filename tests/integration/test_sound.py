@@ -12,11 +12,11 @@ import pytest
 from numpy.typing import NDArray
 
 from reina.music import Score, read_score
-from reina.sessions import sound_passages
-from reina.sessions.sound import SongRenderer, find_soundfont
-from reina.sessions.sound_font import REPOSITORY
-from reina.sessions.sound_plan import PlayedParts, plan_sound
-from reina.sessions.sound_render import render_plan
+from reina.sound import passages as sound_passages
+from reina.sound.font import REPOSITORY
+from reina.sound.plan import PlayedParts, plan_sound
+from reina.sound.render import render_plan
+from reina.sound.renderer import SongRenderer, find_soundfont
 
 RATE = 48000
 Samples = NDArray[np.float64]

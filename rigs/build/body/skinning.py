@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 INFLUENCES = 4
-LEAST_WEIGHT = 0.01
+MIN_WEIGHT = 0.01
 
 
 def skin_weights(figure: Figure, skeleton: Skeleton) -> Array:
@@ -68,7 +68,7 @@ def strongest(weights: Array) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """
     joints = np.argsort(-weights, axis=1, kind="stable")[:, :INFLUENCES]
     values = np.take_along_axis(weights, joints, axis=1)
-    values[values < LEAST_WEIGHT] = 0
+    values[values < MIN_WEIGHT] = 0
     values /= np.maximum(values.sum(axis=1, keepdims=True), 1e-9)
     joints[values == 0] = 0
     return joints.astype(np.uint8), values.astype(np.float32)

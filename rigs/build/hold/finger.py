@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 KAPPA = 1 / 3
 PAD_DEPTH = 0.95  # the bone lies this many radii under the pad
 PARTS = ("Proximal", "Intermediate", "Distal")
-LEAST_THETA2 = np.radians(-135.0)
+MIN_THETA2 = np.radians(-135.0)
 
 
 @dataclass
@@ -60,9 +60,9 @@ class Finger:
         abduction = np.arctan2(-local[:, 2], local[:, 0])
         x, y = np.hypot(local[:, 0], local[:, 2]), local[:, 1]
         distance = np.hypot(x, y)
-        nearest, farthest = self._reach(np.array([LEAST_THETA2]))[0], self.lengths.sum()
+        nearest, farthest = self._reach(np.array([MIN_THETA2]))[0], self.lengths.sum()
         reachable = np.clip(distance, nearest + 1e-6, farthest - 1e-6)
-        low, high = np.full(len(x), LEAST_THETA2), np.zeros(len(x))
+        low, high = np.full(len(x), MIN_THETA2), np.zeros(len(x))
         for _ in range(44):  # the reach grows with θ2, so halving finds the one root
             middle = (low + high) / 2
             short = self._reach(middle) < reachable

@@ -17,11 +17,9 @@ from reina.api import (
     examples,
     export,
     frames,
-    lab,
     library,
     page,
     part,
-    problems,
     rigs,
     sessions,
     show,
@@ -30,16 +28,18 @@ from reina.api import (
     stream,
     tracks,
 )
-from reina.api.compression import Compression
 from reina.api.description import describe
-from reina.api.guard import Guard
-from reina.api.retrieval import Retrieval
+from reina.api.http import problems
+from reina.api.http.compression import Compression
+from reina.api.http.guard import Guard
+from reina.api.http.retrieval import Retrieval
+from reina.api.http.unread_body import UnreadBody
+from reina.api.lab import routes as lab
 from reina.api.settings import Settings
-from reina.api.unread_body import UnreadBody
 from reina.protocol.links import API
-from reina.sessions.sound import SongRenderer
 from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
+from reina.sound.renderer import SongRenderer
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable

@@ -4,9 +4,9 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body
 
-from reina.api.access import Controlled, Store, Watched
-from reina.api.body import BoundedRoute
-from reina.api.problems import ProblemError
+from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.body import BoundedRoute
+from reina.api.http.problems import ProblemError
 from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting, Instrument
 from reina.notation import both_names
 from reina.performance import SEATS

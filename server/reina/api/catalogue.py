@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from fastapi import APIRouter, Request
 
 import reina
-from reina.api.access import Store
+from reina.api.http.access import Store
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, ShowParameterList
 

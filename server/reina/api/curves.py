@@ -6,14 +6,12 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Depends, Query, Response
 
-from reina.api.access import Controlled, Watched
-from reina.api.body import BoundedRoute
-from reina.api.conditions import IfNoneMatch, named, not_modified, validated
 from reina.api.frames import LATEST_S
-from reina.api.problems import ProblemError
+from reina.api.http.access import Controlled, Watched
+from reina.api.http.body import BoundedRoute
+from reina.api.http.conditions import IfNoneMatch, named, not_modified, validated
+from reina.api.http.problems import ProblemError
 from reina.api.tracks import known_parameter
-from reina.keyframes import ShowError
-from reina.keyframes.show_reader import read_track
 from reina.protocol.timeline import CurvePreview, MusicTime, ShowCurves
 from reina.sessions.show_curves import (
     CurveSpan,
@@ -22,12 +20,14 @@ from reina.sessions.show_curves import (
     curves_of_track,
     music_time,
 )
+from reina.show import ShowError
+from reina.show.show_reader import read_track
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
-MOST_PARAMETERS = 64
-MOST_POINTS = 2000
-MOST_SAMPLES = 40_000
+MAX_PARAMETERS = 64
+MAX_POINTS = 2000
+MAX_SAMPLES = 40_000
 
 EXAMPLE: dict[str, Any] = {
     "parameter": "lights/key/intensity",
@@ -42,7 +42,7 @@ EXAMPLE: dict[str, Any] = {
 def _span(
     start_s: Annotated[float, Query(ge=0, le=LATEST_S, description="Song time of the first point.")],
     end_s: Annotated[float, Query(ge=0, le=LATEST_S, description="Song time of the last.")],
-    points: Annotated[int, Query(ge=1, le=MOST_POINTS, description="How many, evenly spaced.")] = 500,
+    points: Annotated[int, Query(ge=1, le=MAX_POINTS, description="How many, evenly spaced.")] = 500,
 ) -> CurveSpan:
     if end_s < start_s:
         raise ProblemError(
@@ -63,7 +63,7 @@ async def get_curves(
     span: Span,
     parameter: Annotated[
         list[str],
-        Query(min_length=1, max_length=MOST_PARAMETERS, description="A parameter's path; may be repeated."),
+        Query(min_length=1, max_length=MAX_PARAMETERS, description="A parameter's path; may be repeated."),
     ],
     if_none_match: IfNoneMatch = None,
 ) -> Response:
@@ -71,17 +71,17 @@ async def get_curves(
 
     The validator follows from the tracks that are asked for alone: an edit of another track leaves it.
     """
-    if len(parameter) * span.points > MOST_SAMPLES:
+    if len(parameter) * span.points > MAX_SAMPLES:
         raise ProblemError(
             422,
             "too-many-samples",
             "These curves cannot be sampled",
-            f"{len(parameter)} parameters of {span.points} points are more than {MOST_SAMPLES} samples; "
+            f"{len(parameter)} parameters of {span.points} points are more than {MAX_SAMPLES} samples; "
             "ask for fewer points or parameters",
         )
     for path in parameter:
         known_parameter(session.production.registry, path)
-    production, kept = session.production, session.kept_show
+    production, kept = session.production, session.show_revision
     identity = "\n".join([str(span), *curves_identity(production, kept.text, parameter)])
     etag = f'"{hashlib.sha256(identity.encode()).hexdigest()[:24]}"'
     if if_none_match is not None and named(if_none_match, etag, strongly=False):
@@ -104,7 +104,7 @@ def preview_curve(
     if not isinstance(path, str):
         raise ShowError("a parameter's path is needed here", field="track/parameter")
     parameter = known_parameter(session.production.registry, path)
-    read = read_track(track, parameter, session.kept_show.show.time)
+    read = read_track(track, parameter, session.show_revision.show.time)
     return curves_of_track(session.production, read, span)
 
 

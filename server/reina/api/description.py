@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from reina.api.conditions import IF_NONE_MATCH_TEXT
-from reina.api.problems import MEDIA_TYPE
+from reina.api.http.conditions import IF_NONE_MATCH_TEXT
+from reina.api.http.problems import MEDIA_TYPE
 
 if TYPE_CHECKING:
     from fastapi import FastAPI

@@ -6,9 +6,9 @@ from pathlib import Path
 from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
-from reina.api.access import ServerSettings
-from reina.api.files import ServedFile, file_below
-from reina.api.problems import ProblemError
+from reina.api.http.access import ServerSettings
+from reina.api.http.files import ServedFile, file_below
+from reina.api.http.problems import ProblemError
 from reina.music import read_score
 from reina.protocol.links import API
 from reina.protocol.resources import Example, ExampleList

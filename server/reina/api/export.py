@@ -1,4 +1,4 @@
-"""Motion in files that other programs read."""
+"""Motion and music in files that other programs read."""
 
 import asyncio
 import re
@@ -6,11 +6,11 @@ from collections.abc import AsyncIterator
 from typing import Annotated
 from urllib.parse import quote
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
-from reina.api.access import Watched
 from reina.api.frames import EndS, FramesPerSecond, StartS, frame_span
+from reina.api.http.access import Store, Watched
 from reina.sessions.motion_export import BvhExport
 
 router = APIRouter(tags=["frames"])
@@ -37,16 +37,31 @@ async def export_bvh(
     first, end = frame_span(session, start_s, end_s, fps)
     production = await asyncio.to_thread(session.production.at_rate, fps)
     export = BvhExport(production, skeleton, first, end)
-    words = re.sub(r"[^\w.-]+", " ", f"{session.record.title} - {skeleton}").split()
-    filename = quote(f"{' '.join(words)}.bvh", safe="")
     return StreamingResponse(
         _lines(export, request.app.state.computing),
         media_type="text/plain; charset=utf-8",
-        headers={
-            "Content-Disposition": f"attachment; filename*=UTF-8''{filename}",
-            "Cache-Control": "no-store",
-        },
+        headers=_headers(f"{session.record.title} - {skeleton}", "bvh"),
     )
+
+
+@router.get(
+    "/sessions/{session_id}/export.mid",
+    response_class=Response,
+    responses={200: {"content": {"audio/midi": {}}, "description": "A Standard MIDI File of format 1."}},
+)
+async def export_midi(session: Watched, store: Store) -> Response:
+    """The score as MIDI, with the players' parts as they are played: moved, one note at a time.
+
+    What no player plays stays as the score has it.
+    """
+    data = await store.reader.midi(session.production)
+    return Response(data, media_type="audio/midi", headers=_headers(session.record.title, "mid"))
+
+
+def _headers(name: str, ending: str) -> dict[str, str]:
+    words = re.sub(r"[^\w.-]+", " ", name).split()
+    filename = quote(f"{' '.join(words) or 'reina'}.{ending}", safe="")
+    return {"Content-Disposition": f"attachment; filename*=UTF-8''{filename}", "Cache-Control": "no-store"}
 
 
 async def _lines(export: BvhExport, computing: asyncio.Semaphore) -> AsyncIterator[bytes]:

@@ -8,8 +8,8 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import StreamingResponse
 
-from reina.api.access import Watched
-from reina.api.problems import ProblemError
+from reina.api.http.access import Watched
+from reina.api.http.problems import ProblemError
 from reina.protocol.messages import Hello
 from reina.sessions.frames import FRAMES_PER_BLOCK, EncodedFrames
 from reina.sessions.production import Production

@@ -7,11 +7,11 @@ from typing import Any
 
 from fastapi import APIRouter
 
-from reina.api.access import ServerSettings, Store
-from reina.keyframes import interpolations
-from reina.keyframes.show_schema import show_schema
+from reina.api.http.access import ServerSettings, Store
+from reina.curves import interpolations
 from reina.protocol.links import API
 from reina.protocol.resources import ShowLibrary, ShowSummary
+from reina.show.show_schema import show_schema
 
 router = APIRouter(tags=["show"])
 

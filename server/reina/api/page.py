@@ -5,9 +5,9 @@ from pathlib import Path
 from fastapi import APIRouter, WebSocket
 from starlette.convertors import PathConvertor, register_url_convertor
 
-from reina.api.access import ServerSettings
-from reina.api.files import IMMUTABLE, REVALIDATED, ServedFile, file_below
-from reina.api.problems import ProblemError
+from reina.api.http.access import ServerSettings
+from reina.api.http.files import IMMUTABLE, REVALIDATED, ServedFile, file_below
+from reina.api.http.problems import ProblemError
 from reina.api.settings import Settings
 
 router = APIRouter(include_in_schema=False)

@@ -5,8 +5,8 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from reina.api.access import Watched
-from reina.api.problems import ProblemError
+from reina.api.http.access import Watched
+from reina.api.http.problems import ProblemError
 from reina.protocol.written_part import WrittenPart
 from reina.sessions.written_part import written_part
 

@@ -7,9 +7,9 @@ from typing import Any
 from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
-from reina.api.access import ServerSettings
-from reina.api.files import ServedFile, file_below
-from reina.api.problems import ProblemError
+from reina.api.http.access import ServerSettings
+from reina.api.http.files import ServedFile, file_below
+from reina.api.http.problems import ProblemError
 from reina.protocol.links import rig_href
 from reina.protocol.resources import RigList, RigSummary
 

@@ -7,10 +7,10 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query, Request, Response
 from pydantic import ValidationError
 
-from reina.api.access import Controlled, Store, Watched
-from reina.api.body import BoundedRoute
 from reina.api.cast import cast_of_fields
-from reina.api.problems import ProblemError, problem_of_validation
+from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.body import BoundedRoute
+from reina.api.http.problems import ProblemError, problem_of_validation
 from reina.api.upload import FILE_LIMITS, MEGABYTE, Upload, receive_upload
 from reina.protocol import resources
 from reina.protocol.links import session_links
@@ -21,7 +21,7 @@ from reina.sessions.store import Draft
 router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
 
 LISTED = 100
-MOST_LISTED = 1000
+MAX_LISTED = 1000
 
 _FORM: dict[str, Any] = {
     "requestBody": {
@@ -156,7 +156,7 @@ def _draft(folder: Path, upload: Upload) -> Draft:
 @router.get("/sessions")
 async def list_sessions(
     store: Store,
-    limit: Annotated[int, Query(ge=1, le=MOST_LISTED, description="How many at most.")] = LISTED,
+    limit: Annotated[int, Query(ge=1, le=MAX_LISTED, description="How many at most.")] = LISTED,
     after: Annotated[
         str | None, Query(max_length=100, description="The `next` of the page before; leave it out at first.")
     ] = None,

@@ -5,9 +5,9 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
 
-from reina.api.access import Controlled, Store, Watched
-from reina.api.body import BoundedRoute
-from reina.api.conditions import IfMatch, IfNoneMatch, named, not_modified, validated
+from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.body import BoundedRoute
+from reina.api.http.conditions import IfMatch, IfNoneMatch, named, not_modified, validated
 from reina.api.show_change import ShowChange
 from reina.protocol.messages import ShowState
 from reina.protocol.resources import ShowWarnings
@@ -46,7 +46,7 @@ async def get_show(
     ] = None,
 ) -> Response:
     """The whole show, as docs/show.schema.json describes it, or its own fields and some of its tracks."""
-    text = session.kept_show.text
+    text = session.show_revision.text
     if if_none_match is not None and named(if_none_match, text.etag, strongly=False):
         return not_modified(text.etag)
     return validated(await asyncio.to_thread(lambda: text.of_tracks(parameter).encode()), text.etag)
@@ -72,7 +72,7 @@ async def put_show(session: Controlled, store: Store, request: Request, if_match
 @router.get("/sessions/{session_id}/show/history")
 async def get_history(session: Watched) -> ShowState:
     """Which state the show is in, and how many steps it can be walked back and forth."""
-    return session.kept_show.state
+    return session.show_revision.state
 
 
 @router.get("/sessions/{session_id}/show/warnings")

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reina.api.conditions import require_match
-from reina.keyframes.show_writer import json_text
+from reina.api.http.conditions import require_match
+from reina.show.show_writer import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reina.keyframes import Show, ShowHistory
-    from reina.sessions.kept_show import KeptShow
     from reina.sessions.session import Session
+    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.store import SessionStore
+    from reina.show import Show, ShowHistory
 
 
 class ShowChange:
@@ -33,10 +33,10 @@ class ShowChange:
         self._store = store
         self._if_match = if_match
         self._path = path
-        self.before = session.kept_show
+        self.before = session.show_revision
         """The show as it was just before the change."""
 
-    async def edit(self, edit: Callable[[Show], Show]) -> KeptShow:
+    async def edit(self, edit: Callable[[Show], Show]) -> ShowRevision:
         """Make a new state of it.
 
         Args:
@@ -48,11 +48,11 @@ class ShowChange:
         """
         return await self.step(lambda history: history.then(edit(history.show)))
 
-    async def step(self, step: Callable[[ShowHistory], ShowHistory]) -> KeptShow:
+    async def step(self, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Walk its history; see `edit`."""
 
         def conditional_step(history: ShowHistory) -> ShowHistory:
-            self.before = self._session.kept_show
+            self.before = self._session.show_revision
             text = self.before.text
             own = (text.track_etag(self._path),) if self._path is not None else ()
             require_match(self._if_match, *own, text.etag)
@@ -60,7 +60,7 @@ class ShowChange:
 
         return await self._store.change_show(self._session, conditional_step)
 
-    def outcome(self, after: KeptShow, *, briefly: bool) -> bytes:
+    def outcome(self, after: ShowRevision, *, briefly: bool) -> bytes:
         """What the change came to: `ShowEdited` as JSON, put together of what is written already.
 
         Args:

@@ -5,15 +5,15 @@ from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
-from reina.api.access import Controlled, Store
-from reina.api.body import BoundedRoute
-from reina.api.conditions import IfMatch, Prefer, wants_minimal
-from reina.api.problems import ProblemError
+from reina.api.http.access import Controlled, Store
+from reina.api.http.body import BoundedRoute
+from reina.api.http.conditions import IfMatch, Prefer, wants_minimal
+from reina.api.http.problems import ProblemError
 from reina.api.show_change import ShowChange
-from reina.keyframes import EDITS, KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
-from reina.keyframes.time_map import TIME_UNITS
 from reina.protocol.resources import ShowEdited
-from reina.sessions.kept_show import KeptShow
+from reina.sessions.show_revision import ShowRevision
+from reina.show import EDITS, KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
+from reina.show.time_map import TIME_UNITS
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -162,7 +162,7 @@ async def redo(
     return await _told(change, await change.step(step), prefer)
 
 
-async def _told(change: ShowChange, after: KeptShow, prefer: str | None) -> Response:
+async def _told(change: ShowChange, after: ShowRevision, prefer: str | None) -> Response:
     briefly = wants_minimal(prefer)
     text = await asyncio.to_thread(change.outcome, after, briefly=briefly)
     headers = {"ETag": after.text.etag, "Vary": "Prefer"}

@@ -7,16 +7,16 @@ import numpy as np
 from fastapi import APIRouter, Query, Response
 from fastapi.responses import FileResponse, JSONResponse
 
-from reina.api.access import Store, Watched
-from reina.api.files import ServedFile
-from reina.api.problems import ProblemError
+from reina.api.http.access import Store, Watched
+from reina.api.http.files import ServedFile
+from reina.api.http.problems import ProblemError
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
 
 router = APIRouter(tags=["song"])
 
-MOST_PEAKS = 20_000
+MAX_PEAKS = 20_000
 PEAK_DIGITS = 4
 # What was uploaded as sound is never to be taken for a page.
 HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
@@ -49,7 +49,7 @@ async def get_song(session: Watched) -> Response:
 async def get_peaks(
     session: Watched,
     store: Store,
-    points: Annotated[int, Query(ge=1, le=MOST_PEAKS, description="How many stretches.")] = 1000,
+    points: Annotated[int, Query(ge=1, le=MAX_PEAKS, description="How many stretches.")] = 1000,
 ) -> Response:
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
     path = _song_path(session)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
-from reina.api.access import unknown_session
-from reina.api.problems import ProblemError
+from reina.api.http.access import unknown_session
+from reina.api.http.problems import ProblemError
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.messages import Ping, Pong, StreamError
 from reina.sessions.viewer import Viewer
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 router = APIRouter()
 
-MOST_FRAMES_PER_MESSAGE = 12
-SIZES = {str(size): size for size in range(1, MOST_FRAMES_PER_MESSAGE + 1)}
+MAX_FRAMES_PER_MESSAGE = 12
+SIZES = {str(size): size for size in range(1, MAX_FRAMES_PER_MESSAGE + 1)}
 CLOSED_UNDER_WAY = 1006
 
 
@@ -69,7 +69,7 @@ async def stream(
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
     elif size is None:
-        detail = f"frames_per_message is 1 to {MOST_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
+        detail = f"frames_per_message is 1 to {MAX_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     if problem or session is None or size is None:
         if problem:

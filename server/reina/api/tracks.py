@@ -6,22 +6,15 @@ from urllib.parse import quote
 
 from fastapi import APIRouter, Body, Path, Request, Response
 
-from reina.api.access import Controlled, Store, Watched
-from reina.api.body import BoundedRoute
-from reina.api.conditions import IfMatch, validated
-from reina.api.problems import ProblemError
+from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.body import BoundedRoute
+from reina.api.http.conditions import IfMatch, validated
+from reina.api.http.problems import ProblemError
 from reina.api.show_change import ShowChange
-from reina.keyframes import (
-    Keyframe,
-    KeyNotFoundError,
-    Parameter,
-    ParameterRegistry,
-    Show,
-    Track,
-    keyframe_document,
-)
-from reina.keyframes.show_writer import keyframe_text
+from reina.curves import Keyframe, Parameter, ParameterRegistry
 from reina.protocol.links import session_links
+from reina.show import KeyNotFoundError, Show, Track, keyframe_document
+from reina.show.show_writer import keyframe_text
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -51,7 +44,7 @@ TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
 def list_keyframes(session: Watched, path: TrackPath) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
     known_parameter(session.production.registry, path)
-    kept = session.kept_show
+    kept = session.show_revision
     keyframes = ", ".join([keyframe_text(keyframe) for keyframe in _keyframes(kept.show, path)])
     return validated(f'{{"keyframes": [{keyframes}]}}', kept.text.track_etag(path))
 
@@ -92,7 +85,7 @@ async def add_keyframe(
 async def get_keyframe(session: Watched, path: TrackPath, key: Key) -> Response:
     """One keyframe, under its track's validator."""
     known_parameter(session.production.registry, path)
-    kept = session.kept_show
+    kept = session.show_revision
     document = keyframe_document(kept.show.track(path).keyframe(key))
     return validated(json.dumps(document), kept.text.track_etag(path))
 
@@ -136,7 +129,7 @@ async def remove_keyframe(
 async def get_track(session: Watched, path: TrackPath) -> Response:
     """A whole track: its keyframes, their unit, what comes before and after them, what it answers."""
     known_parameter(session.production.registry, path)
-    written = session.kept_show.text.tracks.get(path)
+    written = session.show_revision.text.tracks.get(path)
     if written is None:
         raise KeyNotFoundError("the show has no such track", track=path)
     return validated(written.text, written.etag)
@@ -157,7 +150,7 @@ async def put_track(
 ) -> Response:
     """Another track of the parameter in the place of its present one, if there is any."""
     parameter = known_parameter(session.production.registry, path)
-    track = await store.reader.track(await request.body(), parameter, session.kept_show.show.time)
+    track = await store.reader.track(await request.body(), parameter, session.show_revision.show.time)
     kept = await ShowChange(session, store, if_match, path).edit(lambda show: show.with_new_track(track))
     written = kept.text.tracks[path]
     return validated(written.text, written.etag)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, BinaryIO
 from python_multipart.exceptions import FormParserError
 from python_multipart.multipart import MultipartParser, parse_options_header
 
-from reina.api.filename import filename_of
-from reina.api.problems import ProblemError
+from reina.api.http.filename import filename_of
+from reina.api.http.problems import ProblemError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,7 +36,7 @@ FIELD_LIMITS = {
     "cast": 20_000,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS
-MOST_BYTES = sum(LIMITS.values()) + MEGABYTE
+MAX_BYTES = sum(LIMITS.values()) + MEGABYTE
 """Of a whole form, with what stands between its parts."""
 AT_ONCE = MEGABYTE
 """Bytes of a form that are written at a time."""

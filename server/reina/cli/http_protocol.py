@@ -9,7 +9,7 @@ from http import HTTPStatus
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from reina.api.problems import ProblemError
+from reina.api.http.problems import ProblemError
 
 WEBSOCKET_VERSION = b"13"
 KEY_BYTES = 16

@@ -73,7 +73,7 @@ class Cast:
     def __post_init__(self) -> None:
         if not 1 <= len(self.castings) <= MAX_PLAYERS:
             told = f"1 to {MAX_PLAYERS} players play at once, not {len(self.castings)}"
-            raise CastError(told, where="castings")
+            raise CastError(told, location="castings")
 
     @property
     def lead(self) -> Casting:

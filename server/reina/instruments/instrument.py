@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import Literal, Protocol
 
+from reina.curves.parameter import Parameter
 from reina.instruments.chart_note import ChartNote
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
-from reina.keyframes.parameter import Parameter
 from reina.music.score import Score
 
 

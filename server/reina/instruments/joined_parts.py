@@ -34,7 +34,7 @@ def check_joined_parts(score: Score, part: int, joined_parts: Sequence[int]) -> 
             others = [other.index for other in score.parts if other.index != part and not other.is_drums]
             raise NotInScoreError(
                 f"{fault}; parts that can be joined to part {part}: {_as_runs(others) or 'none'}",
-                where=f"joined_parts/{place}",
+                location=f"joined_parts/{place}",
             )
     return tuple(sorted(joined_parts))
 

@@ -41,7 +41,7 @@ class FingerChains:
         chains = [rig.chain(name) for name in names]
         if len({(chain.solver, chain.kappa, chain.phi_rad) for chain in chains}) != 1:
             raise RigError(
-                f"the fingers {', '.join(names)} have different solvers or settings", where="chains"
+                f"the fingers {', '.join(names)} have different solvers or settings", location="chains"
             )
         self.names = tuple(names)
         self.joints: IntArray = np.array([chain.joints for chain in chains], dtype=np.intp)
@@ -104,15 +104,19 @@ class FingerChains:
 
 def _bone_lengths(rig: Rig, chain: Chain) -> list[float]:
     if chain.effector is None or len(chain.joints) != 3:
-        raise RigError(f"{chain.name!r} is no finger: it needs three joints and an effector", where="chains")
+        raise RigError(
+            f"{chain.name!r} is no finger: it needs three joints and an effector", location="chains"
+        )
     skeleton = rig.skeleton
     bones = [*skeleton.rest_translations[list(chain.joints[1:])], rig.effector(chain.effector).offset]
     for bone, joint in zip(bones, chain.joints, strict=True):
         if bone[0] <= 0.0 or np.hypot(bone[1], bone[2]) > _STRAIGHT_TOLERANCE * bone[0]:
-            raise RigError(f"the bone of {skeleton.names[joint]!r} must lie along its x axis", where="joints")
+            raise RigError(
+                f"the bone of {skeleton.names[joint]!r} must lie along its x axis", location="joints"
+            )
     for joint in chain.joints[1:]:
         if np.hypot(*skeleton.rest_rotations[joint, :2]) > _STRAIGHT_TOLERANCE:
-            raise RigError(f"{skeleton.names[joint]!r} must rest turned about z alone", where="joints")
+            raise RigError(f"{skeleton.names[joint]!r} must rest turned about z alone", location="joints")
     return [float(bone[0]) for bone in bones]
 
 

@@ -85,7 +85,7 @@ class JointChain:
             # The last joint is itself the end: it is moved by those before it.
             end = skeleton.rest_translations[joints.pop()]
         if not joints:
-            raise RigError(f"{name!r} has no joint to move", where="chains")
+            raise RigError(f"{name!r} has no joint to move", location="chains")
         return cls(
             np.concatenate([skeleton.rest_translations[joints], end[None]]),
             skeleton.rest_rotations[joints],

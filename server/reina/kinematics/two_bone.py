@@ -167,13 +167,13 @@ def _hinge(rig: Rig, joint: int) -> tuple[FloatArray, tuple[float, float]]:
     name = rig.skeleton.names[joint]
     if limits is None:
         raise RigError(
-            f"{name!r} is the hinge of a limb and needs limits that leave one axis", where="joints"
+            f"{name!r} is the hinge of a limb and needs limits that leave one axis", location="joints"
         )
     free = [axis for axis in range(3) if limits.minimum[axis] < limits.maximum[axis]]
     if len(free) != 1:
         axes = ", ".join("xyz"[axis] for axis in free) or "none"
         raise RigError(
-            f"{name!r} is the hinge of a limb and must turn about one axis, not {axes}", where="joints"
+            f"{name!r} is the hinge of a limb and must turn about one axis, not {axes}", location="joints"
         )
     low = max(limits.minimum[free[0]], _UNBOUNDED[0])
     high = min(limits.maximum[free[0]], _UNBOUNDED[1])

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 FAN_STEP_RAD = float(np.radians(5.0))
 _FAN_SIZE = 0.42
 """A fan's radius, as a part of its bone's length."""
-_LEAST_ACROSS = 0.35
+_MIN_ACROSS = 0.35
 """A bone that leans less than this across its hinge's axis turns about itself: its y axis shows it."""
 _SLACK_RAD = 1e-6
 _FULL_TURN_RAD = 2.0 * np.pi
@@ -77,7 +77,7 @@ class ChainPose:
 
 
 def check_angles(
-    chain: PosableChain, angles_rad: ArrayLike, *, limits: bool, where: str = "angles_rad"
+    chain: PosableChain, angles_rad: ArrayLike, *, limits: bool, location: str = "angles_rad"
 ) -> FloatArray:
     """Hinge angles ``(M,)``, radians from rest, as a chain's own table of angles, ``(N, 3)``.
 
@@ -85,7 +85,7 @@ def check_angles(
         chain: The chain.
         angles_rad: One for each of its hinges.
         limits: Whether the rig's limits hold; otherwise a full turn does.
-        where: What the angles are called in an error.
+        location: What the angles are called in an error.
 
     Raises:
         LabError: They are not one a hinge, or one is beyond its limits (or a full turn, without limits).
@@ -94,7 +94,9 @@ def check_angles(
     hinges = chain.hinges
     if given.shape != (len(hinges),):
         names = ", ".join(f"{chain.joint_names[hinge.joint]} {hinge.axis}" for hinge in hinges)
-        raise LabError(f"{chain.name} has {len(hinges)} angles ({names}), not {given.size}", where=where)
+        raise LabError(
+            f"{chain.name} has {len(hinges)} angles ({names}), not {given.size}", location=location
+        )
     table = np.zeros((len(chain.joints), 3))
     for index, (hinge, angle) in enumerate(zip(hinges, given.tolist(), strict=True)):
         low, high = _bounds(hinge) if limits else (-_FULL_TURN_RAD, _FULL_TURN_RAD)
@@ -102,7 +104,7 @@ def check_angles(
             raise LabError(
                 f"{chain.joint_names[hinge.joint]} {hinge.axis} turns from {np.degrees(low):.1f}° to "
                 f"{np.degrees(high):.1f}°, not to {np.degrees(angle):.1f}°",
-                where=f"{where}/{index}",
+                location=f"{location}/{index}",
             )
         table[hinge.joint, hinge.place] = angle
     return table
@@ -137,7 +139,7 @@ def _read_hinge(
     low, high = _bounds(hinge)
     length = float(np.linalg.norm(bone))
     across = bone - axis * float(axis @ bone)
-    if float(np.linalg.norm(across)) < _LEAST_ACROSS * length:
+    if float(np.linalg.norm(across)) < _MIN_ACROSS * length:
         across = side - axis * float(axis @ side)
     if float(np.linalg.norm(across)) < 1e-9:
         across = cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import MotionClip
 
-MOST_POINTS = 1_000_000
+MAX_POINTS = 1_000_000
 """Points of all frames together; a longer clip is thinned."""
 
 
@@ -36,7 +36,7 @@ class ClipPoints:
     frame_step: int
 
 
-def clip_points(clip: MotionClip, most_points: int = MOST_POINTS) -> ClipPoints:
+def clip_points(clip: MotionClip, most_points: int = MAX_POINTS) -> ClipPoints:
     """Forward kinematics of a clip, position channels of any joint included.
 
     Args:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 SWIVELS = 72
 """How many turns of an elbow are tried where none is asked for."""
-_LEAST_OFFSET_M = 1e-6
+_MIN_OFFSET_M = 1e-6
 
 
 class BatchSolution(NamedTuple):
@@ -153,7 +153,7 @@ def check_solver(chain: PosableChain, settings: SolverSettings) -> None:
     if settings.solver not in chain.solvers:
         raise LabError(
             f"{settings.solver} does not solve a {chain.kind}; {chain.name} takes {', '.join(chain.solvers)}",
-            where="solver",
+            location="solver",
         )
 
 
@@ -179,8 +179,8 @@ def _solve_limb(
     limb = TwoBoneLimbs(chain.rig if settings.limits else chain.unlimited_rig, [chain.name])
     rest, root = chain.limited.rest, chain.limited.links[0]
     offset = targets - root
-    near = np.sqrt(np.sum(offset * offset, axis=-1, keepdims=True)) < _LEAST_OFFSET_M
-    offset = np.where(near, rotate(rest[0], np.array([_LEAST_OFFSET_M, 0.0, 0.0])), offset)
+    near = np.sqrt(np.sum(offset * offset, axis=-1, keepdims=True)) < _MIN_OFFSET_M
+    offset = np.where(near, rotate(rest[0], np.array([_MIN_OFFSET_M, 0.0, 0.0])), offset)
     direction = offset / np.sqrt(np.sum(offset * offset, axis=-1, keepdims=True))
     hinge = _across(direction, rotate(rest[0], limb.hinge[0]))
     turns = _turns(settings.swivel_rad, swivels)

@@ -13,7 +13,7 @@ from reina.rotations import exp, from_euler, log, to_euler
 if TYPE_CHECKING:
     from reina.rotations.arrays import ArrayLike, FloatArray
 
-_LEAST_LENGTH = 1e-6
+_MIN_LENGTH = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +73,9 @@ class Orientation:
 
 def _length(numbers: ArrayLike, what: str) -> float:
     length = float(np.linalg.norm(np.asarray(numbers, dtype=np.float64)))
-    if length < _LEAST_LENGTH:
+    if length < _MIN_LENGTH:
         raise LabError(
-            "its length is zero, so it has no direction; give at least one number that is not 0", where=what
+            "its length is zero, so it has no direction; give at least one number that is not 0",
+            location=what,
         )
     return length

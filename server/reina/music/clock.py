@@ -200,7 +200,7 @@ class MusicClock:
             ClockError: If it is not finite.
         """
         if not math.isfinite(song_time_s):
-            raise ClockError(f"{song_time_s} is no song time; a number of seconds is", where="song_time_s")
+            raise ClockError(f"{song_time_s} is no song time; a number of seconds is", location="song_time_s")
         state = self.state()
         return self._change(replace(state, song_time_s=min(max(song_time_s, 0.0), state.duration_s)))
 
@@ -211,7 +211,7 @@ class MusicClock:
             ClockError: If the rate is outside 0.1 to 4.
         """
         if not SLOWEST_RATE <= rate <= FASTEST_RATE:
-            raise ClockError(f"the rate is {SLOWEST_RATE} to {FASTEST_RATE}, not {rate}", where="rate")
+            raise ClockError(f"the rate is {SLOWEST_RATE} to {FASTEST_RATE}, not {rate}", location="rate")
         return self._change(replace(self.state(), rate=float(rate)))
 
     def set_loop(self, start_s: float | None, end_s: float | None = None) -> ClockState:
@@ -226,10 +226,10 @@ class MusicClock:
                 raise ClockError(
                     f"a loop begins before it ends, within 0 to {self.duration_s:.3f} s, "
                     f"not {start_s} to {end_s}",
-                    where="start_s",
+                    location="start_s",
                 )
             if end_s - start_s < SHORTEST_LOOP_S:
-                raise ClockError(f"a loop lasts at least {SHORTEST_LOOP_S} s", where="end_s")
+                raise ClockError(f"a loop lasts at least {SHORTEST_LOOP_S} s", location="end_s")
             loop = (float(start_s), float(end_s))
         return self._change(replace(self.state(), loop=loop))
 

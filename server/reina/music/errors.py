@@ -14,10 +14,10 @@ class ScoreError(InputError):
     """
 
     def __init__(
-        self, detail: str, *, where: str | None = None, problems: Sequence[tuple[str, str]] = ()
+        self, detail: str, *, location: str | None = None, problems: Sequence[tuple[str, str]] = ()
     ) -> None:
-        super().__init__(detail, where=where)
-        self.problems: tuple[tuple[str, str], ...] = tuple(problems) or ((where or "", detail),)
+        super().__init__(detail, location=location)
+        self.problems: tuple[tuple[str, str], ...] = tuple(problems) or ((location or "", detail),)
 
 
 class NotInScoreError(ScoreError):

@@ -29,11 +29,11 @@ class Limits:
     beats: float = 1_000_000.0
     bars: int = 100_000
 
-    def check(self, name: str, value: float, *, what: str, where: str | None = None) -> None:
+    def check(self, name: str, value: float, *, what: str, location: str | None = None) -> None:
         """Raise `ScoreLimitError` if `value`, which is called `what`, is over the limit called `name`."""
         limit = getattr(self, name)
         if value > limit:
-            raise ScoreLimitError(f"{what}: {value:,.0f}; at most {limit:,.0f} are read", where=where)
+            raise ScoreLimitError(f"{what}: {value:,.0f}; at most {limit:,.0f} are read", location=location)
 
 
 DEFAULT_LIMITS = Limits()

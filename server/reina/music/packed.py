@@ -21,11 +21,11 @@ ZIP_MAGICS = (b"PK\x03\x04", b"PK\x05\x06")
 ZIP_ENTRY = b"PK\x01\x02"
 
 CHUNK_BYTES = 64 * 1024
-MOST_MEMBERS = 1000
+MAX_MEMBERS = 1000
 """Gzip files that may stand one after another in one."""
-MOST_FILES = 1000
+MAX_FILES = 1000
 """Files of a ZIP archive."""
-MOST_NAMED = 5
+MAX_NAMED = 5
 LONGEST_NAME = 200
 
 MIDI_SUFFIXES = frozenset({".mid", ".midi", ".smf", ".kar", ".rmi"})
@@ -73,9 +73,9 @@ def unpack(data: bytes, *, filename: str | None, limits: Limits) -> Unpacked | N
         return Unpacked(_gunzip(data, limits.size_bytes), name, "a gzip'd file was unpacked")
     if data.startswith(ZIP_MAGICS):
         count = data.count(ZIP_ENTRY)
-        if count > MOST_FILES:
+        if count > MAX_FILES:
             raise ScoreLimitError(
-                f"the ZIP archive holds {count:,} files; at most {MOST_FILES:,} are looked through"
+                f"the ZIP archive holds {count:,} files; at most {MAX_FILES:,} are looked through"
             )
         try:
             with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -85,8 +85,8 @@ def unpack(data: bytes, *, filename: str | None, limits: Limits) -> Unpacked | N
     return None
 
 
-def _too_large(most: int, where: str) -> ScoreLimitError:
-    return ScoreLimitError(f"unpacks to more than {most:,} bytes, the most that is read", where=where)
+def _too_large(most: int, location: str) -> ScoreLimitError:
+    return ScoreLimitError(f"unpacks to more than {most:,} bytes, the most that is read", location=location)
 
 
 def _gunzip(data: bytes, most: int) -> bytes:
@@ -95,18 +95,18 @@ def _gunzip(data: bytes, most: int) -> bytes:
     size = at = members = 0
     while data.startswith(GZIP_MAGIC, at):
         members += 1
-        if members > MOST_MEMBERS:
-            raise ScoreLimitError(f"more than {MOST_MEMBERS:,} gzip'd files in one", where=f"byte {at}")
+        if members > MAX_MEMBERS:
+            raise ScoreLimitError(f"more than {MAX_MEMBERS:,} gzip'd files in one", location=f"byte {at}")
         inflater = zlib.decompressobj(wbits=31)
         while not inflater.eof:
             chunk = view[at : at + CHUNK_BYTES]
             if not len(chunk):
-                raise ScoreError("the gzip'd file breaks off; compress the score anew", where=f"byte {at}")
+                raise ScoreError("the gzip'd file breaks off; compress the score anew", location=f"byte {at}")
             try:
                 piece = inflater.decompress(chunk, most - size + 1)
             except zlib.error as error:
                 raise ScoreError(
-                    f"the gzip'd file is damaged ({error}); compress the score anew", where=f"byte {at}"
+                    f"the gzip'd file is damaged ({error}); compress the score anew", location=f"byte {at}"
                 ) from error
             at += len(chunk) - len(inflater.unconsumed_tail) - len(inflater.unused_data)
             size += len(piece)
@@ -167,8 +167,8 @@ def _name(entry: zipfile.ZipInfo) -> str:
 
 def _some(names: Iterable[str]) -> str:
     listed = list(names)
-    more = len(listed) - MOST_NAMED
-    return ", ".join(listed[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
+    more = len(listed) - MAX_NAMED
+    return ", ".join(listed[:MAX_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _can_be_read(entry: zipfile.ZipInfo) -> bool:
@@ -197,11 +197,11 @@ def _is_score(entry: zipfile.ZipInfo, head: bytes) -> bool:
 def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, most: int) -> bytes:
     name = _name(entry)
     if entry.flag_bits & 1:
-        raise ScoreError("is encrypted; zip it without a password, or send it as it is", where=name)
+        raise ScoreError("is encrypted; zip it without a password, or send it as it is", location=name)
     if not _can_be_read(entry):
         raise ScoreError(
             "is compressed by a method that is not read; zip it with deflate, as is usual",
-            where=name,
+            location=name,
         )
     with archive.open(entry) as file:
         data = file.read(most + 1)

@@ -52,12 +52,12 @@ def read_score(
 
 def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limits) -> Score:
     if not data:
-        raise ScoreError("the file is empty", where="byte 0")
+        raise ScoreError("the file is empty", location="byte 0")
     title = _title(filename) if filename else "Untitled"
     is_json = data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS)
     if is_json and sequence not in {None, 0}:
         raise NotInScoreError(
-            f"a JSON score holds one sequence, 0; there is no sequence {sequence}", where="sequence"
+            f"a JSON score holds one sequence, 0; there is no sequence {sequence}", location="sequence"
         )
     try:
         if is_json:
@@ -69,7 +69,7 @@ def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limit
         kind = kind_of(data)
         if kind is None:
             raise
-        raise ScoreError(str(kind), where="byte 0") from error
+        raise ScoreError(str(kind), location="byte 0") from error
 
 
 def _title(filename: str) -> str:

@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import dataclass
 
-MOST_OF_A_KIND = 20
+MAX_OF_A_KIND = 20
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class ScoreWarning:
 class WarningLog:
     """Collects warnings; of a fault that occurs thousands of times the first are told, then their number."""
 
-    def __init__(self, most_of_a_kind: int = MOST_OF_A_KIND) -> None:
+    def __init__(self, most_of_a_kind: int = MAX_OF_A_KIND) -> None:
         self._most = most_of_a_kind
         self._warnings: list[ScoreWarning] = []
         self._counts: Counter[str] = Counter()

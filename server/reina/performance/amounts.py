@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import Parameter
+from reina.curves import Parameter
 from reina.performance.mute import MUTE_CHOICE
 from reina.performance.stances import STANCES
 
 if TYPE_CHECKING:
-    from reina.keyframes import ParameterRegistry
+    from reina.curves import ParameterRegistry
     from reina.rotations.arrays import FloatArray, IntArray
 
 

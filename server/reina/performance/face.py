@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import Parameter
+from reina.curves import Parameter
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from reina.keyframes import Parameter
+    from reina.curves import Parameter
     from reina.rotations.arrays import BoolArray, FloatArray
 
 BLOCK_FRAMES = 60

@@ -44,7 +44,7 @@ class PressingFingers:
         for button, chain in zip(buttons, chains, strict=True):
             if int(rig.skeleton.parents[chain.joints[0]]) != hand:
                 raise RigError(
-                    f"{button.effector!r} is not on the hand that presses the buttons", where="buttons"
+                    f"{button.effector!r} is not on the hand that presses the buttons", location="buttons"
                 )
         self.chains = FingerChains(rig, [chain.name for chain in chains])
         self.valves = [button.valve - 1 for button in buttons]

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import Parameter
+from reina.curves import Parameter
 
 if TYPE_CHECKING:
+    from reina.curves import ParameterRegistry
     from reina.instruments import Line
-    from reina.keyframes import ParameterRegistry
     from reina.music.score import Score
     from reina.rotations.arrays import FloatArray
 

@@ -13,9 +13,9 @@ from reina.performance.stance_choice import StanceChoice
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.keyframes import ShowPlan
     from reina.performance.performer import Performer
     from reina.rotations.arrays import FloatArray
+    from reina.show import ShowPlan
 
 TAIL_S = 4.0
 """After the score's end the players settle for so long; then the last frame holds."""

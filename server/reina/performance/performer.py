@@ -23,9 +23,9 @@ from reina.performance.stances import Stances
 from reina.rotations import same_hemisphere
 
 if TYPE_CHECKING:
+    from reina.curves import Parameter, ParameterRegistry
     from reina.instruments import Instrument, PlayedPart
     from reina.instruments.trumpet.gestures import Curve
-    from reina.keyframes import Parameter, ParameterRegistry
     from reina.music.score import Score
     from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import Hold, Rig

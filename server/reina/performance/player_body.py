@@ -149,7 +149,9 @@ class PlayerBody:
         place = {joint: index for index, joint in enumerate(self.moving.tolist())}
         lost = [joint for joint in self._twists.sources.tolist() if joint not in place]
         if lost:
-            raise RigError(f"a twist follows {skeleton.names[lost[0]]!r}, which never moves", where="twists")
+            raise RigError(
+                f"a twist follows {skeleton.names[lost[0]]!r}, which never moves", location="twists"
+            )
         self._twist_sources = np.array(
             [place[joint] for joint in self._twists.sources.tolist()], dtype=np.intp
         )
@@ -172,7 +174,9 @@ class PlayerBody:
     def _carrier(self, rig: Rig, joint: int) -> int:
         found = np.flatnonzero(self._trunk.joints == joint)
         if len(found) == 0:
-            raise RigError(f"{rig.skeleton.names[joint]!r} must be one of {', '.join(TRUNK)}", where="joints")
+            raise RigError(
+                f"{rig.skeleton.names[joint]!r} must be one of {', '.join(TRUNK)}", location="joints"
+            )
         return int(found[0])
 
     def solve(

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import Parameter
+from reina.curves import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from reina.keyframes import ParameterRegistry
+    from reina.curves import ParameterRegistry
     from reina.rotations.arrays import FloatArray
 
 LARGEST_TURN_RAD = {"torso": 0.28, "head": 0.22}

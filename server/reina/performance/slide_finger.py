@@ -55,7 +55,7 @@ class SlideFinger:
     ) -> None:
         found = rig.chain(chain)
         if found.effector is None:
-            raise RigError(f"{chain!r} is no finger: it needs an effector", where="chains")
+            raise RigError(f"{chain!r} is no finger: it needs an effector", location="chains")
         skeleton = rig.skeleton
         self.joints: IntArray = np.array(found.joints, dtype=np.intp)
         """Indices ``(N,)``."""

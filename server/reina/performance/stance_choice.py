@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import ShowPlan
 from reina.kinematics import minimum_jerk
 from reina.performance.stances import STANCES
+from reina.show import ShowPlan
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray, IntArray

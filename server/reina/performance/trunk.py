@@ -38,10 +38,12 @@ class Trunk:
         self._parents = [place.get(int(skeleton.parents[joint]), -1) for joint in self.joints.tolist()]
         for name, parent in zip(joints[1:], self._parents[1:], strict=True):
             if parent < 0:
-                raise RigError(f"the parent of {name!r} must be one of {', '.join(joints)}", where="joints")
+                raise RigError(
+                    f"the parent of {name!r} must be one of {', '.join(joints)}", location="joints"
+                )
         for point in (*points, *directions):
             if point.joint not in place:
-                raise RigError(f"{point.name!r} must sit on one of {', '.join(joints)}", where="contacts")
+                raise RigError(f"{point.name!r} must sit on one of {', '.join(joints)}", location="contacts")
         # Every joint but the root, and every point, hangs on a link; a point's place is the sum of its links.
         hung = self._parents[1:] + [place[point.joint] for point in points]
         carriers = hung + [place[direction.joint] for direction in directions]

@@ -210,6 +210,6 @@ def decode(manifest: Manifest, data: bytes) -> Frames:
     if others.any():
         raise FrameError(
             f"the frame is of version {frames['version'][others][0]}; this reads version {PROTOCOL_VERSION}",
-            where=f"frame {int(np.flatnonzero(others)[0])}",
+            location=f"frame {int(np.flatnonzero(others)[0])}",
         )
     return frames

@@ -15,14 +15,14 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reina.keyframes import stage_registry
-from reina.keyframes.show_schema import show_schema_text
 from reina.protocol import resources, timeline, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
 from reina.protocol.reader import frame_reader
 from reina.protocol.typescript import interfaces
 from reina.protocol.written_part import WrittenPart
+from reina.show.show_schema import show_schema_text
+from reina.stage import stage_registry
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from reina.keyframes.value_types import TypeName
+from reina.curves.value_types import TypeName
 from reina.protocol.model import WireModel
 
 PROTOCOL_VERSION = 1

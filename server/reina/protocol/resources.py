@@ -4,8 +4,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, Json
 
+from reina.curves.value_types import TypeName
 from reina.instruments import MAX_PLAYERS
-from reina.keyframes.value_types import TypeName
 from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote

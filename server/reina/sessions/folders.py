@@ -7,9 +7,9 @@ import shutil
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from reina.sessions.atomic_write import write_atomically
 from reina.sessions.record import SESSION_ID, SessionRecord
 from reina.sessions.session_index import INDEX, Entry, SessionIndex
+from reina.system.atomic_write import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Generator

@@ -37,7 +37,7 @@ class BvhExport:
         layouts = production.performance.layout.skeletons
         names = [layout.name for layout in layouts]
         if skeleton not in names:
-            raise InputError(f"the skeletons are {', '.join(names)}, not {skeleton!r}", where="skeleton")
+            raise InputError(f"the skeletons are {', '.join(names)}, not {skeleton!r}", location="skeleton")
         self._performance = production.performance
         self._index = names.index(skeleton)
         self._skeleton = production.stage.rigs[layouts[self._index].rig].skeleton

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import MusicForm, TimeMap, Triggers
+from reina.show import TimeMap, Triggers
+from reina.stage import MusicForm
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

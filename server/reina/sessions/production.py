@@ -7,16 +7,17 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, CastError
-from reina.keyframes import Show, ShowError, ShowPlan, UnknownTrack, write_default_show
 from reina.music import NotInScoreError
 from reina.performance import SEATS, SEATS_FOR, Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers
-from reina.sessions.sound_plan import PlayedParts
+from reina.show import Show, ShowError, ShowPlan, UnknownTrack
+from reina.sound.plan import PlayedParts
+from reina.stage import write_default_show
 
 if TYPE_CHECKING:
+    from reina.curves import ParameterRegistry
     from reina.instruments import Casting, Instrument, PartRanking, PlayedPart
-    from reina.keyframes import ParameterRegistry
     from reina.music import Score, ScoreWarning
     from reina.performance import Performer, Seat
     from reina.sessions.stage import Stage
@@ -185,10 +186,10 @@ def _prepare(
                 usual_fingerings=casting.usual_fingerings,
             )
         except NotInScoreError as error:
-            raise NotInScoreError(error.detail, where=f"{place}{error.where}") from error
+            raise NotInScoreError(error.detail, location=f"{place}{error.location}") from error
         twice = {other for before in parts for other in before.parts} & set(played.parts)
         if twice:
-            raise CastError(f"part {min(twice)} is played by another player already", where=f"{place}part")
+            raise CastError(f"part {min(twice)} is played by another player already", location=f"{place}part")
         castings.append(replace(casting, part=part, joined_parts=played.joined_parts))
         parts.append(played)
         rankings.append(ranking)
@@ -202,9 +203,9 @@ def _seats(cast: Cast) -> tuple[Seat, ...]:
         place = f"castings/{number}/seat" if len(cast.castings) > 1 else "seat"
         name = casting.seat or SEATS_FOR[len(cast.castings)][number]
         if name not in SEATS:
-            raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", where=place)
+            raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", location=place)
         if SEATS[name] in seats:
-            raise CastError(f"the seat {name!r} is taken already", where=place)
+            raise CastError(f"the seat {name!r} is taken already", location=place)
         seats.append(SEATS[name])
     return tuple(seats)
 

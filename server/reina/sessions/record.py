@@ -50,7 +50,7 @@ class SessionRecord(BaseModel):
     song: SongRecord | None
     """None: the server renders the score."""
     song_time_s: float = 0.0
-    """Where the clock stood when the session was last put away."""
+    """Where the clock stood when the session was last unloaded."""
 
     @model_validator(mode="before")
     @classmethod

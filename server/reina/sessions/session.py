@@ -23,9 +23,9 @@ from reina.sessions.description import (
     warned,
 )
 from reina.sessions.frames import EncodedFrames
-from reina.sessions.kept_show import changed_paths
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.show_fit import show_warnings
+from reina.sessions.show_revision import changed_paths
 from reina.sessions.song import Song, song_state
 
 if TYPE_CHECKING:
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
     from reina.protocol.messages import SongState
     from reina.protocol.transport import TransportCommand
-    from reina.sessions.kept_show import KeptShow
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
+    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.viewer import Viewer
 
 FIRST_S = 0.3
@@ -52,7 +52,7 @@ class Session:
     Args:
         record: What is kept of it.
         production: What it plays.
-        kept_show: The show that it plays, with its history.
+        show_revision: The show that it plays, with its history.
         notes: `note_messages` of the production.
         song: Makes its sound; called when the rest is ready, and whenever the sound is another.
         now: Server time, seconds; never goes back.
@@ -62,7 +62,7 @@ class Session:
         self,
         record: SessionRecord,
         production: Production,
-        kept_show: KeptShow,
+        show_revision: ShowRevision,
         notes: NoteMessages,
         song: Callable[[Session], Song],
         *,
@@ -70,7 +70,7 @@ class Session:
     ) -> None:
         self.record = record
         self.production = production
-        self.kept_show = kept_show
+        self.show_revision = show_revision
         self.editing = asyncio.Lock()
         """Held while an edit is planned, so that edits do not overtake one another."""
         self._controlling = asyncio.Lock()
@@ -89,7 +89,7 @@ class Session:
 
     @property
     def is_idle(self) -> bool:
-        """Whether it can be put away: nobody watches or edits, and nothing plays but an endless loop."""
+        """Whether it can be unloaded: nobody watches or edits, and nothing plays but an endless loop."""
         clock = self.clock.state()
         plays_on = clock.playing and clock.loop is None
         return not len(self.audience) and not self.editing.locked() and not plays_on
@@ -215,24 +215,24 @@ class Session:
                 self.clock.set_rate(rate)
             case SetLoop(start_s=start_s, end_s=end_s):
                 if (start_s is None) != (end_s is None):
-                    raise ClockError("a loop has a start and an end; null both to end it", where="loop")
+                    raise ClockError("a loop has a start and an end; null both to end it", location="loop")
                 self.clock.set_loop(start_s, end_s)
         self.audience.restart()
         return self.transport()
 
-    async def change_show(self, production: Production, kept_show: KeptShow) -> None:
+    async def change_show(self, production: Production, show_revision: ShowRevision) -> None:
         """Play the same with another show.
 
         Args:
             production: The same but for the show.
-            kept_show: The other show, with its history.
+            show_revision: The other show, with its history.
         """
-        paths = await asyncio.to_thread(changed_paths, self.kept_show.show, kept_show.show)
+        paths = await asyncio.to_thread(changed_paths, self.show_revision.show, show_revision.show)
         frames = await self._frames_of(production)
         path = paths[0] if paths is not None and len(paths) == 1 else None
-        self.kept_show = kept_show
+        self.show_revision = show_revision
         self._replace(production, frames)
-        self.audience.announce(ShowChanged(path=path, paths=paths, **dict(kept_show.state)))
+        self.audience.announce(ShowChanged(path=path, paths=paths, **dict(show_revision.state)))
 
     async def change_cast(self, record: SessionRecord, production: Production) -> None:
         """Let others play, or other parts, or the same elsewhere; a song that was rendered is made anew.

@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import Track
-from reina.keyframes.curves import resting_plan, sample_track
-from reina.keyframes.track_plan import TrackPlan
 from reina.protocol.timeline import CurveLine, MusicTime, ShowCurve, ShowCurves, TimeKnots
 from reina.sessions.music_arrays import bar_lines_beats
 from reina.sessions.show_text import NO_TRACK_ETAG
+from reina.show import Track
+from reina.show.track_plan import TrackPlan
+from reina.show.track_samples import resting_plan, sample_track
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.keyframes.arrays import FloatArray
-    from reina.keyframes.curves import Curve
-    from reina.sessions.kept_show import KeptShow
+    from reina.curves.arrays import FloatArray
     from reina.sessions.production import Production
+    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.show_text import ShowText
+    from reina.show.track_samples import Curve
 
 DIGITS = 6
 """Decimals that are told: a curve on a screen needs no more."""
@@ -41,7 +41,7 @@ class CurveSpan:
 
 
 def curves_of_show(
-    production: Production, kept: KeptShow, parameters: Sequence[str], span: CurveSpan
+    production: Production, kept: ShowRevision, parameters: Sequence[str], span: CurveSpan
 ) -> ShowCurves:
     """Curves of parameters as the show moves them.
 

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.keyframes import Track
 from reina.protocol.resources import Warned
+from reina.show import Track
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from reina.keyframes import Show, TimeMap, TimeUnit
     from reina.sessions.production import Production
+    from reina.show import Show, TimeMap, TimeUnit
 
 LATE = 1e-6
 """Seconds after the end that are a rounding and no keyframe too late."""

@@ -6,13 +6,13 @@ import hashlib
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from reina.keyframes import Show, Track
-from reina.keyframes.show_writer import json_text, json_value, track_text
+from reina.show import Show, Track
+from reina.show.show_writer import json_text, json_value, track_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from reina.keyframes import UnknownTrack
+    from reina.show import UnknownTrack
 
 NO_TRACK_ETAG = '"none"'
 """The validator of a track that is not there, so that its first keyframe can be added under a condition."""

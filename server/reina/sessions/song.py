@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from reina.errors import InputError
 from reina.protocol.messages import SongState
-from reina.sessions.sound import SONG_MEDIA_TYPE, SongRenderer, SongRequest, SoundError
+from reina.sound.renderer import SONG_MEDIA_TYPE, SongRenderer, SongRequest, SoundError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from reina.music import Score
     from reina.sessions.record import SongRecord
-    from reina.sessions.sound_plan import PlayedParts
+    from reina.sound.plan import PlayedParts
 
 _log = logging.getLogger(__name__)
 

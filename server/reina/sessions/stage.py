@@ -5,18 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS, CastError
-from reina.keyframes import ParameterRegistry, stage_registry
 from reina.performance import Performer, player_parameters
 from reina.skeleton import load_hold, load_rig
+from reina.stage import stage_registry
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
+    from reina.curves import Parameter
     from reina.instruments import Instrument, PlayedPart
     from reina.instruments.casting import Casting
-    from reina.keyframes import Parameter
     from reina.music import Score
     from reina.performance import Seat
     from reina.skeleton import Hold, Rig
@@ -88,13 +89,13 @@ class Stage:
             known = ", ".join(self.instruments)
             raise CastError(
                 f"there is no instrument {casting.instrument!r}; there are {known}",
-                where=f"{place}instrument",
+                location=f"{place}instrument",
             )
         if (casting.player, casting.instrument) not in self.holds:
             known = ", ".join(self.players(casting.instrument))
             raise CastError(
                 f"there is no player {casting.player!r}; there are {known} for the {casting.instrument}",
-                where=f"{place}player",
+                location=f"{place}player",
             )
         return self.kinds[casting.instrument]
 

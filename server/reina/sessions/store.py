@@ -12,26 +12,26 @@ from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.instruments import Cast
-from reina.sessions.atomic_write import write_atomically
 from reina.sessions.description import warned
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
-from reina.sessions.kept_show import KeptShow
-from reina.sessions.reader import Reader
 from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
 from reina.sessions.session import Session, note_messages
+from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
-from reina.sessions.sound_decoder import SongDecoder
+from reina.sessions.workers.reader import Reader
+from reina.sound.recording.decoder import SongDecoder
+from reina.system.atomic_write import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
     from pathlib import Path
 
-    from reina.keyframes import ShowHistory
     from reina.sessions.note_messages import NoteMessages
     from reina.sessions.production import Production
     from reina.sessions.session_index import Entry
-    from reina.sessions.sound import SongRenderer
     from reina.sessions.stage import Stage
+    from reina.show import ShowHistory
+    from reina.sound.renderer import SongRenderer
 
 SONG_CACHE_BYTES = 2_000_000_000
 """How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
@@ -164,7 +164,7 @@ class SessionStore:
                 loading.add_done_callback(lambda _: self._loading.pop(session_id, None))
             if await asyncio.shield(loading) is None:
                 return None
-            # It may have been ended or put away again before it was this one's turn.
+            # It may have been ended or unloaded again before it was this one's turn.
             return await self.get(session_id)
         self._sessions.move_to_end(session_id)
         return session
@@ -197,7 +197,7 @@ class SessionStore:
         asked = {"title": title, "public": public}
         changes = {field: value for field, value in asked.items() if value is not None}
         async with self._edit(session):
-            record, kept = session.record.model_copy(update=changes), session.kept_show
+            record, kept = session.record.model_copy(update=changes), session.show_revision
             wanted = recast(record.cast) if recast else record.cast
             if wanted != record.cast:
                 production, kept = await self._plan_other(session, wanted)
@@ -205,13 +205,13 @@ class SessionStore:
                 titled = {"title": after} if title is None and record.title == before else {}
                 record = record.model_copy(update={"cast": production.cast, **titled})
                 await session.change_cast(record, production)
-                if kept is not session.kept_show:
+                if kept is not session.show_revision:
                     await session.change_show(production, kept)
                     await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
 
-    async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> KeptShow:
+    async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Take a session's show one step on or back, and keep it; edits of a session follow one another.
 
         Args:
@@ -220,8 +220,8 @@ class SessionStore:
                 nothing is changed then.
         """
         async with self._edit(session):
-            kept = await asyncio.to_thread(session.kept_show.then, step)
-            if kept is not session.kept_show:
+            kept = await asyncio.to_thread(session.show_revision.then, step)
+            if kept is not session.show_revision:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
                 # Seen first, then kept: the answer waits for both.
                 await session.change_show(production, kept)
@@ -253,7 +253,7 @@ class SessionStore:
     async def aclose(self) -> None:
         """Put every session away."""
         for session in list(self._sessions.values()):
-            self._put_away(session)
+            self._unload(session)
         await self._renderer.aclose()
         await self.reader.aclose()
         for tasks in (self._pruning, self._putting_away.values()):
@@ -275,9 +275,9 @@ class SessionStore:
 
     def _make(
         self, draft: Draft, production: Production, song: SongRecord | None, token_sha256: str
-    ) -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+    ) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
         (draft.folder / draft.score).rename(draft.folder / SCORE)
-        kept = KeptShow.begin(production.show)
+        kept = ShowRevision.begin(production.show)
         _write_show(draft.folder, kept)
         record = SessionRecord(
             id=new_id(),
@@ -317,15 +317,15 @@ class SessionStore:
         # Ended while it was read: it must not come back.
         return self._admit(*read) if session_id in self._folders else None
 
-    async def _read(self, session_id: str) -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+    async def _read(self, session_id: str) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
         folder = self._folders.folder(session_id)
         record = await asyncio.to_thread(self._folders.record, session_id)
         planned = await self._plan(folder / SCORE, record.score_filename, record.cast)
         show = await self.reader.show(await asyncio.to_thread((folder / SHOW).read_bytes), planned.registry)
 
-        def prepared() -> tuple[SessionRecord, Production, KeptShow, NoteMessages]:
+        def prepared() -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
             production = planned.with_show(show)
-            return record, production, KeptShow.begin(show), note_messages(production)
+            return record, production, ShowRevision.begin(show), note_messages(production)
 
         return await asyncio.to_thread(prepared)
 
@@ -333,9 +333,9 @@ class SessionStore:
         """Read a score and plan how a cast plays it, with the show that is written for it."""
         return await self.reader.production(score, filename=filename, cast=cast)
 
-    async def _plan_other(self, session: Session, wanted: Cast) -> tuple[Production, KeptShow]:
+    async def _plan_other(self, session: Session, wanted: Cast) -> tuple[Production, ShowRevision]:
         """Plan another cast in place of the session's."""
-        before, kept = session.production, session.kept_show
+        before, kept = session.production, session.show_revision
         path = self._folders.folder(session.id) / SCORE
         planned = await self._plan(path, session.record.score_filename, wanted)
         another = planned.score.sequence != before.score.sequence
@@ -346,7 +346,7 @@ class SessionStore:
         return planned, kept
 
     def _admit(
-        self, record: SessionRecord, production: Production, kept: KeptShow, notes: NoteMessages
+        self, record: SessionRecord, production: Production, kept: ShowRevision, notes: NoteMessages
     ) -> Session:
         session = Session(record, production, kept, notes, self._song, now=self._now)
         self._sessions[session.id] = session
@@ -374,9 +374,9 @@ class SessionStore:
         *others, _ = self._sessions.values()
         idle = [session for session in others if session.is_idle]
         for session in idle[: max(0, len(self._sessions) - self._most_loaded)]:
-            self._put_away(session)
+            self._unload(session)
 
-    def _put_away(self, session: Session) -> None:
+    def _unload(self, session: Session) -> None:
         del self._sessions[session.id]
         record = session.record.model_copy(update={"song_time_s": session.clock.state().song_time_s})
         session.close()
@@ -386,5 +386,5 @@ class SessionStore:
             writing.add_done_callback(lambda _: self._putting_away.pop(session.id, None))
 
 
-def _write_show(folder: Path, kept: KeptShow) -> None:
+def _write_show(folder: Path, kept: ShowRevision) -> None:
     write_atomically(folder / SHOW, kept.text.text.encode())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.skeleton.bvh_tokens import LARGEST, MOST_DIGITS, Tokens, shown
+from reina.skeleton.bvh_tokens import LARGEST, MAX_DIGITS, Tokens, shown
 from reina.skeleton.clip_warning import ClipWarning
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from reina.rotations.arrays import FloatArray
 
-MOST_VALUES = 50_000_000
+MAX_VALUES = 50_000_000
 _PIECE = 1 << 16
 """Characters that are read at a time: a large file takes no memory for its words, and lets others run."""
 
@@ -75,8 +75,8 @@ def _numbers(tokens: Tokens, wanted: int) -> tuple[FloatArray, int]:
             piece, stopped = _numbers_before(tokens, begin, end, wanted - count)
         pieces.append(piece)
         count += piece.size
-        if count > MOST_VALUES:
-            tokens.fail(f"the file has more than {MOST_VALUES} values, which is more than Reina reads", begin)
+        if count > MAX_VALUES:
+            tokens.fail(f"the file has more than {MAX_VALUES} values, which is more than Reina reads", begin)
         if stopped < end:
             return np.concatenate(pieces), stopped
     return np.concatenate(pieces), len(tokens.text)
@@ -87,7 +87,7 @@ def _plain_numbers(text: str) -> FloatArray | None:
     if not _OF_NUMBERS.fullmatch(text):
         return None
     words = text.split()
-    if max(map(len, words), default=0) > MOST_DIGITS:
+    if max(map(len, words), default=0) > MAX_DIGITS:
         return None
     try:
         values = np.array(words, dtype=np.float64)

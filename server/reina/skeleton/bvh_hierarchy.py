@@ -11,7 +11,7 @@ from reina.skeleton.motion_clip import POSITIONS, ROTATIONS
 if TYPE_CHECKING:
     from reina.skeleton.bvh_tokens import Tokens
 
-MOST_JOINTS = 2000
+MAX_JOINTS = 2000
 """Of joints, and of end sites."""
 
 _KEYWORDS = frozenset({"root", "joint", "end", "offset", "channels", "motion", "{", "}"})
@@ -90,8 +90,8 @@ class _Reader:
 
     def _begin(self, parent: int) -> int:
         tokens = self._tokens
-        if len(self._joints) >= MOST_JOINTS:
-            tokens.fail(f"the file has more than {MOST_JOINTS} joints")
+        if len(self._joints) >= MAX_JOINTS:
+            tokens.fail(f"the file has more than {MAX_JOINTS} joints")
         keyword = tokens.begin
         name = tokens.name()
         if not name:
@@ -103,8 +103,8 @@ class _Reader:
     def _end_site(self, joint: HierarchyJoint) -> None:
         tokens = self._tokens
         self._sites += 1
-        if self._sites > MOST_JOINTS:
-            tokens.fail(f"the file has more than {MOST_JOINTS} end sites")
+        if self._sites > MAX_JOINTS:
+            tokens.fail(f"the file has more than {MAX_JOINTS} end sites")
         tokens.name()
         tokens.brace("{")
         word = tokens.next()

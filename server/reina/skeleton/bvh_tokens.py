@@ -9,8 +9,8 @@ from reina.skeleton.errors import BvhError
 
 LARGEST = 1e12
 """No length and no angle is larger; sums of so many stay finite, in 32 bits too."""
-MOST_DIGITS = 100
-MOST_LETTERS = 1000
+MAX_DIGITS = 100
+MAX_LETTERS = 1000
 _SHOWN = 60
 
 # White space is ASCII's alone: what else Unicode and Python count as such stays part of a word.
@@ -61,7 +61,7 @@ class Tokens:
         """
         found = _WORD.match(self.text, self.at)
         if not found:
-            raise BvhError("the file ends here, in the middle", where=self.line(len(self.text)))
+            raise BvhError("the file ends here, in the middle", location=self.line(len(self.text)))
         self._begin, self.at = found.start(1), found.end()
         return found[1]
 
@@ -72,8 +72,8 @@ class Tokens:
             return ""
         name = found[1].strip()
         self._begin, self.at = found.start(1), found.end()
-        if len(name) > MOST_LETTERS:
-            self.fail(f"a name of {len(name)} letters is longer than Reina reads, {MOST_LETTERS}")
+        if len(name) > MAX_LETTERS:
+            self.fail(f"a name of {len(name)} letters is longer than Reina reads, {MAX_LETTERS}")
         return name
 
     def brace(self, brace: str) -> None:
@@ -92,8 +92,8 @@ class Tokens:
         Raises:
             BvhError: It is none, or one that no motion has.
         """
-        if len(word) > MOST_DIGITS:
-            self.fail(f"{shown(word)} has {len(word)} characters; a number has at most {MOST_DIGITS}", at)
+        if len(word) > MAX_DIGITS:
+            self.fail(f"{shown(word)} has {len(word)} characters; a number has at most {MAX_DIGITS}", at)
         if not _NUMBER.fullmatch(word):
             comma = ": BVH has a point before decimals, and spaces between numbers" if "," in word else ""
             self.fail(f"{shown(word)} is no number{comma}", at)
@@ -113,4 +113,4 @@ class Tokens:
 
     def fail(self, detail: str, at: int | None = None) -> NoReturn:
         """Refuse the file for what stands at a place, at the last word where None."""
-        raise BvhError(detail, where=self.line(at))
+        raise BvhError(detail, location=self.line(at))

@@ -28,7 +28,7 @@ class Node:
 
     def fail(self, detail: str) -> RigError:
         """The error to raise about this place."""
-        return RigError(detail, where=self.path or "document")
+        return RigError(detail, location=self.path or "document")
 
     def __contains__(self, key: str) -> bool:
         return key in self._object()
@@ -113,9 +113,9 @@ def read_document(path: Path) -> Node:
     except FileNotFoundError:
         raise RigError(f"there is no file {path.name} in the folder {path.parent.name!r}") from None
     except (ValueError, RecursionError) as error:
-        raise RigError(f"this is not JSON: {error}", where=path.name) from None
+        raise RigError(f"this is not JSON: {error}", location=path.name) from None
     if not isinstance(value, dict):
-        raise RigError(f"here belongs an object, not {_kind(value)}", where=path.name)
+        raise RigError(f"here belongs an object, not {_kind(value)}", location=path.name)
     return Node(value)
 
 

@@ -49,7 +49,7 @@ def _read_clip(path: Path) -> MotionClip:
     try:
         return read_bvh(path.read_bytes())
     except BvhError as error:
-        raise RigError(f"this clip is no motion: {error}", where=f"clips/{path.name}") from error
+        raise RigError(f"this clip is no motion: {error}", location=f"clips/{path.name}") from error
 
 
 def read_rig(document: Node) -> Rig:
@@ -222,5 +222,5 @@ def _read_button(entry: Node) -> Button:
 def _joint(node: Node, skeleton: Skeleton) -> int:
     name = node.text()
     if name not in skeleton:
-        raise RigError(f"there is no joint {name!r}", where=node.path)
+        raise RigError(f"there is no joint {name!r}", location=node.path)
     return skeleton.index(name)

@@ -21,14 +21,14 @@ from reina.skeleton.motion_clip import POSITIONS, MotionClip
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
 
-MOST_POSES = 10_000_000
+MAX_POSES = 10_000_000
 """Joints times frames."""
 USUAL_FRAME_TIME_S = 1.0 / 30.0
 SHORTEST_FRAME_TIME_S = 1e-5
 LONGEST_FRAME_TIME_S = 3600.0
-MOST_WARNINGS = 20
+MAX_WARNINGS = 20
 """Of one kind."""
-_MOST_LISTED = 5
+_MAX_LISTED = 5
 
 PositionMeaning = Literal["replace", "add"]
 
@@ -91,18 +91,18 @@ class _Reader:
 
     def _names(self) -> tuple[str, ...]:
         names, numbered = told_apart([joint.name for joint in self._joints])
-        for name, places in list(numbered.items())[:MOST_WARNINGS]:
-            later = ", ".join(shown(names[place]) for place in places[:_MOST_LISTED])
-            more = f" and {len(places) - _MOST_LISTED} more" if len(places) > _MOST_LISTED else ""
+        for name, places in list(numbered.items())[:MAX_WARNINGS]:
+            later = ", ".join(shown(names[place]) for place in places[:_MAX_LISTED])
+            more = f" and {len(places) - _MAX_LISTED} more" if len(places) > _MAX_LISTED else ""
             message = (
                 f"{len(places) + 1} joints are called {shown(name)}; the later ones are now {later}{more}"
             )
             self._warn("repeated_name", message, self._joints[places[0]].at)
-        if len(numbered) > MOST_WARNINGS:
+        if len(numbered) > MAX_WARNINGS:
             more = (
-                f"{len(numbered) - MOST_WARNINGS} more names are those of several joints, which are numbered"
+                f"{len(numbered) - MAX_WARNINGS} more names are those of several joints, which are numbered"
             )
-            self._warn("repeated_name", more, self._joints[list(numbered.values())[MOST_WARNINGS][0]].at)
+            self._warn("repeated_name", more, self._joints[list(numbered.values())[MAX_WARNINGS][0]].at)
         return names
 
     def _motion(self, channels: int) -> tuple[FloatArray, float]:
@@ -125,7 +125,7 @@ class _Reader:
             frame_time_s, time_at = self._labelled("frame", "time"), tokens.begin
         values, warnings = read_frames(tokens, channels, int(announced), announced_at)
         self._warnings += warnings
-        if len(values) * len(self._joints) > MOST_POSES:
+        if len(values) * len(self._joints) > MAX_POSES:
             tokens.fail(
                 f"{len(values)} frames of {len(self._joints)} joints are more than Reina reads", announced_at
             )

@@ -201,7 +201,7 @@ class Rig:
         for chain in self.chains.values():
             if chain.effector == effector:
                 return chain
-        raise RigError(f"rig {self.name!r} has no chain for the effector {effector!r}", where="chains")
+        raise RigError(f"rig {self.name!r} has no chain for the effector {effector!r}", location="chains")
 
 
 def _find(table: dict[str, T], name: str, kind: str) -> T:
@@ -209,4 +209,4 @@ def _find(table: dict[str, T], name: str, kind: str) -> T:
         return table[name]
     except KeyError:
         known = ", ".join(table) or "none"
-        raise RigError(f"there is no {kind} {name!r}; there are: {known}", where=f"{kind}s") from None
+        raise RigError(f"there is no {kind} {name!r}; there are: {known}", location=f"{kind}s") from None

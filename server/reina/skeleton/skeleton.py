@@ -39,30 +39,32 @@ class Skeleton:
     def __post_init__(self) -> None:
         count = len(self.names)
         if count == 0:
-            raise RigError("a skeleton needs at least one joint", where="joints")
+            raise RigError("a skeleton needs at least one joint", location="joints")
         expected = {"parents": (count,), "rest_translations": (count, 3), "rest_rotations": (count, 4)}
         for name, shape in expected.items():
             found = getattr(self, name).shape
             if found != shape:
-                raise RigError(f"{name} of {count} joints have shape {shape}, not {found}", where="joints")
+                raise RigError(f"{name} of {count} joints have shape {shape}, not {found}", location="joints")
         object.__setattr__(self, "_indices", {name: index for index, name in enumerate(self.names)})
         if len(self._indices) != count:
             twice = next(name for name in self.names if self.names.count(name) > 1)
-            raise RigError(f"two joints are called {twice!r}; names must differ", where="joints")
+            raise RigError(f"two joints are called {twice!r}; names must differ", location="joints")
         for index, parent in enumerate(self.parents.tolist()):
             if index == 0 and parent != -1:
-                raise RigError("the first joint must be the root, without a parent", where="joints/0/parent")
+                raise RigError(
+                    "the first joint must be the root, without a parent", location="joints/0/parent"
+                )
             if index > 0 and not 0 <= parent < index:
                 raise RigError(
                     f"joint {self.names[index]!r} must have a parent that stands before it",
-                    where=f"joints/{index}/parent",
+                    location=f"joints/{index}/parent",
                 )
         lengths = np.sqrt(np.sum(self.rest_rotations**2, axis=-1))
         if not np.all(np.abs(lengths - 1.0) < _UNIT_TOLERANCE):
             index = int(np.argmax(np.abs(lengths - 1.0)))
             raise RigError(
                 f"the rotation of {self.names[index]!r} has length {lengths[index]:.6g}, not 1",
-                where=f"joints/{index}/rotation",
+                location=f"joints/{index}/rotation",
             )
         for array in (self.parents, self.rest_translations, self.rest_rotations):
             array.flags.writeable = False

@@ -10,10 +10,10 @@ import pytest
 from fastapi import APIRouter, FastAPI, Request
 from fastapi.routing import iter_route_contexts
 
-from reina.api import body, problems
 from reina.api.app import create_app
-from reina.api.body import AT_ONCE, BODY_LIMITS, SMALL, BoundedRoute
-from reina.api.unread_body import READ_ON, UnreadBody
+from reina.api.http import body, problems
+from reina.api.http.body import AT_ONCE, BODY_LIMITS, SMALL, BoundedRoute
+from reina.api.http.unread_body import READ_ON, UnreadBody
 from reina.protocol.links import API
 
 if TYPE_CHECKING:

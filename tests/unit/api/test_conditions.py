@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reina.api.conditions import precondition
+from reina.api.http.conditions import precondition
 
 ANSWERED = {"etag": '"a"', "last-modified": "Sun, 06 Nov 1994 08:49:37 GMT"}
 BEFORE = "Sun, 06 Nov 1994 08:49:36 GMT"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from python_multipart.multipart import parse_options_header
 
-from reina.api.filename import MOST_CHARACTERS, filename_of
+from reina.api.http.filename import MAX_CHARACTERS, filename_of
 
 
 def read(disposition: bytes) -> str | None:
@@ -49,5 +49,5 @@ def test_a_name_is_read_as_a_person_does(disposition: bytes, name: str | None) -
 def test_a_long_name_keeps_its_ending() -> None:
     name = read(b'filename="' + b"a" * 5000 + b'.mid"')
     assert name is not None
-    assert len(name) == MOST_CHARACTERS
+    assert len(name) == MAX_CHARACTERS
     assert name.endswith("a.mid")

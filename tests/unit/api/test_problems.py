@@ -4,7 +4,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from reina.api.problems import MOST_FAULTS, ProblemError, problem_of_validation
+from reina.api.http.problems import MAX_FAULTS, ProblemError, problem_of_validation
 from reina.protocol.resources import Fault
 
 
@@ -22,7 +22,7 @@ def validation_error(document: Any) -> ValidationError:
 
 def test_at_most_twenty_faults_are_told() -> None:
     problem = problem_of_validation(validation_error({"numbers": ["x"] * 5000})).problem
-    assert len(problem.errors) == MOST_FAULTS == 20
+    assert len(problem.errors) == MAX_FAULTS == 20
     assert problem.errors[0].location == "numbers/0"
     assert problem.detail.endswith("and 4980 more")
     assert len(problem.model_dump_json()) < 10_000
@@ -36,4 +36,4 @@ def test_few_faults_are_all_told() -> None:
 
 def test_no_problem_tells_more_than_that() -> None:
     faults = [Fault(detail="wrong", location=str(number)) for number in range(100)]
-    assert len(ProblemError(422, "x", "X", "many", errors=faults).problem.errors) == MOST_FAULTS
+    assert len(ProblemError(422, "x", "X", "many", errors=faults).problem.errors) == MAX_FAULTS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reina.api.ranges import MOST_RANGES, byte_ranges
+from reina.api.http.ranges import MAX_RANGES, byte_ranges
 
 SIZE = 100
 
@@ -51,7 +51,7 @@ def test_what_cannot_be_satisfied(header: str) -> None:
         "bytes=+1-2",
         "bytes=1--2",
         "bytes=\u0661-\u0662",
-        "bytes=" + ",".join(["0-"] * (MOST_RANGES + 1)),
+        "bytes=" + ",".join(["0-"] * (MAX_RANGES + 1)),
     ],
 )
 def test_what_is_ignored(header: str) -> None:

@@ -104,7 +104,7 @@ def test_a_description_names_them():
 def test_what_cannot_be_joined_is_told_with_what_can(joined_parts: tuple[int, ...], place: str, fault: str):
     with pytest.raises(NotInScoreError) as refused:
         TRUMPET.play(SCORE, 0, joined_parts=joined_parts)
-    assert refused.value.where == place
+    assert refused.value.location == place
     assert refused.value.detail == f"{fault}; parts that can be joined to part 0: 1 to 2, 4"
 
 

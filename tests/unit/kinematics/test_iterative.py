@@ -24,7 +24,7 @@ Solver = Callable[..., ChainSolution]
 SOLVERS: list[Solver] = [solve_ccd, solve_fabrik, solve_damped_least_squares]
 TARGETS = 60
 
-LEAST_SOLVED = {
+MIN_SOLVED = {
     ("rightIndex", "solve_ccd"): 0.9,
     ("rightIndex", "solve_fabrik"): 0.35,
     ("rightIndex", "solve_damped_least_squares"): 0.98,
@@ -50,7 +50,7 @@ def test_solvers_reach_what_can_be_reached_and_keep_the_limits(name: str, solver
     targets = reachable(chain, 1)
     found = solver(chain, targets, tolerance_m=1e-4, iterations=100)
     reached = found.status == SolveStatus.REACHED
-    assert np.mean(reached) >= LEAST_SOLVED[name, solver.__name__]
+    assert np.mean(reached) >= MIN_SOLVED[name, solver.__name__]
     ends = chain.stance(chain.angles(found.rotations)).positions[:, -1]
     np.testing.assert_allclose(np.linalg.norm(ends - targets, axis=-1), found.error, atol=1e-9)
     assert found.error[reached].max() <= 1e-4

@@ -237,7 +237,7 @@ def test_what_is_wrong_is_named_with_its_path(document: object, where: str, what
     with pytest.raises(ScoreError) as caught:
         read(document)
     if what is not None:
-        assert caught.value.where == where
+        assert caught.value.location == where
         assert what in caught.value.detail
 
 
@@ -245,7 +245,7 @@ def test_a_transposed_pitch_has_to_be_one():
     document = own(parts=[{"transposition": 24, "notes": [{"beat": 0, "duration": 1, "pitch": 120}]}])
     with pytest.raises(ScoreError, match="the pitch is 144") as caught:
         read(document)
-    assert caught.value.where == "parts/0/notes/0/pitch"
+    assert caught.value.location == "parts/0/notes/0/pitch"
 
 
 def test_several_faults_are_all_told():
@@ -309,7 +309,7 @@ def test_null_is_the_same_as_missing_where_a_field_is_not_needed():
 def test_numbers_beyond_all_numbers_are_named_with_their_path(value: str, field: str):
     with pytest.raises(ScoreError) as caught:
         read_score(json.dumps(part(**{field: "HERE"})).replace('"HERE"', value).encode())
-    assert caught.value.where == f"parts/0/notes/0/{field}"
+    assert caught.value.location == f"parts/0/notes/0/{field}"
     assert len(caught.value.detail) < 200
 
 

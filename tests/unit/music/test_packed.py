@@ -12,7 +12,7 @@ import pytest
 
 from reina.music import DEFAULT_LIMITS, Limits, Score, ScoreError, ScoreLimitError, read_score
 from reina.music.file_kinds import SIGNATURES, WORDS, ZIPPED
-from reina.music.packed import MOST_FILES
+from reina.music.packed import MAX_FILES
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "scores"
 MIDI = (EXAMPLES / "chromatic-scale.mid").read_bytes()
@@ -132,7 +132,7 @@ def test_bombs_are_refused_at_the_limit():
     with pytest.raises(ScoreLimitError, match="more than 1,000 gzip'd files in one"):
         read_score(gzip.compress(b"") * 200_000)
     with pytest.raises(ScoreLimitError, match="holds 1,001 files"):
-        read_score(zipped({f"{n}": b"" for n in range(MOST_FILES + 1)}))
+        read_score(zipped({f"{n}": b"" for n in range(MAX_FILES + 1)}))
 
 
 def test_the_size_that_a_zip_claims_is_not_trusted():

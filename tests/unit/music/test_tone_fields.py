@@ -198,7 +198,7 @@ def test_a_track_that_is_none_or_has_no_list_of_notes_is_left_out():
 def test_when_no_note_is_left_all_reasons_are_told():
     with pytest.raises(ScoreError, match="and 1 more notes") as caught:
         read({"tracks": [{"notes": [{"midi": 300, "time": 0}, {"midi": 60, "time": None}]}]})
-    assert caught.value.where == "tracks/0/notes/0"
+    assert caught.value.location == "tracks/0/notes/0"
     assert [place for place, _ in caught.value.problems] == ["tracks/0/notes/0", "tracks/0/notes/1"]
     assert "midi is 300" in caught.value.detail
     assert "time is null" in caught.value.problems[1][1]

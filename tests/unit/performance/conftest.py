@@ -9,11 +9,13 @@ import mido
 import numpy as np
 import pytest
 
+from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS
-from reina.keyframes import ParameterRegistry, Show, TimeMap, stage_registry
 from reina.music import read_score
 from reina.performance import Performance, Performer, player_parameters
+from reina.show import Show, TimeMap
 from reina.skeleton import Hold, Rig, load_hold, load_rig
+from reina.stage import stage_registry
 
 RIGS = Path(__file__).parents[3] / "rigs"
 

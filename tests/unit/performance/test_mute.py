@@ -6,8 +6,8 @@ import mido
 import numpy as np
 import pytest
 
+from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS
-from reina.keyframes import ParameterRegistry
 from reina.music import read_score
 from reina.performance.mute import Mute
 

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 from reina import rotations as r
-from reina.keyframes import ParameterRegistry, Show, TimeMap
+from reina.curves import ParameterRegistry
 from reina.performance import BLOCK_FRAMES, FrameBlock, Performance
 from reina.performance.pose_keys import POSE_PARAMETERS
+from reina.show import Show, TimeMap
 from reina.skeleton import Hold, Point, Rig, forward_kinematics
 
 NoteBeats = tuple[float, float, int]

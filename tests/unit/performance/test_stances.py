@@ -4,10 +4,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reina.keyframes import ParameterRegistry, Show, TimeMap
+from reina.curves import ParameterRegistry
 from reina.performance import Performance
 from reina.performance.stance_choice import PASSAGE_S, StanceChoice
 from reina.performance.stances import STANCES, Stances
+from reina.show import Show, TimeMap
 from reina.skeleton import Rig
 
 NoteBeats = tuple[float, float, int]

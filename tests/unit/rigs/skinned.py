@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reina.instruments import INSTRUMENTS
-from reina.keyframes import Show, TimeMap, stage_registry
 from reina.music import read_score
 from reina.performance import Performance, Performer, player_parameters
 from reina.rotations import to_matrix
+from reina.show import Show, TimeMap
 from reina.skeleton import forward_kinematics, load_hold, load_rig
+from reina.stage import stage_registry
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from reina.errors import InputError
 from reina.instruments import INSTRUMENTS, Cast, Casting, describe_score
 from reina.music import DEFAULT_LIMITS, Limits, Score
 from reina.sessions.production import Production
-from reina.sessions.sound_plan import LONGEST_S, PlayedParts, SoundPlan, plan_sound
 from reina.sessions.stage import Stage
+from reina.sound.plan import LONGEST_S, PlayedParts, SoundPlan, plan_sound
 
 RIGS = Path(__file__).parents[3] / "rigs"
 STAGED_OF = 512

@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from tests.integration.scores import chords, collection, duet, relay, scale, show, song, two_duets
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
-from tests.unit.sessions.sound_material import Row, a_part, a_score
+from tests.unit.sound.material import Row, a_part, a_score
 
 from reina.errors import InputError
 from reina.music import NotInScoreError
 from reina.protocol.links import rendering_href
 from reina.protocol.transport import Seek, SetLoop
 from reina.sessions.description import NO_PITCH, NOT_IN_LINE, NoteTable
-from reina.sessions.sound import SongRenderer
-from reina.sessions.sound_plan import PlayedParts, plan_sound
 from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
+from reina.sound.plan import PlayedParts, plan_sound
+from reina.sound.renderer import SongRenderer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -187,7 +187,7 @@ def test_another_sequence_begins_anew_and_the_same_goes_on(tmp_path: Path, stage
         await choose(store, session, sequence=2)
         assert (session.transport().song_time_s, session.transport().loop) == (0.0, None)
         assert session.clock.duration_s < before
-        assert session.kept_show.show.tracks[0].parameter == "lights/key/intensity", "an own show stays"
+        assert session.show_revision.show.tracks[0].parameter == "lights/key/intensity", "an own show stays"
 
     run(scenario)
 
@@ -197,10 +197,10 @@ def test_a_show_written_for_one_sequence_is_written_anew_for_another(tmp_path: P
         store = a_store(tmp_path, stage)
         session = await create(store, collection())
         fresh = await create(store, collection(), sequence=1)
-        before = session.kept_show.show
+        before = session.show_revision.show
         await choose(store, session, sequence=1)
-        assert session.production.show == session.kept_show.show == fresh.production.show != before
-        assert session.kept_show.history.past == (before,)
+        assert session.production.show == session.show_revision.show == fresh.production.show != before
+        assert session.show_revision.history.past == (before,)
         assert session.record.title == fresh.record.title == "Walk"
         await choose(store, session, sequence=2, title="Mine")
         await choose(store, session, sequence=1)

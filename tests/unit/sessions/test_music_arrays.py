@@ -6,9 +6,10 @@ import numpy as np
 from tests.integration.scores import duet, relay, scale
 
 from reina.instruments import INSTRUMENTS, PlayedPart
-from reina.keyframes import EventResponse, MusicForm, NoteFilter
 from reina.music import Score, read_score
 from reina.sessions.music_arrays import music_form, time_map, triggers
+from reina.show import EventResponse, NoteFilter
+from reina.stage import MusicForm
 
 
 def played(

@@ -12,14 +12,15 @@ import pytest
 from tests.integration.intake import large_show
 from tests.integration.scores import duet
 
+from reina.curves import interpolations
 from reina.instruments import Cast, Casting
-from reina.keyframes import Show, ShowError, interpolations
 from reina.music.errors import ScoreError
-from reina.sessions import reader as module
 from reina.sessions.frames import EncodedFrames
-from reina.sessions.reader import LONG_BYTES, Reader, shared_of
 from reina.sessions.stage import Stage
-from reina.sessions.worker_pool import WorkerPool
+from reina.sessions.workers import reader as module
+from reina.sessions.workers.pool import WorkerPool
+from reina.sessions.workers.reader import LONG_BYTES, Reader, shared_of
+from reina.show import Show, ShowError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine

@@ -2,7 +2,7 @@
 
 import random
 
-from tests.unit.sessions.show_mutations import check_show, mutate_show, seeds
+from tests.unit.show.show_mutations import check_show, mutate_show, seeds
 
 
 def test_every_seed_is_read() -> None:

@@ -4,11 +4,11 @@ import asyncio
 from pathlib import Path
 
 import pytest
-from tests.unit.sessions.sound_material import a_score
+from tests.unit.sound.material import a_score
 
 from reina.sessions.song import RenderedSong, song_state
-from reina.sessions.sound import SongRenderer, SoundError
-from reina.sessions.sound_plan import PlayedParts
+from reina.sound.plan import PlayedParts
+from reina.sound.renderer import SongRenderer, SoundError
 
 
 @pytest.mark.parametrize(

@@ -12,12 +12,12 @@ import pytest
 from tests.integration.scores import duet, scale, song
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
-from reina.keyframes import Show
 from reina.protocol.transport import Pause, Play, Seek
 from reina.sessions.folders import SessionFolders
-from reina.sessions.sound import SongRenderer
 from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionEndedError, SessionStore
+from reina.show import Show
+from reina.sound.renderer import SongRenderer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine

@@ -10,18 +10,18 @@ import pytest
 from tests.integration.scores import duet, relay, scale, show, song
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
-from reina.keyframes import Show
-from reina.sessions.sound import SongRenderer, SongRequest
 from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
+from reina.show import Show
+from reina.sound.renderer import SongRenderer, SongRequest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Sequence
 
     from reina.music import Score
     from reina.sessions.session import Session
-    from reina.sessions.sound_plan import PlayedParts
+    from reina.sound.plan import PlayedParts
 
 RIGS = Path(__file__).parents[3] / "rigs"
 SONG_BYTES = 1000
@@ -264,6 +264,6 @@ def test_a_session_without_a_show_gets_one_written_for_its_music(tmp_path: Path,
         found = await Desk(tmp_path, stage).store.get(written.id)
         assert found is not None
         assert found.production.show == written.production.show
-        assert found.kept_show.text.etag == written.kept_show.text.etag
+        assert found.show_revision.text.etag == written.show_revision.text.etag
 
     run(scenario)

@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 from reina.errors import InputError
-from reina.keyframes import ShowError
-from reina.sessions.own_process import NICENESS
-from reina.sessions.worker_pool import PROGRAM, WorkerPool
+from reina.sessions.workers.pool import PROGRAM, WorkerPool
+from reina.show import ShowError
+from reina.system.own_process import NICENESS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -74,7 +74,7 @@ def test_what_is_shared_stays_one() -> None:
 
 def test_errors_of_the_input_keep_what_they_tell() -> None:
     async def scenario(pool: WorkerPool) -> None:
-        from reina.sessions.reader import read_written_show
+        from reina.sessions.workers.reader import read_written_show
 
         with pytest.raises(ShowError, match="no JSON"):
             await pool.run(read_written_show, b"{", None)
@@ -131,7 +131,7 @@ def test_a_worker_ends_when_its_server_is_gone() -> None:
         stdout=subprocess.PIPE,
         env=os.environ | {"PYTHONPATH": str(SERVER)},
     )
-    from reina.sessions.parcel import send
+    from reina.system.parcel import send
 
     assert process.stdin is not None
     assert process.stdout is not None

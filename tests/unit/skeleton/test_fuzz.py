@@ -65,8 +65,8 @@ def read(data: bytes, meaning: PositionMeaning) -> MotionClip | None:
         return read_bvh(data, positions=meaning)
     except BvhError as error:
         told = error
-    assert told.where is not None
-    assert told.where.startswith("line ")
+    assert told.location is not None
+    assert told.location.startswith("line ")
     assert len(told.detail) < 400
     return None
 

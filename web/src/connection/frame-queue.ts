@@ -4,7 +4,7 @@ import { FrameBlend } from "./frame-blend";
 const EPOCHS = 256;
 
 /** Frames further apart than this were lost in between, and are not blended over. */
-const MOST_FRAMES_BLENDED_OVER = 8;
+const MAX_FRAMES_BLENDED_OVER = 8;
 
 /** What is to be drawn at a moment: a frame, or the blend of two. The same object is given out each time. */
 export interface QueuedFrame {
@@ -154,7 +154,7 @@ export function epochsAhead(epoch: number, reference: number): number {
 /** How far from `a` to `b` a moment is, 0…1; 0 where the two must not be blended. */
 function fractionBetween(a: Frame, b: Frame, serverTime: number): number {
   const apart = b.index - a.index;
-  if (apart <= 0 || apart > MOST_FRAMES_BLENDED_OVER || b.cut || b.first) return 0;
+  if (apart <= 0 || apart > MAX_FRAMES_BLENDED_OVER || b.cut || b.first) return 0;
   const span = b.dueTimeS - a.dueTimeS;
   return span > 0 ? Math.min(Math.max((serverTime - a.dueTimeS) / span, 0), 1) : 0;
 }

@@ -25,7 +25,7 @@ export interface OverviewInk {
 const HEAD = 18;
 const FOOT = 9;
 const NUMBER_GAP = 44;
-const LEAST_NOTE = 1.5;
+const MIN_NOTE = 1.5;
 
 /** Draw the score once: notes by time and pitch, phrases beneath, bar ticks and numbers above. */
 export function drawOverview(context: CanvasRenderingContext2D, overview: Overview, ink: OverviewInk): void {
@@ -40,7 +40,7 @@ export function drawOverview(context: CanvasRenderingContext2D, overview: Overvi
   context.fillStyle = ink.phrase;
   for (const { start, end } of overview.phrases) {
     const x = xOf(overview, start);
-    fillBar(context, x, height - 5, Math.max(xOf(overview, end) - x - 2, LEAST_NOTE), 2.5);
+    fillBar(context, x, height - 5, Math.max(xOf(overview, end) - x - 2, MIN_NOTE), 2.5);
   }
 }
 
@@ -74,7 +74,7 @@ function drawNote(
   const end = xOf(overview, note.onset_s + note.duration_s);
   const room = overview.height - HEAD - FOOT - thickness - 2;
   const y = HEAD + 1 + (1 - (note.sounding_pitch - low) / (high - low)) * room;
-  fillBar(context, x, y, Math.max(end - x - 0.75, LEAST_NOTE), thickness);
+  fillBar(context, x, y, Math.max(end - x - 0.75, MIN_NOTE), thickness);
 }
 
 function fillBar(context: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {

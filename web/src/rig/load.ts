@@ -6,7 +6,7 @@ import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 
 import type { Tier } from "../scene/tiers";
 import { RigError, readRigDocument, type RigDocument } from "./document";
-import { checkSkeleton } from "./skeleton_check";
+import { checkSkeleton } from "./skeleton-check";
 
 export interface LoadedRig {
   readonly document: RigDocument;

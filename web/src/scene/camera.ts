@@ -3,7 +3,7 @@
 import { PerspectiveCamera, Quaternion, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-import { type CameraPreset, type CameraView, lookedAt } from "./camera_presets";
+import { type CameraPreset, type CameraView, lookedAt } from "./camera-presets";
 import { fitFrame, type Insets, widen } from "./framing";
 
 /** How long the way to another view takes, milliseconds. */

@@ -27,22 +27,22 @@ export interface Fit {
 }
 
 /** The least share of a side that is left to the picture, whatever lies over it. */
-const LEAST_FREE = 0.3;
+const MIN_FREE = 0.3;
 
 /** The free stretch of a side: where it begins, and how long it is. */
 function freeStretch(length: number, before: number, after: number): [start: number, extent: number] {
   const covered = Math.max(1e-6, before + after);
-  const share = Math.min(1, (length * (1 - LEAST_FREE)) / covered);
+  const share = Math.min(1, (length * (1 - MIN_FREE)) / covered);
   return [before * share, length - (before + after) * share];
 }
 
 /** The least share of the frame's width that a narrow window keeps. */
-const LEAST_WIDTH = 0.66;
+const MIN_WIDTH = 0.66;
 
 /** The share of the frame's width that a window of an aspect keeps: all from 16:9 on, the least at a square and beyond. */
 export function keptWidth(aspect: number): number {
   const wideness = Math.min(1, Math.max(0, (aspect - 1) / (SHOW_ASPECT - 1)));
-  return LEAST_WIDTH + (1 - LEAST_WIDTH) * wideness;
+  return MIN_WIDTH + (1 - MIN_WIDTH) * wideness;
 }
 
 /** The largest 16:9 frame, less what a narrow window gives up of its sides, in the middle of what is free of a window. */

@@ -14,7 +14,7 @@ import {
 } from "three";
 import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
 
-import { COMPOSITE_FRAGMENT, DOWN_FRAGMENT, QUAD_VERTEX, UP_FRAGMENT } from "./picture_shaders";
+import { COMPOSITE_FRAGMENT, DOWN_FRAGMENT, QUAD_VERTEX, UP_FRAGMENT } from "./picture-shaders";
 import type { TierSettings } from "./tiers";
 
 /** Pictures of the bloom, each half as large as the one before. */

@@ -24,7 +24,7 @@ export interface Remembered {
 }
 
 const KEY = "reina";
-const MOST_TOKENS = 200;
+const MAX_TOKENS = 200;
 
 const NOTHING: Remembered = {
   tokens: {},
@@ -57,7 +57,7 @@ export function remember(
   storage: Pick<Storage, "getItem" | "setItem"> | null = pageStorage(),
 ): void {
   const next = { ...remembered(storage), ...change };
-  const tokens = Object.fromEntries(Object.entries(next.tokens).slice(-MOST_TOKENS));
+  const tokens = Object.fromEntries(Object.entries(next.tokens).slice(-MAX_TOKENS));
   try {
     storage?.setItem(KEY, JSON.stringify({ ...next, tokens }));
   } catch {

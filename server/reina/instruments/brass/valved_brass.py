@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from reina.curves.parameter import Parameter
 from reina.instruments.brass.chart import ChartEntry
 from reina.instruments.brass.model import BrassModel
 from reina.instruments.brass.phrase import Choice, Costs, choose
@@ -18,14 +19,13 @@ from reina.instruments.octaves import fitting_octaves
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking, rank_parts
-from reina.keyframes.parameter import Parameter
 from reina.music.arrays import read_only
 from reina.music.errors import NotInScoreError
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
 from reina.notation import keys_of, named
 
-MOST_TOLD = 200
+MAX_TOLD = 200
 """How many dropped or shortened notes are told of one by one; all of them stand in the line."""
 
 SLIDE_FROM_S = 0.15
@@ -119,10 +119,10 @@ class ValvedBrass:
         """
         if not 0 <= part < len(score.parts):
             raise NotInScoreError(
-                f"there is no part {part}; there are 0 to {len(score.parts) - 1}", where="part"
+                f"there is no part {part}; there are 0 to {len(score.parts) - 1}", location="part"
             )
         joined = check_joined_parts(score, part, joined_parts)
-        log = WarningLog(MOST_TOLD)
+        log = WarningLog(MAX_TOLD)
         place = f"part {part}"
         if written:
             transposition -= self.model.written_above_sounding

@@ -61,13 +61,13 @@ def assemble(
     """
     played = [part for part in parts if len(part.pitch)]
     if not played:
-        raise ScoreError("the score holds no note", where="/")
+        raise ScoreError("the score holds no note", location="/")
     for part in played:
         wrong = np.flatnonzero((part.pitch < 0) | (part.pitch > 127))
         if len(wrong):
             number = int(part.pitch[wrong[0]])
             raise ScoreError(
-                f"the pitch is {number}; 0 to 127 sound", where=f"{part.path}/notes/{wrong[0]}/pitch"
+                f"the pitch is {number}; 0 to 127 sound", location=f"{part.path}/notes/{wrong[0]}/pitch"
             )
     for part in parts:
         if not len(part.pitch):

@@ -12,7 +12,7 @@ _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "##": 2, "x": 2, "b": -1, "♭": -1, "bb": -2}
 _NAME = re.compile(r"([A-Ga-g])(##|#|♯|x|bb|b|♭|)(-?\d{1,2})")
 
-MOST_CHANGES = 100_000
+MAX_CHANGES = 100_000
 """Of tempos, and of metres."""
 
 DEFAULT_VELOCITY = 0.7
@@ -127,17 +127,17 @@ class ScoreDocument(_Model):
     title: str | None = Field(default="", max_length=500)
     tempos: Listed[TempoEntry] = Field(
         default_factory=list[TempoEntry],
-        max_length=MOST_CHANGES,
+        max_length=MAX_CHANGES,
         description="120 a minute where none is said.",
     )
     time_signatures: Listed[TimeSignatureEntry] = Field(
         default_factory=list[TimeSignatureEntry],
-        max_length=MOST_CHANGES,
+        max_length=MAX_CHANGES,
         description="4/4 where none is said.",
     )
     key_signatures: Listed[KeySignatureEntry] = Field(
         default_factory=list[KeySignatureEntry],
-        max_length=MOST_CHANGES,
+        max_length=MAX_CHANGES,
         description="Found from the notes where none is said.",
     )
     pickup_beats: Beat | None = Field(

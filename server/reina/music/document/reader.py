@@ -17,7 +17,7 @@ from reina.music.limits import Limits
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
 
-MOST_PROBLEMS = 20
+MAX_PROBLEMS = 20
 
 LONE_SURROGATE = re.compile(
     r"((?<!\\)(?:\\\\)*)\\u(?:d[89ab][0-9a-f]{2}(?!\\ud[c-f])|(?<!\\ud[89ab][0-9a-f]{2}\\u)d[c-f][0-9a-f]{2})",
@@ -44,7 +44,7 @@ def read_json(data: bytes, *, title: str, limits: Limits) -> Score:
     raise ScoreError(
         'a JSON score is either {"format": "reina-score", "parts": [...]} or, by Tone.js\'s converter, '
         f'{{"header": ..., "tracks": [...]}}; this one has {_keys(document)}',
-        where="/",
+        location="/",
     )
 
 
@@ -60,9 +60,9 @@ def _parse(data: bytes, log: WarningLog) -> JsonObject:
     try:
         document = _values(text)
     except ValueError as error:
-        raise ScoreError(f"this is no JSON: {error}", where="/") from error
+        raise ScoreError(f"this is no JSON: {error}", location="/") from error
     if not isinstance(document, dict):
-        raise ScoreError(f"a JSON score is an object, not {shown(document)}", where="/")
+        raise ScoreError(f"a JSON score is an object, not {shown(document)}", location="/")
     return cast("JsonObject", document)
 
 
@@ -82,9 +82,9 @@ def _count(parts: object, name: str, limits: Limits) -> None:
     if not isinstance(parts, list):
         return
     entries = cast("list[object]", parts)
-    limits.check("tracks", len(entries), what=f"number of {name}", where=name)
+    limits.check("tracks", len(entries), what=f"number of {name}", location=name)
     notes = sum(_length(part, "notes") for part in entries)
-    limits.check("notes", notes, what="number of notes", where=name)
+    limits.check("notes", notes, what="number of notes", location=name)
 
 
 def _length(part: object, key: str) -> int:
@@ -99,11 +99,11 @@ def _validate(document: JsonObject) -> ScoreDocument:
         count = error.error_count()
         problems = [
             ("/".join(map(str, fault["loc"])), _say(fault["msg"], fault["input"]))
-            for fault in error.errors(include_url=False, include_context=False)[:MOST_PROBLEMS]
+            for fault in error.errors(include_url=False, include_context=False)[:MAX_PROBLEMS]
         ]
         where, what = problems[0]
         more = f" (and {count - 1} more faults)" if count > 1 else ""
-        raise ScoreError(f"{what}{more}", where=where, problems=problems) from error
+        raise ScoreError(f"{what}{more}", location=where, problems=problems) from error
 
 
 def _say(message: str, value: object) -> str:

@@ -56,7 +56,7 @@ def read_tone(document: JsonObject, *, title: str, limits: Limits, log: WarningL
     root = Entry(document, "", log)
     root.tell_unknown(DOCUMENT)
     if not isinstance(document["tracks"], list):
-        raise ScoreError(f"is {shown(document['tracks'])}; a list of tracks is needed", where="tracks")
+        raise ScoreError(f"is {shown(document['tracks'])}; a list of tracks is needed", location="tracks")
     header = read_header(root.entry("header"), limits)
     tracks = root.entries("tracks")
     tracks.tell_unknown(TRACK)
@@ -82,11 +82,11 @@ def _no_note(log: WarningLog) -> ScoreError:
     others = [warning for warning in log.warnings() if warning.kind == LEFT_OUT]
     faults = [(warning.place, warning.message) for warning in notes or others]
     if not faults:
-        return ScoreError("the score holds no note", where="/")
+        return ScoreError("the score holds no note", location="/")
     count = log.count("note_left_out")
     more = f" (and {count - 1} more notes)" if count > 1 else ""
     where, what = faults[0]
-    return ScoreError(f"{what}{more}, and the score holds no other note", where=where, problems=faults)
+    return ScoreError(f"{what}{more}, and the score holds no other note", location=where, problems=faults)
 
 
 def _within_limits(

@@ -6,7 +6,7 @@ from typing import cast
 import numpy as np
 
 from reina.music.document.fields import LEFT_OUT, Entry, Span, to_number
-from reina.music.document.model import MOST_CHANGES
+from reina.music.document.model import MAX_CHANGES
 from reina.music.document.tonejs import (
     BPM,
     HEADER,
@@ -58,7 +58,7 @@ def _tempo_map(header: Entry, ppq: float, limits: Limits) -> TempoMap:
     bpm = header.number("bpm", BPM)
     length = DEFAULT_SECONDS_PER_BEAT if bpm is None else 60.0 / bpm
     beats, lengths = [beat], [length]
-    tempos = header.entries("tempos", most=MOST_CHANGES)
+    tempos = header.entries("tempos", most=MAX_CHANGES)
     tempos.tell_unknown(TEMPO)
     tempos.tell_missing("bpm")
     columns = (
@@ -86,7 +86,7 @@ def _tempo_map(header: Entry, ppq: float, limits: Limits) -> TempoMap:
 
 
 def _metre_map(header: Entry, ppq: float) -> MetreMap:
-    entries = header.entries("timeSignatures", most=MOST_CHANGES)
+    entries = header.entries("timeSignatures", most=MAX_CHANGES)
     entries.tell_unknown(TIME_SIGNATURE)
     entries.tell_missing("timeSignature")
     signatures: list[TimeSignature] = []
@@ -115,7 +115,7 @@ def _metre(entry: Entry) -> tuple[int, int] | None:
 
 
 def _key_signatures(header: Entry, ppq: float) -> tuple[KeySignature, ...]:
-    entries = header.entries("keySignatures", most=MOST_CHANGES)
+    entries = header.entries("keySignatures", most=MAX_CHANGES)
     entries.tell_unknown(KEY_SIGNATURE)
     entries.tell_missing("key")
     signatures: list[KeySignature] = []

@@ -45,7 +45,7 @@ def unwrap(data: bytes, log: WarningLog) -> tuple[bytes, int]:
         raise ScoreError(
             "this is no MIDI file (it has no MThd header) and no JSON score; a file as written by a notation "
             "program or sequencer (.mid), or a JSON score, would be right",
-            where="byte 0",
+            location="byte 0",
         )
     if found > start and data[:4] != b"RIFF":
         log.add(
@@ -72,7 +72,7 @@ def read_header(data: bytes, log: WarningLog) -> Header:
         ScoreError: If the file ends inside it.
     """
     if len(data) < 14:
-        raise ScoreError(f"the file ends inside its header, after {len(data)} bytes of 14", where="byte 0")
+        raise ScoreError(f"the file ends inside its header, after {len(data)} bytes of 14", location="byte 0")
     length = int.from_bytes(data[4:8], "big")
     header_format, tracks, division = (int.from_bytes(data[at : at + 2], "big") for at in (8, 10, 12))
     end = 8 + length

@@ -12,7 +12,7 @@ from reina.music.midi.languages import DOUBLE_BYTE, languages
 from reina.music.midi.spelling import spelling_likelihood
 from reina.music.midi.unicode_text import decode_unicode, decode_whole, without_end
 
-MOST_TEXTS, SAMPLE_BYTES = 1000, 1024
+MAX_TEXTS, SAMPLE_BYTES = 1000, 1024
 """How many texts beyond ASCII are looked at, and how much of them is examined."""
 
 STRANGE, TOO_SHORT = -4.3, 8
@@ -64,7 +64,7 @@ def _sample(texts: Iterable[bytes]) -> list[bytes]:
     """Return different texts in no Unicode form, `SAMPLE_BYTES` at most."""
     sample: dict[bytes, None] = {}
     left = SAMPLE_BYTES
-    for data in islice((data for data in texts if not data.isascii()), MOST_TEXTS):
+    for data in islice((data for data in texts if not data.isascii()), MAX_TEXTS):
         text = without_end(data)[:left]
         if text in sample or decode_unicode(text) is not None:
             continue

@@ -50,7 +50,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         tracks, sequence, sequences = _choose_sequence(tracks, sequence, log)
     elif sequence not in {None, 0}:
         raise NotInScoreError(
-            f"the file holds one sequence, 0; there is no sequence {sequence}", where="sequence"
+            f"the file holds one sequence, 0; there is no sequence {sequence}", location="sequence"
         )
 
     messages = Messages.of(tracks)
@@ -60,7 +60,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     is_on = (note_messages.command == NOTE_ON) & (note_messages.second > 0)
     if not np.any(is_on):
         raise ScoreError(
-            "the file is MIDI and holds no note", where=f"{len(tracks)} track{'s' * (len(tracks) != 1)}"
+            "the file is MIDI and holds no note", location=f"{len(tracks)} track{'s' * (len(tracks) != 1)}"
         )
     limits.check("notes", int(np.count_nonzero(is_on)), what="number of notes")
 
@@ -117,7 +117,7 @@ def _choose_sequence(
     if sequence is not None and not 0 <= sequence < len(with_notes):
         last = len(with_notes) - 1
         held = f"{last + 1} sequences, 0 to {last}" if last else "one sequence, 0"
-        raise NotInScoreError(f"the file holds {held}; there is no sequence {sequence}", where="sequence")
+        raise NotInScoreError(f"the file holds {held}; there is no sequence {sequence}", location="sequence")
     if len(with_notes) > 1 and sequence is None:
         count = len(with_notes)
         log.add(

@@ -54,6 +54,13 @@ def read_part_mode(data: bytes) -> PartMode | None:
     return None
 
 
+def rhythm_part(channel: int, *, on: bool) -> bytes:
+    """The GS message that makes a channel (0 to 15) drums or not, between its status F0 and F7."""
+    block = 0 if channel == 9 else channel + 1 if channel < 9 else channel
+    body = bytes([0x40, 0x10 | block, 0x15, int(on)])
+    return bytes([ROLAND, 0x10, GS_MODEL, GS_DATA_SET]) + body + bytes([-sum(body) & 0x7F])
+
+
 def _is_gs(data: bytes) -> bool:
     return data[:1] == bytes([ROLAND]) and data[2:4] == bytes([GS_MODEL, GS_DATA_SET])
 

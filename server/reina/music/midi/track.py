@@ -8,8 +8,8 @@ from reina.music.midi.unicode_text import LONGEST_BYTES
 from reina.music.warnings import WarningLog
 
 TICK_SHIFT = 24
-MOST_TICKS = 2**38
-MOST_METAS = 100_000
+MAX_TICKS = 2**38
+MAX_METAS = 100_000
 
 NOTE_OFF, NOTE_ON, KEY_PRESSURE, CONTROLLER, PROGRAM, CHANNEL_PRESSURE, PITCH_BEND = range(0x8, 0xF)
 """The upper four bits of a channel message's status."""
@@ -164,7 +164,7 @@ def _read_events(data: bytes, track: Track, place: _Place, most_events: int, log
             else:
                 others += 1
                 if others > most_events:
-                    raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
+                    raise ScoreLimitError(TOO_MANY_EVENTS, location=place(at))
                 at = _read_system(data, at, byte, tick, track, place, log)
                 if track.ended:
                     track.end_tick, track.end = tick, at
@@ -173,7 +173,7 @@ def _read_events(data: bytes, track: Track, place: _Place, most_events: int, log
         elif not status:
             others += 1
             if others > most_events:
-                raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
+                raise ScoreLimitError(TOO_MANY_EVENTS, location=place(at))
             at = _skip_stray(data, at, place, log)
             continue
         first = data[at]
@@ -188,10 +188,10 @@ def _read_events(data: bytes, track: Track, place: _Place, most_events: int, log
             first, second = min(first, 0x7F), min(second, 0x7F)
         packed.append(tick << TICK_SHIFT | status << 16 | first << 8 | second)
         if len(packed) > most_events:
-            raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
-        if tick > MOST_TICKS:
+            raise ScoreLimitError(TOO_MANY_EVENTS, location=place(at))
+        if tick > MAX_TICKS:
             raise ScoreLimitError(
-                f"a length of {tick:,} ticks; at most {MOST_TICKS:,} are read", where=place(at)
+                f"a length of {tick:,} ticks; at most {MAX_TICKS:,} are read", location=place(at)
             )
     track.end_tick, track.end = tick, at
 
@@ -228,8 +228,8 @@ def _read_system(
             if not track.ports or track.ports[-1][1] != data[begin]:
                 track.ports.append((len(track.packed), data[begin]))
         elif kind in KEPT_METAS:
-            if len(track.metas) == MOST_METAS:
-                raise ScoreLimitError(TOO_MANY_EVENTS, where=place(at))
+            if len(track.metas) == MAX_METAS:
+                raise ScoreLimitError(TOO_MANY_EVENTS, location=place(at))
             track.metas.append(Meta(tick, kind, data[begin : begin + length], at - 1 + place.offset))
         elif kind in TEXTS and track.text_bytes < TEXT_BYTES:
             text = data[begin : begin + min(length, LONGEST_BYTES, TEXT_BYTES - track.text_bytes)]
@@ -257,7 +257,7 @@ def _read_system(
 
 def _keep_sysex(data: bytes, tick: int, track: Track) -> None:
     """Keep what a system exclusive message says of drums, if it says anything of them."""
-    if (mode := read_part_mode(data)) is not None and tick <= MOST_TICKS:
+    if (mode := read_part_mode(data)) is not None and tick <= MAX_TICKS:
         status = PART_MODE << 4 | mode.channel
         track.packed.append(tick << TICK_SHIFT | status << 16 | int(mode.is_drums) << 8)
     elif (standard := read_standard(data)) is not None:

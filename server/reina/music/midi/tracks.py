@@ -21,19 +21,19 @@ def read_tracks(data: bytes, header: Header, *, offset: int, limits: Limits, log
     while at < len(data):
         if data[at : at + 4] != b"MTrk":
             passed += 1
-            limits.check("chunks", passed, what="number of chunks", where=f"byte {at + offset}")
+            limits.check("chunks", passed, what="number of chunks", location=f"byte {at + offset}")
             at = _pass_chunk(data, at, offset, log)
         elif at + 8 >= len(data):
             log.add("truncated_track", f"byte {at + offset}", "the file ends at the beginning of a track")
             break
         else:
             number = len(tracks) + 1
-            limits.check("tracks", number, what="number of tracks", where=f"byte {at + offset}")
+            limits.check("tracks", number, what="number of tracks", location=f"byte {at + offset}")
             track, at = _read_chunk(data, at, number, offset, events_left, log)
             events_left -= len(track.packed)
             tracks.append(track)
     if not tracks:
-        raise ScoreError("the file has a MIDI header and no track", where=f"byte {header.end + offset}")
+        raise ScoreError("the file has a MIDI header and no track", location=f"byte {header.end + offset}")
     if len(tracks) != header.tracks:
         log.add(
             "track_count", "byte 10", f"the header counts {header.tracks} tracks; {len(tracks)} were found"

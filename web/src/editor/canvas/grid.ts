@@ -12,7 +12,7 @@ export interface GridLine {
 /** Pixels from one bar's number to the next, and from one beat to the next, at least. */
 const NUMBER_GAP = 46;
 const BEAT_GAP = 14;
-const MOST_LINES = 2000;
+const MAX_LINES = 2000;
 
 /** Bar lines and beats of a span of song time, seconds; beats and numbers only where there is room. */
 export function gridLines(score: Score, axis: TimeAxis, from: number, to: number, scale: number): GridLine[] {
@@ -24,7 +24,7 @@ export function gridLines(score: Score, axis: TimeAxis, from: number, to: number
   const barPixels =
     axis.barLengthAt(axis.beatsAt(middle)) * (axis.secondsAt(axis.beatsAt(middle) + 1) - middle) * scale;
   const step = 2 ** Math.max(Math.ceil(Math.log2(NUMBER_GAP / Math.max(barPixels, 1e-6))), 0);
-  for (let index = first; index < lines.length && found.length < MOST_LINES; index += 1) {
+  for (let index = first; index < lines.length && found.length < MAX_LINES; index += 1) {
     const time = lines[index] ?? 0;
     if (time > to) break;
     const number = index + offset;

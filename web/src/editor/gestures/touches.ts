@@ -12,7 +12,7 @@ export interface Pinch {
 }
 
 /** Nearer to each other than this, two fingers do not zoom, pixels. */
-const LEAST_APART = 24;
+const MIN_APART = 24;
 
 /** The fingers on the timeline. */
 export class Touches {
@@ -41,7 +41,7 @@ export class Touches {
     this.#points.set(id, { x, y });
     const after = this.#pair();
     if (before === null || after === null) return null;
-    const zooms = before.apart > LEAST_APART && after.apart > LEAST_APART;
+    const zooms = before.apart > MIN_APART && after.apart > MIN_APART;
     return {
       x: before.x,
       dx: after.x - before.x,

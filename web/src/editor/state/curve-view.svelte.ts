@@ -15,7 +15,7 @@ export interface CurvedTrack {
   readonly active: boolean;
 }
 
-const MOST_TRACKS = 8;
+const MAX_TRACKS = 8;
 /** A preview while a handle is held, at most one in so many milliseconds. */
 const PREVIEW_MS = 60;
 const POINTS_PER_PIXEL = 0.75;
@@ -44,7 +44,7 @@ export class CurveView {
       const parameter = this.#editor.parameter(track.parameter);
       return hasCurve(parameter) ? [{ track, parameter, active: track.parameter === active }] : [];
     });
-    return shown.sort((a, b) => Number(a.active) - Number(b.active)).slice(-MOST_TRACKS);
+    return shown.sort((a, b) => Number(a.active) - Number(b.active)).slice(-MAX_TRACKS);
   });
 
   /** The one that is looked at comes last. */

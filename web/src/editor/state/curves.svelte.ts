@@ -20,8 +20,8 @@ export interface CurvesAsked {
   readonly points: number;
 }
 
-const MOST_SAMPLES = 40_000;
-const MOST_PATHS = 64;
+const MAX_SAMPLES = 40_000;
+const MAX_PATHS = 64;
 
 /** Reads curves from the server: those of the show, and of a track as it would be. */
 export class CurveReader {
@@ -37,8 +37,8 @@ export class CurveReader {
 
   /** Curves of the show as it is, by parameter. */
   async read({ paths, from, to, points }: CurvesAsked, signal: AbortSignal): Promise<Map<string, SampledCurve>> {
-    const asked = paths.slice(0, MOST_PATHS);
-    const query = spanQuery(from, to, Math.min(points, Math.floor(MOST_SAMPLES / Math.max(asked.length, 1))));
+    const asked = paths.slice(0, MAX_PATHS);
+    const query = spanQuery(from, to, Math.min(points, Math.floor(MAX_SAMPLES / Math.max(asked.length, 1))));
     for (const path of asked) query.append("parameter", path);
     const address = this.#api.sessionPath(this.#session, `show/curves?${query.toString()}`);
     return byPath((await (await this.#api.request("GET", address, { signal })).json()) as ShowCurves);

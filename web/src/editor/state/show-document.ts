@@ -11,7 +11,7 @@ export const TIME_UNITS = ["bars", "beats", "seconds"] as const;
 export type TimeUnit = (typeof TIME_UNITS)[number];
 
 /** What a track does before its first keyframe and after its last. */
-export const OUTSIDE = ["hold", "loop", "ping_pong", "extrapolate"] as const;
+export const EXTRAPOLATIONS = ["hold", "loop", "ping_pong", "extrapolate"] as const;
 
 /** A named place, in the show's unit of time. */
 export interface ShowMarker {

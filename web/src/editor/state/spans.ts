@@ -31,7 +31,7 @@ export interface Retiming {
 }
 
 /** Keyframes may be stretched to this share of their span, and not nearer to each other. */
-const LEAST_STRETCH = 0.01;
+const MIN_STRETCH = 0.01;
 
 /** Take what is at `from` to `to`, song times, seconds, and everything with it. */
 export function movedBy(axis: TimeAxis, from: number, to: number): Retiming {
@@ -42,7 +42,7 @@ export function movedBy(axis: TimeAxis, from: number, to: number): Retiming {
 export function stretched(axis: TimeAxis, held: number, from: number, to: number): Retiming {
   const about = axis.beatsAt(held);
   const length = axis.beatsAt(from) - about;
-  const factor = length === 0 ? 1 : Math.max((axis.beatsAt(to) - about) / length, LEAST_STRETCH);
+  const factor = length === 0 ? 1 : Math.max((axis.beatsAt(to) - about) / length, MIN_STRETCH);
   return { about, factor, by: 0 };
 }
 

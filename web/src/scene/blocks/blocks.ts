@@ -11,7 +11,7 @@ import {
 } from "three";
 
 import type { ScoreView } from "../score";
-import { createBlockGeometry, createCardGeometry, createLineGeometry } from "./block_geometry";
+import { createBlockGeometry, createCardGeometry, createLineGeometry } from "./block-geometry";
 import { LANE, createLaneUniforms } from "./lane";
 import { type Chunk, layOut } from "./layout";
 import { BLOCK_FRAGMENT, BLOCK_VERTEX, HALO_FRAGMENT, HALO_VERTEX, LINE_FRAGMENT, LINE_VERTEX } from "./shaders";

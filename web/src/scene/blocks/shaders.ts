@@ -1,6 +1,6 @@
 /** The blocks, their halos and the staff's lines, as GLSL. */
 
-import { BLOCK } from "./block_geometry";
+import { BLOCK } from "./block-geometry";
 import { LANE_PLACE } from "./lane";
 
 const f = (value: number): string => value.toFixed(4);

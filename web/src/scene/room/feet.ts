@@ -3,16 +3,16 @@
 import { type Object3D, Vector3 } from "three";
 
 /** Feet that are shaded: four players'. */
-const MOST_FEET = 8;
+const MAX_FEET = 8;
 
 /** Far below: shades nothing. */
 const NOWHERE = -100;
 
 export const FOOT_SHADE = /* glsl */ `
-uniform vec3 feet[${MOST_FEET}];
+uniform vec3 feet[${MAX_FEET}];
 float footShade(vec3 place) {
   float open = 1.0;
-  for (int i = 0; i < ${MOST_FEET}; i++) {
+  for (int i = 0; i < ${MAX_FEET}; i++) {
     vec2 away = place.xz - feet[i].xz;
     float lifted = clamp((feet[i].y - 0.12) / 0.25, 0.0, 1.0);
     float near = dot(away, away);
@@ -27,11 +27,11 @@ export const FOOT_JOINTS = ["leftFoot", "rightFoot"] as const;
 const AHEAD = 0.07;
 
 export class Feet {
-  readonly uniforms = { feet: { value: Array.from({ length: MOST_FEET }, () => new Vector3(0, NOWHERE, 0)) } };
+  readonly uniforms = { feet: { value: Array.from({ length: MAX_FEET }, () => new Vector3(0, NOWHERE, 0)) } };
   #nodes: readonly Object3D[] = [];
 
   set(nodes: readonly Object3D[]): void {
-    this.#nodes = nodes.slice(0, MOST_FEET);
+    this.#nodes = nodes.slice(0, MAX_FEET);
     for (const foot of this.uniforms.feet.value) foot.set(0, NOWHERE, 0);
   }
 

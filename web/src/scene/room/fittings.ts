@@ -3,11 +3,11 @@
 import { BoxGeometry, type BufferGeometry, Mesh } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-import { instrumentsAtRest } from "./instruments_at_rest";
+import { instrumentsAtRest } from "./instruments-at-rest";
 import { painted } from "./painted";
 import { RISERS } from "./plan";
 import { createSurface, type RoomLight } from "./surface";
-import { wallFittings } from "./wall_fittings";
+import { wallFittings } from "./wall-fittings";
 
 /** Steps for the rows at the back, each with a paler edge. */
 function risers(): BufferGeometry[] {

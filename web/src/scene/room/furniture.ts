@@ -3,7 +3,7 @@
 import { BoxGeometry, type BufferGeometry, CylinderGeometry, InstancedMesh, type Material, Matrix4 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-import { type Patch } from "./contact_shade";
+import { type Patch } from "./contact-shade";
 import { RISERS } from "./plan";
 import { createSurface, type RoomLight } from "./surface";
 

@@ -12,7 +12,7 @@ import {
 } from "three";
 
 import { ROOM, WINDOWS } from "./plan";
-import { PLAYER_SHIFT } from "./window_light";
+import { PLAYER_SHIFT } from "./window-light";
 
 const SHEETS = 2;
 const PIECES = 10;

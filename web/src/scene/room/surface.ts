@@ -9,7 +9,7 @@ import {
 } from "three";
 
 import { ROOM } from "./plan";
-import { WINDOW_LIGHT } from "./window_light";
+import { WINDOW_LIGHT } from "./window-light";
 
 /** Shares of fill and rim that reach the room: they are for the player. */
 const FILL_SHARE = 0.35;

@@ -15,7 +15,7 @@ import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import { PANELLING, ROOM, WINDOWS } from "./plan";
 import { createSurface, type RoomLight } from "./surface";
-import { WINDOW_PATTERN } from "./window_light";
+import { WINDOW_PATTERN } from "./window-light";
 
 /** Plaster above wooden panelling, both darker toward the corners and the ceiling. */
 const WALL_COLOR = /* glsl */ `

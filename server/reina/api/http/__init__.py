@@ -1,0 +1,1 @@
+"""What every route shares: guards, bodies, conditions, ranges, problem details."""

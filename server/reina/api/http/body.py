@@ -1,0 +1,141 @@
+"""Request bodies: who may send one is decided first, then how large it may be, and then it is read."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from fastapi import Request
+from fastapi.routing import APIRoute
+from starlette.routing import compile_path
+
+from reina.api.http.access import admit
+from reina.api.http.problems import ProblemError
+from reina.api.upload import FILE_LIMITS, MAX_BYTES, MEGABYTE
+from reina.protocol.links import API
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncGenerator, Callable, Coroutine
+
+    from starlette.responses import Response
+
+READING = frozenset({"GET", "HEAD"})
+
+
+@dataclass(frozen=True)
+class BodyLimit:
+    """How large a body may be.
+
+    Attributes:
+        most_bytes: So large.
+        name: What it is called where it is larger.
+    """
+
+    most_bytes: int
+    name: str = "body"
+
+
+SMALL = BodyLimit(16_000)
+"""Commands, changes of single fields, what the laboratory is asked."""
+SHOW = BodyLimit(FILE_LIMITS["show"], "show")
+CLIP = BodyLimit(20 * MEGABYTE, "clip")
+TRACK = BodyLimit(10 * MEGABYTE, "track")
+BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
+    ("POST", "/sessions"): BodyLimit(MAX_BYTES, "upload"),
+    ("PUT", "/sessions/{session_id}/show"): SHOW,
+    ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
+    ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,
+    ("POST", "/sessions/{session_id}/show/curves"): TRACK,
+    ("POST", "/lab/bvh"): CLIP,
+    ("POST", "/lab/bvh/rewritten"): CLIP,
+}
+"""By method and address; every other body is `SMALL`."""
+_PATTERNS = [(method, compile_path(path)[0], limit) for (method, path), limit in BODY_LIMITS.items()]
+AT_ONCE = 64_000
+"""Bytes of JSON that are parsed without a thread, within a millisecond."""
+
+
+class BoundedRoute(APIRoute):
+    """A route that reads no byte of a body before session and token are known to be good, nor beyond a bound.
+
+    FastAPI itself reads and parses a whole body first, of whatever size, and asks for the token then.
+    """
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """As of every route, behind these checks."""
+        handle = super().get_route_handler()
+        if not (self.methods or set[str]()) - READING:
+            return handle
+
+        async def bounded(request: Request) -> Response:
+            await admit(request, self.dependant)
+            checked = BoundedRequest(request, _limit_of(request))
+            if self.body_field is not None:
+                await checked.body()
+            return await handle(checked)
+
+        return bounded
+
+
+def _limit_of(request: Request) -> BodyLimit:
+    path = request.scope["path"].removeprefix(API)
+    return next(
+        (limit for method, pattern, limit in _PATTERNS if method == request.method and pattern.match(path)),
+        SMALL,
+    )
+
+
+class BoundedRequest(Request):
+    """A request whose body is held to a bound while it is read, and parsed on a thread where it is long."""
+
+    def __init__(self, request: Request, limit: BodyLimit) -> None:
+        super().__init__(request.scope, request.receive)
+        self._limit = limit
+
+    async def stream(self) -> AsyncGenerator[bytes, None]:
+        """The body in pieces.
+
+        Raises:
+            ProblemError: 413 when it is too large, as it says itself or as it turns out.
+        """
+        declared = self.headers.get("content-length", "")
+        if declared.isdigit() and int(declared) > self._limit.most_bytes:
+            raise self._too_large()
+        read = 0
+        async for chunk in super().stream():
+            read += len(chunk)
+            if read > self._limit.most_bytes:
+                raise self._too_large()
+            yield chunk
+
+    async def json(self) -> Any:
+        """The body as JSON."""
+        if not hasattr(self, "_json"):
+            body = await self.body()
+            self._json = read_json(body) if len(body) <= AT_ONCE else await asyncio.to_thread(read_json, body)
+        return self._json
+
+    def _too_large(self) -> ProblemError:
+        most, name = self._limit.most_bytes, self._limit.name
+        shown = f"{most / MEGABYTE:g} MB" if most >= MEGABYTE else f"{most / 1000:g} kB"
+        return ProblemError(
+            413,
+            f"{name}-too-large",
+            "Content Too Large",
+            f"this {name} is larger than {shown}, the most here",
+        )
+
+
+def read_json(data: bytes) -> Any:
+    """Parse JSON so that other threads have their turns.
+
+    The parser is one call, which holds the interpreter's lock until it returns unless it calls something in
+    Python: here a function at every object, which gives it back as it is.
+
+    Raises:
+        ValueError: It is no JSON.
+        RecursionError: It is nested too deeply.
+    """
+    return json.loads(data, object_hook=lambda value: value)

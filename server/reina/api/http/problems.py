@@ -1,0 +1,182 @@
+"""Every error leaves as problem details (RFC 9457)."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Any
+
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import Response
+from starlette.exceptions import HTTPException
+from starlette.routing import Match
+
+from reina.errors import InputError
+from reina.instruments import CastError
+from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
+from reina.protocol.resources import Fault, Problem
+from reina.sessions.store import SessionEndedError
+from reina.show.errors import KeyNotFoundError, ShowError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from fastapi import FastAPI, Request
+    from pydantic import ValidationError
+    from starlette.routing import BaseRoute
+
+MEDIA_TYPE = "application/problem+json"
+MAX_FAULTS = 20
+"""So many are told of one request; whoever mends those hears of the rest."""
+METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
+"""What an address may answer to of itself."""
+
+
+RESPONSES: dict[int | str, dict[str, Any]] = {
+    "4XX": {"model": Problem, "description": "Why not, as problem details (RFC 9457)."}
+}
+"""What every route may answer with, for the description of the interface."""
+
+
+class ProblemError(Exception):
+    """A request that is refused.
+
+    Args:
+        status: HTTP status.
+        kind: Stable name of the kind of problem, for programs: ``"unknown-session"``.
+        title: The kind in a few words, for people.
+        detail: What was wrong, where, and what would be right.
+        errors: Each fault, where there are several.
+        headers: Beside the content type.
+    """
+
+    def __init__(
+        self,
+        status: int,
+        kind: str,
+        title: str,
+        detail: str,
+        *,
+        errors: Sequence[Fault] = (),
+        headers: Mapping[str, str] | None = None,
+    ) -> None:
+        super().__init__(detail)
+        self.status = status
+        faults = [
+            Fault(detail=_sendable(fault.detail), location=_sendable(fault.location or "") or None)
+            for fault in errors[:MAX_FAULTS]
+        ]
+        self.problem = Problem(
+            type=f"urn:reina:problem:{kind}",
+            title=title,
+            status=status,
+            detail=_sendable(detail),
+            errors=faults,
+        )
+        self.headers = dict(headers or {})
+
+    def response(self) -> Response:
+        """The problem as a response."""
+        return Response(
+            self.problem.model_dump_json(), self.status, headers=self.headers, media_type=MEDIA_TYPE
+        )
+
+
+def _sendable(text: str) -> str:
+    """What came in, repeated without half a character (a lone surrogate), which UTF-8 cannot hold."""
+    return text.encode("utf-8", "backslashreplace").decode()
+
+
+INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
+    (SessionEndedError, 404, "unknown-session", "There is no such session"),
+    (ScoreLimitError, 413, "score-too-large", "The score is larger than Reina reads"),
+    (NotInScoreError, 422, "not-in-score", "The score does not hold that"),
+    (ScoreError, 422, "score-unreadable", "The score cannot be read"),
+    (KeyNotFoundError, 404, "unknown-keyframe", "There is no such track or keyframe"),
+    (CastError, 422, "cast-unusable", "The cast cannot play"),
+    (ShowError, 422, "show-unusable", "The show cannot be used"),
+    (InputError, 422, "input-unusable", "The input cannot be used"),
+)
+"""What an input error is told as: the first row that fits."""
+
+
+def problem_of_input(error: InputError) -> ProblemError:
+    """The problem that an input error is told as."""
+    status, kind, title = next(
+        (status, kind, title) for cls, status, kind, title in INPUT_PROBLEMS if isinstance(error, cls)
+    )
+    faults: list[Fault] = []
+    if isinstance(error, ScoreError) and len(error.problems) > 1:
+        faults = [Fault(detail=what, location=place) for place, what in error.problems]
+    return ProblemError(status, kind, title, str(error), errors=faults)
+
+
+def _location(parts: Sequence[str | int]) -> str:
+    """("body", "loop", "start_s") -> "body/loop/start_s"."""
+    return "/".join(str(part) for part in parts)
+
+
+def problem_of_validation(error: RequestValidationError | ValidationError) -> ProblemError:
+    """The problem of fields that do not fit."""
+    found: Sequence[Mapping[str, Any]] = error.errors()
+    faults = [Fault(detail=str(fault["msg"]), location=_location(fault["loc"])) for fault in found]
+    told = [f"{fault.location}: {fault.detail}" for fault in faults[:MAX_FAULTS]]
+    if len(faults) > MAX_FAULTS:
+        told.append(f"and {len(faults) - MAX_FAULTS} more")
+    detail = "; ".join(told)
+    return ProblemError(422, "request-invalid", "The request does not fit", detail, errors=faults)
+
+
+def _problem_of_status(error: HTTPException) -> ProblemError:
+    phrase = HTTPStatus(error.status_code).phrase
+    details = {
+        404: "there is nothing at this address; /docs lists what there is",
+        405: "this address does not answer to that method",
+    }
+    detail = details.get(error.status_code, str(error.detail))
+    kind = phrase.lower().replace(" ", "-")
+    return ProblemError(error.status_code, kind, phrase, detail, headers=error.headers)
+
+
+def _not_answered(request: Request) -> Response:
+    """To a method that an address does not have: which it has; OPTIONS asks for nothing else."""
+    scope = {name: request.scope[name] for name in ("type", "path", "root_path", "headers")}
+    routes: list[BaseRoute] = request.app.routes
+    methods = {
+        method
+        for method in METHODS
+        if any(route.matches({**scope, "method": method})[0] is Match.FULL for route in routes)
+    }
+    # HEAD is answered as GET is.
+    methods |= {"OPTIONS"} | ({"HEAD"} if "GET" in methods else set())
+    allow = {"Allow": ", ".join(sorted(methods))}
+    if request.method == "OPTIONS":
+        return Response(status_code=204, headers=allow)
+    return _problem_of_status(HTTPException(405, headers=allow)).response()
+
+
+def install(app: FastAPI) -> None:
+    """Make the application answer every error so."""
+
+    async def refused(request: Request, error: Exception) -> Response:
+        match error:
+            case ProblemError():
+                return error.response()
+            case InputError():
+                return problem_of_input(error).response()
+            case RequestValidationError():
+                return problem_of_validation(error).response()
+            case HTTPException(status_code=405):
+                return _not_answered(request)
+            case HTTPException():
+                return _problem_of_status(error).response()
+            case _:
+                raise error
+
+    async def failed(_: Request, __: Exception) -> Response:
+        # The error itself is logged by the server, to which it is raised on.
+        detail = "the server made a mistake and has noted it; the request may be tried again"
+        return ProblemError(500, "internal", "Internal Server Error", detail).response()
+
+    for kind in (ProblemError, InputError, RequestValidationError, HTTPException):
+        app.add_exception_handler(kind, refused)
+    app.add_exception_handler(Exception, failed)

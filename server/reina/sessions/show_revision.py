@@ -1,0 +1,122 @@
+"""A session's show with its history: what was, what can be taken back, what can be done again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from operator import is_not
+from typing import TYPE_CHECKING
+
+from reina.protocol.messages import ShowState
+from reina.sessions.show_text import ShowText
+from reina.show import Show, ShowHistory, Track
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from reina.show import UnknownTrack
+
+MAX_KEYFRAMES_KEPT = 200_000
+"""Keyframes that only the history still holds; beyond that, its oldest steps are forgotten."""
+REFERENCES_A_KEYFRAME = 64
+"""A track that was edited holds its unchanged keyframes by reference alone: so many weigh what one weighs."""
+
+
+@dataclass(frozen=True)
+class ShowRevision:
+    """The show as it is, how it came to be, and how it is written. Never changed.
+
+    The history lives in memory alone: a session that is unloaded keeps its show, and forgets its past.
+
+    Attributes:
+        history: The show, its past, and what was taken back.
+        text: The show, written.
+        revision: How many steps led here, since the session was loaded.
+        weights: What each step holds beside what its neighbours hold, in keyframes: one for each state of the
+            past, the oldest first, then one for each that was taken back, the latest first.
+    """
+
+    history: ShowHistory
+    text: ShowText
+    revision: int = 0
+    weights: tuple[int, ...] = ()
+
+    @classmethod
+    def begin(cls, show: Show) -> ShowRevision:
+        """A show without a past."""
+        return cls(ShowHistory(show), ShowText.of(show))
+
+    @property
+    def show(self) -> Show:
+        """The show as it is."""
+        return self.history.show
+
+    def then(self, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
+        """One step on or back; the same where it changes nothing.
+
+        Raises:
+            ShowError: What the step raises.
+        """
+        history = step(self.history)
+        if history is self.history:
+            return self
+        weights = self.weights
+        if history.past and history.past[-1] is self.show and not history.future:
+            # An edit, and what was taken back before is forgotten; or the last such, which weighs the same.
+            done = len(self.history.past)
+            weights = (*weights[:done], _weight(self.show, history.show))[-len(history.past) :]
+        history, weights = _bounded(history, weights)
+        return ShowRevision(history, ShowText.of(history.show, self.text), self.revision + 1, weights)
+
+    @property
+    def state(self) -> ShowState:
+        """Which state this is, and how far it can be walked back and forth."""
+        return ShowState(
+            revision=self.revision,
+            etag=self.text.etag,
+            undo=len(self.history.past),
+            redo=len(self.history.future),
+        )
+
+
+def changed_paths(before: Show, after: Show) -> list[str] | None:
+    """The parameters whose tracks differ; None where more than those differ, or their order."""
+    if replace(before, tracks=()) != replace(after, tracks=()):
+        return None
+    old, new = ({track.parameter: track for track in show.tracks} for show in (before, after))
+    if [path for path in old if path in new] != [path for path in new if path in old]:
+        return None
+    return [path for path in {**old, **new} if not _same(old.get(path), new.get(path))]
+
+
+def _same(one: Track | UnknownTrack | None, other: Track | UnknownTrack | None) -> bool:
+    return one is other or one == other
+
+
+def _weight(before: Show, after: Show) -> int:
+    """What two states of a show hold that the other does not, in keyframes; 1 at least."""
+    old, new = ({track.parameter: track for track in show.tracks} for show in (before, after))
+    return 1 + sum(_weight_of_tracks(old.get(path), new.get(path)) for path in {**old, **new})
+
+
+def _weight_of_tracks(old: Track | UnknownTrack | None, new: Track | UnknownTrack | None) -> int:
+    if old is new:
+        return 0
+    one, other = (track.keyframes if isinstance(track, Track) else () for track in (old, new))
+    references = max(len(one), len(other)) // REFERENCES_A_KEYFRAME
+    if len(one) == len(other):
+        # Few keyframes that gave way to others at their own places, as mostly: no need to look for them.
+        replaced = sum(map(is_not, one, other))
+        if replaced <= references:
+            return replaced + references
+    shared = len(set(map(id, one)) & set(map(id, other)))
+    return max(len(one), len(other)) - shared + references
+
+
+def _bounded(history: ShowHistory, weights: tuple[int, ...]) -> tuple[ShowHistory, tuple[int, ...]]:
+    """Forget the oldest steps while all together weigh too much; what was taken back goes last."""
+    past = history.past
+    too_much = sum(weights) - MAX_KEYFRAMES_KEPT
+    while past and too_much > 0:
+        too_much -= weights[0]
+        past, weights = past[1:], weights[1:]
+    return replace(history, past=past), weights

@@ -1,0 +1,1 @@
+"""Long pure-Python work in processes of its own."""

@@ -1,0 +1,158 @@
+"""Reads scores and shows, writes MIDI: what is short on a thread, what is long in a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+from typing import cast as typed
+
+from reina.curves.shown import shown
+from reina.instruments.as_played import score_as_played
+from reina.music import read_score
+from reina.music.midi import write_midi
+from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
+from reina.sessions.production import Production, read_show
+from reina.sessions.workers.pool import WorkerPool
+from reina.show import Show, ShowError
+from reina.show.show_reader import read_track
+from reina.show.show_writer import keyframe_text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from reina.curves import Parameter, ParameterRegistry
+    from reina.instruments import Cast
+    from reina.sessions.stage import Stage
+    from reina.show import Track
+    from reina.show.time_map import TimeUnit
+
+T = TypeVar("T")
+
+LONG_BYTES = 64_000
+"""A longer file is read in a process; what takes a thread some tenths of a second is not worth one."""
+MIDI_BYTES = 16
+"""A note that is written weighs about as much as so many bytes that are read."""
+PACKED = 30
+"""A compressed score counts as so many times its size, about what JSON shrinks by."""
+
+
+class Reader:
+    """Reads what people send and what is kept of it.
+
+    Args:
+        stage: On what scores are played; never changed.
+        pool: Where long files are read.
+    """
+
+    def __init__(self, stage: Stage, pool: WorkerPool | None = None) -> None:
+        self._stage = stage
+        self._pool = pool or WorkerPool(shared_of(stage))
+
+    async def production(self, path: Path, *, filename: str | None, cast: Cast) -> Production:
+        """Read a score and plan how a cast plays it, with the show that is written for it.
+
+        Args:
+            path: The score's file.
+            filename: What its sender called it.
+            cast: Who plays what, and which of its sequences.
+
+        Raises:
+            InputError: It cannot be read, or not be played so.
+        """
+        size = await asyncio.to_thread(_weight, path)
+        return await self._read(size, read_and_plan, self._stage, path, filename, cast)
+
+    async def show(self, data: bytes, registry: ParameterRegistry) -> Show:
+        """Read a show from JSON text.
+
+        Args:
+            data: The show.
+            registry: What it can move.
+
+        Raises:
+            ShowError: It is no show.
+        """
+        return await self._read(len(data), read_written_show, data, registry)
+
+    async def track(self, data: bytes, parameter: Parameter, unit: TimeUnit) -> Track:
+        """Read a track from JSON text.
+
+        Args:
+            data: The track; it may leave out its parameter.
+            parameter: What it moves.
+            unit: The unit of its times where it names none.
+
+        Raises:
+            ShowError: It is no track of the parameter.
+        """
+        return await self._read(len(data), read_written_track, data, parameter, unit)
+
+    async def midi(self, production: Production) -> bytes:
+        """Write the score of a production as its players play it, as a MIDI file."""
+        played = [performer.played for performer in production.performers]
+        score = await asyncio.to_thread(score_as_played, production.score, played)
+        return await self._read(MIDI_BYTES * len(score.notes), write_midi, score)
+
+    async def aclose(self) -> None:
+        """Stop the processes."""
+        await self._pool.aclose()
+
+    async def _read(self, size: int, function: Callable[..., T], *arguments: object) -> T:
+        if size <= LONG_BYTES:
+            return await asyncio.to_thread(function, *arguments)
+        return await self._pool.run(function, *arguments)
+
+
+def shared_of(stage: Stage) -> tuple[object, ...]:
+    """What productions hold of a stage, so that none brings its own copy from the other process."""
+    parts = (*stage.rigs.values(), *stage.holds.values(), *stage.kinds.values())
+    return (stage, stage.rigs, stage.holds, stage.kinds, stage.parameters, *parts, *stage.parameters)
+
+
+def _weight(path: Path) -> int:
+    """A score's size, roughly, in bytes that have to be read."""
+    with path.open("rb") as file:
+        packed = file.read(4).startswith((GZIP_MAGIC, *ZIP_MAGICS))
+    return path.stat().st_size * (PACKED if packed else 1)
+
+
+def read_and_plan(stage: Stage, path: Path, filename: str | None, cast: Cast) -> Production:
+    """What `Reader.production` does."""
+    score = read_score(path.read_bytes(), filename=filename, sequence=cast.sequence)
+    return Production.plan(stage, score, cast=cast)
+
+
+def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:
+    """What `Reader.show` does; its keyframes are written too, which takes as long as reading them."""
+    show = read_show(data, registry)
+    for track in show.tracks:
+        _write(track)
+    return show
+
+
+def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Track:
+    """What `Reader.track` does."""
+    try:
+        document: object = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise ShowError(f"the track is no JSON: {error}", track=parameter.path) from error
+    if not isinstance(document, Mapping):
+        raise ShowError(f"a track is a JSON object, not {type(document).__name__}", track=parameter.path)
+    fields = typed("Mapping[str, Any]", document)
+    if fields.get("parameter", parameter.path) != parameter.path:
+        detail = f"this is the track of {parameter.path}, and the body names {shown(fields['parameter'])}"
+        raise ShowError(detail, track=parameter.path, field="parameter")
+    if not fields.get("keyframes") and "events" not in fields:
+        detail = "a track has one keyframe at least, or answers events; DELETE removes it"
+        raise ShowError(detail, track=parameter.path)
+    track = read_track(fields, parameter, unit)
+    _write(track)
+    return track
+
+
+def _write(track: object) -> None:
+    for keyframe in getattr(track, "keyframes", ()):
+        keyframe_text(keyframe)

@@ -1,0 +1,32 @@
+"""The show: its document, tracks and edits, its answers to the music. Knows neither music nor skeletons."""
+
+from reina.show.edits import EDITS, with_edits
+from reina.show.errors import KeyNotFoundError, ShowError
+from reina.show.event_response import EventResponse, NoteFilter
+from reina.show.show import Marker, Show
+from reina.show.show_history import ShowHistory
+from reina.show.show_plan import ShowPlan
+from reina.show.show_writer import keyframe_document, track_document
+from reina.show.time_map import TimeMap, TimeUnit
+from reina.show.track import Track, UnknownTrack
+from reina.show.triggers import Triggers
+
+__all__ = [
+    "EDITS",
+    "EventResponse",
+    "KeyNotFoundError",
+    "Marker",
+    "NoteFilter",
+    "Show",
+    "ShowError",
+    "ShowHistory",
+    "ShowPlan",
+    "TimeMap",
+    "TimeUnit",
+    "Track",
+    "Triggers",
+    "UnknownTrack",
+    "keyframe_document",
+    "track_document",
+    "with_edits",
+]

@@ -1,0 +1,70 @@
+"""What happens in the music, as arrays: the events that a track may answer."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+
+import numpy as np
+
+from reina.curves.arrays import BoolArray, FloatArray, IntArray
+from reina.show.time_map import TimeMap
+
+Occasion = Literal["notes", "beats", "bars"]
+OCCASIONS: tuple[Occasion, ...] = get_args(Occasion)
+
+
+def _no_floats() -> FloatArray:
+    return np.zeros(0)
+
+
+def _no_integers() -> IntArray:
+    return np.zeros(0, dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Triggers:
+    """The notes of a score as columns, in the order of their onsets, and how long the score is.
+
+    Attributes:
+        onset_s: ``(N,)``.
+        part: ``(N,)`` index of the part.
+        pitch: ``(N,)`` MIDI number as sounded.
+        velocity: ``(N,)`` 0..1.
+        valves: ``(N, V)`` which valves are down; V is 0 where nobody knows.
+        end_s: Where beats and bars end.
+        joined_to: ``(N,)`` index of the part that each note's part is joined to; its own part otherwise.
+    """
+
+    onset_s: FloatArray = field(default_factory=_no_floats)
+    part: IntArray = field(default_factory=_no_integers)
+    pitch: IntArray = field(default_factory=_no_integers)
+    velocity: FloatArray = field(default_factory=_no_floats)
+    valves: BoolArray = field(default_factory=lambda: np.zeros((0, 0), dtype=np.bool_))
+    end_s: float = 0.0
+    joined_to: IntArray = field(default_factory=_no_integers)
+
+    def __post_init__(self) -> None:
+        counts = {column.shape[0] for column in (self.onset_s, self.part, self.pitch, self.velocity)}
+        if self.valves.size == 0:
+            object.__setattr__(self, "valves", np.zeros((self.onset_s.size, 0), dtype=np.bool_))
+        if self.joined_to.size == 0:
+            object.__setattr__(self, "joined_to", self.part)
+        if counts | {self.valves.shape[0], self.joined_to.shape[0]} != {self.onset_s.size}:
+            raise ValueError("the columns of triggers are of one length, one entry a note")
+        if np.any(np.diff(self.onset_s) < 0.0):
+            raise ValueError("triggers stand in the order of their onsets")
+
+    def beats_s(self, time_map: TimeMap) -> FloatArray:
+        """Every beat before the end, seconds."""
+        last = float(time_map.beats(np.array([self.end_s]))[0])
+        return time_map.to_seconds(_whole_numbers(last), "beats")
+
+    def bars_s(self, time_map: TimeMap) -> FloatArray:
+        """Every bar line before the end, seconds."""
+        last = float(time_map.from_seconds(np.array([self.end_s]), "bars")[0])
+        return time_map.to_seconds(_whole_numbers(last), "bars")
+
+
+def _whole_numbers(end: float) -> FloatArray:
+    """0, 1, 2 and so on, before an end."""
+    return np.arange(max(0, math.ceil(end - 1e-9)), dtype=np.float64)

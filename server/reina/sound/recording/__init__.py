@@ -1,0 +1,1 @@
+"""What a person's recording is: its container, length and peaks, from its own bytes."""

@@ -1,0 +1,217 @@
+"""The renderer with its real process; the soundfont is a single click, so that it takes no time."""
+
+import asyncio
+import hashlib
+import wave
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+import pytest
+from tests.unit.sound.material import CLICK_HZ, Row, a_score, write_click_soundfont
+
+from reina.errors import InputError
+from reina.music import Score
+from reina.sound.recording.probe import probe_recording
+from reina.sound.renderer import MissingSoundfontError, SongRenderer, SongRequest, SoundError
+
+SHORT = a_score([(0, 0.5, 0.15, 60, 1.0), (0, 1.25, 0.15, 60, 1.0)])
+
+
+def long_score(first_pitch: int = 60) -> Score:
+    """An hour in which all channels sound, which takes long to render."""
+    rows: list[Row] = [(0, at * 0.2, 0.2, first_pitch + at % 12, 0.5) for at in range(5 * 3590)]
+    return a_score(rows)
+
+
+@pytest.fixture(scope="module")
+def soundfont(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_click_soundfont(tmp_path_factory.mktemp("font") / "click.sf2")
+
+
+R = TypeVar("R")
+
+
+def with_renderer(
+    data_dir: Path, soundfont: Path | None, use: Callable[[SongRenderer], Awaitable[R]], timeout_s: float = 60
+) -> R:
+    """Run `use` on a renderer that is closed afterwards."""
+
+    async def run() -> R:
+        renderer = SongRenderer(data_dir, soundfont=soundfont, timeout_s=timeout_s)
+        try:
+            return await asyncio.wait_for(use(renderer), 60)
+        finally:
+            await renderer.aclose()
+
+    return asyncio.run(run())
+
+
+async def until_it_runs(request: SongRequest) -> None:
+    for _ in range(1000):
+        if request.progress > 0:
+            return
+        await asyncio.sleep(0.01)
+    raise TimeoutError
+
+
+def files(data_dir: Path) -> list[str]:
+    return sorted(path.name for path in data_dir.rglob("*") if path.is_file())
+
+
+def test_a_score_becomes_a_song_whose_time_is_the_score_s(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> Path:
+        request = await renderer.request(SHORT)
+        assert not request.ready
+        assert request.progress < 1
+        path = await request.wait()
+        assert request.ready
+        assert request.progress == 1
+        assert request.error is None
+        return path
+
+    path = with_renderer(tmp_path, soundfont, use)
+    assert path.parent == tmp_path / "songs"
+    assert files(tmp_path) == [path.name]
+    info, _ = probe_recording(path.read_bytes())
+    assert (info.format, info.sample_rate, info.channels) == ("WAV", 48000, 2)
+    with wave.open(str(path)) as file:
+        sound = np.frombuffer(file.readframes(file.getnframes()), dtype="<i2").reshape(-1, 2)[:, 0] / 32768
+    for onset_s in (0.5, 1.25):
+        begin = round((onset_s - 0.2) * 48000)
+        around = np.abs(sound[begin : begin + 48000 // 2])
+        first = begin + int(np.flatnonzero(around > 0.1 * around.max())[0])
+        assert first / 48000 == pytest.approx(onset_s, abs=0.0015)
+    note = sound[24500 : 24500 + 4800]
+    assert np.argmax(np.abs(np.fft.rfft(note))) * 10 == pytest.approx(CLICK_HZ, abs=10)
+
+
+def test_the_same_score_is_rendered_once(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> tuple[Path, Path, Path]:
+        one, two = await asyncio.gather(renderer.request(SHORT), renderer.request(SHORT))
+        paths = await one.wait(), await two.wait()
+        modified = paths[0].stat().st_ino
+        again = await renderer.request(SHORT)
+        assert again.ready
+        assert again.path.stat().st_ino == modified
+        return *paths, again.path
+
+    assert len(set(with_renderer(tmp_path, soundfont, use))) == 1
+
+    async def in_another_server(renderer: SongRenderer) -> bool:
+        return (await renderer.request(SHORT)).ready
+
+    assert with_renderer(tmp_path, soundfont, in_another_server)
+
+
+def test_rendering_twice_gives_the_same_bytes(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> str:
+        return hashlib.sha256((await (await renderer.request(SHORT)).wait()).read_bytes()).hexdigest()
+
+    assert with_renderer(tmp_path / "1", soundfont, use) == with_renderer(tmp_path / "2", soundfont, use)
+
+
+def test_progress_rises(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> list[float]:
+        request = await renderer.request(a_score([(0, at * 0.5, 0.4, 60, 0.5) for at in range(400)]))
+        seen = [request.progress]
+        while not request.ready:
+            await asyncio.sleep(0.005)
+            assert request.error is None
+            seen.append(request.progress)
+        return seen
+
+    seen = with_renderer(tmp_path, soundfont, use)
+    assert seen == sorted(seen)
+    assert seen[0] == 0
+    assert seen[-1] == 1
+    assert len(set(seen)) > 4
+
+
+def test_it_stops_when_nobody_waits_any_more(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        one, two = await renderer.request(long_score()), await renderer.request(long_score())
+        await until_it_runs(one)
+        one.cancel()
+        one.cancel()
+        await asyncio.sleep(0.05)
+        assert two.error is None
+        two.cancel()
+        with pytest.raises(SoundError, match="cancelled"):
+            await two.wait()
+        assert files(tmp_path) == []
+        # The turn is free again, and the same score can be asked for anew.
+        await (await renderer.request(SHORT)).wait()
+        assert not (await renderer.request(long_score())).ready
+
+    with_renderer(tmp_path, soundfont, use)
+    assert len(files(tmp_path)) == 1
+
+
+def test_closing_leaves_no_process_and_nothing_half_made(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        running, waiting = await renderer.request(long_score()), await renderer.request(long_score(61))
+        await until_it_runs(running)
+        await renderer.aclose()
+        assert waiting.progress == 0
+        assert running.error is not None
+        assert waiting.error is not None
+
+    with_renderer(tmp_path, soundfont, use)
+    assert files(tmp_path) == []
+
+
+def test_what_takes_too_long_is_stopped(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        request = await renderer.request(long_score())
+        with pytest.raises(SoundError, match="took over"):
+            await request.wait()
+        assert not request.ready
+
+    with_renderer(tmp_path, soundfont, use, timeout_s=0.5)
+    assert files(tmp_path) == []
+
+
+def test_a_broken_soundfont_is_told(tmp_path: Path, soundfont: Path) -> None:
+    broken = tmp_path / "broken.sf2"
+    broken.write_bytes(soundfont.read_bytes()[:4000])
+
+    async def use(renderer: SongRenderer) -> None:
+        request = await renderer.request(SHORT)
+        with pytest.raises(SoundError, match="could not be rendered: the synthesizer"):
+            await request.wait()
+
+    with_renderer(tmp_path / "data", broken, use)
+    assert files(tmp_path / "data") == []
+
+
+def test_a_missing_soundfont_is_told_at_once(tmp_path: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        with pytest.raises(MissingSoundfontError, match="cannot be read"):
+            await renderer.request(SHORT)
+
+    with_renderer(tmp_path, tmp_path / "none.sf2", use)
+
+
+def test_too_long_a_score_is_refused_at_once(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        with pytest.raises(InputError, match="at most 60"):
+            await renderer.request(a_score([(0, 3600.0, 1.0, 60, 0.5)]))
+
+    with_renderer(tmp_path, soundfont, use)
+
+
+def test_prune_removes_what_was_not_asked_for_the_longest(tmp_path: Path, soundfont: Path) -> None:
+    async def use(renderer: SongRenderer) -> None:
+        paths = [
+            await (await renderer.request(a_score([(0, 0.5, 0.1, 60, velocity)]))).wait()
+            for velocity in (0.3, 0.6, 0.9)
+        ]
+        sizes = [path.stat().st_size for path in paths]
+        await renderer.request(a_score([(0, 0.5, 0.1, 60, 0.3)]))
+        freed = renderer.prune(sizes[0] + sizes[2], in_use=[paths[2]])
+        assert freed == sizes[1]
+        assert [path.exists() for path in paths] == [True, False, True]
+
+    with_renderer(tmp_path, soundfont, use)
