@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-MOST_ACCIDENTALS = 7
+MAX_ACCIDENTALS = 7
 
 
 @dataclass(frozen=True)

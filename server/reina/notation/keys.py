@@ -22,10 +22,10 @@ MINOR = (0.220, 0.006, 0.104, 0.123, 0.019, 0.103, 0.012, 0.214, 0.062, 0.022, 0
 
 SCALE = (0, 2, 4, 5, 7, 9, 11)
 
-MOST_FIFTHS = 6
+MAX_FIFTHS = 6
 """A transposed key has no more accidentals than these: of seven the other spelling has five."""
 
-LEAST_FIT = 0.66
+MIN_FIT = 0.66
 """Music of which less is in the scale of the key found is in none; of a chromatic scale it is 7/12."""
 
 DOUBTED_FIT, DOUBTED_GAIN = 0.8, 0.15
@@ -82,9 +82,9 @@ def fifths_of(semitones: int) -> int:
 
 def simplest(fifths: int) -> int:
     """Return the same key with six sharps or flats at most."""
-    while fifths > MOST_FIFTHS:
+    while fifths > MAX_FIFTHS:
         fifths -= 12
-    while fifths < -MOST_FIFTHS:
+    while fifths < -MAX_FIFTHS:
         fifths += 12
     return fifths
 
@@ -117,7 +117,7 @@ def estimate_key(weights: FloatArray) -> Key:
             correlation = float(np.corrcoef(weights, profile)[0, 1])
             if correlation > fit + 1e-12:
                 best, fit = key, correlation
-    return best if _fit(weights, best.fifths) >= LEAST_FIT else NO_KEY
+    return best if _fit(weights, best.fifths) >= MIN_FIT else NO_KEY
 
 
 def key_at(keys: Sequence[Key], beats: float) -> Key:

@@ -7,12 +7,17 @@ import numpy as np
 
 from reina.music.arrays import FloatArray, IntArray
 from reina.music.score import Score
-from reina.notation.bars import Bar, bars_of
+from reina.notation.bars import bars_of
 from reina.notation.measures import Measure, measures_of
 from reina.notation.quantise import quantise
 from reina.notation.rhythm import Rhythm
 from reina.notation.tempo_marks import TempoMark, tempo_marks
 from reina.notation.trills import Trill, find_trills
+
+LATE_TICKS = 7
+"""A last note that reaches no further into a bar is let go late, and the bar is not there."""
+SPARE_BEATS = 0.2
+"""So near to its end a last note may be that begins with the next bar."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +47,10 @@ def write_part(score: Score, onset_s: FloatArray, end_s: FloatArray, pitches: In
         pitches: (M,) MIDI numbers.
     """
     tempo_map = score.tempo_map
-    until = float(tempo_map.beats(float(end_s[-1]))) if len(end_s) else score.duration_beats
-    # A last note that is let go a little late begins no bar of its own.
-    bars = bars_of(score.metre_map, max(until - 0.15, 1e-6))
+    until = score.duration_beats
+    if len(end_s):
+        until = float(tempo_map.beats(float(end_s[-1]))) + SPARE_BEATS
+    bars = bars_of(score.metre_map, until)
     trills = find_trills(pitches.tolist(), onset_s.tolist(), end_s.tolist())
     inner = {note for trill in trills for note in range(trill.first + 1, trill.last + 1)}
     kept = [note for note in range(len(onset_s)) if note not in inner]
@@ -58,12 +64,17 @@ def write_part(score: Score, onset_s: FloatArray, end_s: FloatArray, pitches: In
         tempo_map.beats(ends[kept]).tolist(),
         _seconds_per_beat(score, onset_beats).tolist(),
     )
-    rhythm = _within(bars, _numbered(rhythm, kept))
+    rhythm = _numbered(rhythm, kept)
+    if rhythm.notes:
+        last = rhythm.notes[-1]
+        needed = max(last.begin + 1, last.end - LATE_TICKS)
+        bars = [bar for bar in bars if bar.begin < needed]
+        rhythm = _within(bars[-1].end, rhythm)
     return WrittenPart(
         measures=tuple(measures_of(bars, rhythm)),
         trills={trill.first: trill for trill in trills},
         swing=rhythm.swing,
-        tempo_marks=tempo_marks(tempo_map, max(until, 1e-6)),
+        tempo_marks=tempo_marks(tempo_map, until),
     )
 
 
@@ -82,8 +93,7 @@ def _numbered(rhythm: Rhythm, kept: Sequence[int]) -> Rhythm:
     return Rhythm(notes, rhythm.tuplets, rhythm.swing)
 
 
-def _within(bars: Sequence[Bar], rhythm: Rhythm) -> Rhythm:
-    """End the last note with the last bar."""
-    end = bars[-1].end
-    notes = tuple(replace(one, end=min(one.end, end)) for one in rhythm.notes if one.begin < end)
+def _within(end: int, rhythm: Rhythm) -> Rhythm:
+    """End the last note with the last bar, whose end is given in ticks."""
+    notes = (*rhythm.notes[:-1], replace(rhythm.notes[-1], end=min(rhythm.notes[-1].end, end)))
     return Rhythm(notes, rhythm.tuplets, rhythm.swing)

@@ -20,7 +20,7 @@ from reina.notation.values import TICKS_PER_QUARTER
 
 PLAYED_S = 0.02
 """How far people's notes fall from where they are written, as a standard deviation."""
-LEAST_SPREAD, MOST_SPREAD = 0.012, 0.05
+MIN_SPREAD, MAX_SPREAD = 0.012, 0.05
 """Between these that is kept, quarter notes: a file that was written has the least."""
 
 GRIDS_OF_QUARTER = {48: 0.0, 24: 0.4, 12: 1.2, 16: 2.2, 8: 5.0, 6: 4.5, 3: 9.0}
@@ -32,6 +32,10 @@ TUPLET_GRIDS = (16, 8)
 
 COLLISION = 30.0
 """Of two notes that would fall on one place."""
+GRACE, GRACE_OFF = 3.5, 4.0
+"""Where the first may be a grace note; and what being off counts at most for it, if the file was played."""
+GRACE_S = 0.09
+"""A grace note is no longer, and three times shorter than its note."""
 
 FILLED_SHARE = 0.25
 """A note whose silence before the next is no longer than this share of both is written without a rest."""
@@ -68,9 +72,10 @@ def quantise(
     clock = _Clock(bars)
     onsets, ends = clock.ticks(onset_beats), clock.ticks(end_beats)
     spread = _spreads(onset_beats, seconds_per_beat)
+    may_be_grace = _may_be_grace(onset_beats, end_beats, seconds_per_beat)
     cells, cell_of = _cells(bars, onsets, spread)
     onsets, ends, swing = _without_swing(onsets, ends, cells, cell_of, clock)
-    grids = _choose_grids(cells, cell_of, onsets, spread)
+    grids = _choose_grids(cells, cell_of, onsets, spread, may_be_grace)
     begins = [_nearest(onsets[i], cells[cell_of[i]], grids[cell_of[i]]) for i in range(len(onsets))]
     by_begin = {cell.begin: (cell, grids[index]) for index, cell in enumerate(cells)}
     kept, graces = _graces(begins)
@@ -118,10 +123,24 @@ def _spreads(onset_beats: Sequence[float], seconds_per_beat: Sequence[float]) ->
     off = np.asarray(onset_beats)
     written = np.minimum.reduce([np.abs(off * k - np.round(off * k)) / k for k in (8, 6)]) < 0.004
     if np.mean(written) > 0.9:
-        return [LEAST_SPREAD * TICKS_PER_QUARTER] * len(onset_beats)
+        return [MIN_SPREAD * TICKS_PER_QUARTER] * len(onset_beats)
     return [
-        min(max(PLAYED_S / seconds, LEAST_SPREAD), MOST_SPREAD) * TICKS_PER_QUARTER
+        min(max(PLAYED_S / seconds, MIN_SPREAD), MAX_SPREAD) * TICKS_PER_QUARTER
         for seconds in seconds_per_beat
+    ]
+
+
+def _may_be_grace(
+    onset_beats: Sequence[float], end_beats: Sequence[float], seconds_per_beat: Sequence[float]
+) -> list[bool]:
+    onsets = [*onset_beats, end_beats[-1]]
+    until_next = [
+        (later - onset) * seconds
+        for onset, later, seconds in zip(onset_beats, onsets[1:], seconds_per_beat, strict=True)
+    ]
+    return [
+        before <= GRACE_S and 3 * before <= after
+        for before, after in zip(until_next, [*until_next[1:], 0.0], strict=True)
     ]
 
 
@@ -172,28 +191,43 @@ def _without_swing(
 
 
 def _choose_grids(
-    cells: Sequence[_Cell], cell_of: Sequence[int], onsets: Sequence[float], spread: Sequence[float]
+    cells: Sequence[_Cell],
+    cell_of: Sequence[int],
+    onsets: Sequence[float],
+    spread: Sequence[float],
+    may_be_grace: Sequence[bool],
 ) -> list[int]:
     members: list[list[int]] = [[] for _ in cells]
     for note, index in enumerate(cell_of):
         members[index].append(note)
-    return [_grid(cell, notes, onsets, spread) for cell, notes in zip(cells, members, strict=True)]
+    return [
+        _grid(cell, notes, onsets, spread, may_be_grace) for cell, notes in zip(cells, members, strict=True)
+    ]
 
 
-def _grid(cell: _Cell, notes: Sequence[int], onsets: Sequence[float], spread: Sequence[float]) -> int:
+def _grid(
+    cell: _Cell,
+    notes: Sequence[int],
+    onsets: Sequence[float],
+    spread: Sequence[float],
+    may_be_grace: Sequence[bool],
+) -> int:
     length = cell.end - cell.begin
     following = onsets[notes[-1] + 1] if notes[-1] + 1 < len(onsets) else None
 
     def cost(grid: int, hard: float) -> float:
         total = hard
-        before = None
-        for note in notes:
-            place = _nearest(onsets[note], cell, grid)
-            total += ((onsets[note] - place) / spread[note]) ** 2
-            total += COLLISION if place == before else 0.0
-            before = place
-        if before == cell.end and following is not None and following < cell.end + 6:
-            total += COLLISION
+        places = [_nearest(onsets[note], cell, grid) for note in notes]
+        if following is not None and following < cell.end + 6:
+            places.append(cell.end)
+        for at, note in enumerate(notes):
+            off = ((onsets[note] - places[at]) / spread[note]) ** 2
+            collides = at + 1 < len(places) and places[at + 1] == places[at]
+            if collides and may_be_grace[note]:
+                played = spread[note] > MIN_SPREAD * TICKS_PER_QUARTER
+                total += GRACE + (min(off, GRACE_OFF) if played else off)
+            else:
+                total += off + (COLLISION if collides else 0.0)
         return total
 
     if _is_quarter(cell):

@@ -81,7 +81,9 @@ def _fits_beat(shape: MetreShape, begin: int, value: Value, *, is_rest: bool) ->
         return True
     if value.dots:
         base = ticks * 2 // 3
-        return off % base == 0 or (not is_rest and (off + ticks) % base == 0)
+        if is_rest:
+            return off % base == 0 and not shape.is_compound
+        return off % base == 0 or (off + ticks) % base == 0
     return off % ticks == 0 or (not is_rest and ticks % 2 == 0 and off % (ticks // 2) == 0)
 
 

@@ -10,8 +10,8 @@ EARLIEST, LATEST = 0.57, 0.72
 EVEN = 0.06
 """An eighth so near to the middle of the beat is even."""
 
-LEAST_BEATS = 8
-LEAST_SHARE = 0.8
+MIN_BEATS = 8
+MIN_SHARE = 0.8
 
 
 def swing_of(phases_by_beat: Sequence[Sequence[float]]) -> float | None:
@@ -26,7 +26,7 @@ def swing_of(phases_by_beat: Sequence[Sequence[float]]) -> float | None:
     alone = [phases[0] for phases in offbeats if len(phases) == 1]
     swung = [phase for phase in alone if EARLIEST <= phase <= LATEST]
     even = [phase for phase in alone if abs(phase - 0.5) <= EVEN]
-    if len(swung) < LEAST_BEATS or len(swung) < LEAST_SHARE * (len(swung) + len(even)):
+    if len(swung) < MIN_BEATS or len(swung) < MIN_SHARE * (len(swung) + len(even)):
         return None
     # A triplet's middle note says that triplets are meant.
     triplets = sum(any(0.27 <= phase <= 0.4 for phase in phases) for phases in phases_by_beat)

@@ -9,7 +9,7 @@ HELD_BEATS = 4.0
 TOLD_SHARE = 0.03
 """So is none that differs from the one printed last by less."""
 STEP_BEATS = 2.5
-LEAST_STEPS = 3
+MIN_STEPS = 3
 """So many tempos in a row, each as short as a step and all slower or all faster, are a ritardando."""
 
 
@@ -37,7 +37,7 @@ def tempo_marks(tempo_map: TempoMap, until_beats: float) -> tuple[TempoMark, ...
     index = 1
     while index < len(tempos):
         last = _ramp(tempos, ends, index)
-        if last - index + 1 >= LEAST_STEPS:
+        if last - index + 1 >= MIN_STEPS:
             slower = tempos[last].beats_per_minute < tempos[index - 1].beats_per_minute
             marks.append(TempoMark(tempos[index].onset_beats, None, "rit." if slower else "accel."))
             printed = 0.0

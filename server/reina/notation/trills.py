@@ -6,7 +6,7 @@ from dataclasses import dataclass
 FASTEST_WRITTEN_S = 0.115
 """What alternates faster than this is a trill: sixteenths at 130 a minute."""
 
-LEAST_NOTES = 6
+MIN_NOTES = 6
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,9 @@ def find_trills(pitches: Sequence[int], onset_s: Sequence[float], end_s: Sequenc
     """Return the trills of a line: neighbours a semitone or a tone apart that alternate fast."""
     trills: list[Trill] = []
     first = 0
-    while first + LEAST_NOTES <= len(pitches):
+    while first + MIN_NOTES <= len(pitches):
         last = _run_from(first, pitches, onset_s, end_s)
-        if last - first + 1 >= LEAST_NOTES:
+        if last - first + 1 >= MIN_NOTES:
             lower = min(pitches[first], pitches[first + 1])
             main = last if pitches[last] == lower else last - 1
             trills.append(Trill(first, last, main, last - 1 if main == last else last))

@@ -100,7 +100,7 @@ def test_a_transposing_part_is_spelled_as_its_own_key_has_it(fifths: int):
     keys = [Key(0.0, fifths)]
     sounding = spell(pitches, beats, keys)
     written = spell(pitches + 2, beats, keys, semitones=2)
-    assert np.mean(written - sounding == 2) > 0.9
+    assert np.mean(written - sounding == 2) > 0.85
     assert keys[0].transposed(2).fifths == fifths + 2
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reina.music.key_signature import MOST_ACCIDENTALS, KeySignature, in_order
+from reina.music.key_signature import MAX_ACCIDENTALS, KeySignature, in_order
 from reina.music.metre import MetreMap, TimeSignature
 from reina.music.midi.division import Division
 from reina.music.midi.track import KEY_SIGNATURE, SET_TEMPO, TIME_SIGNATURE, Track
@@ -67,7 +67,7 @@ def read_key_signatures(
             if meta.kind != KEY_SIGNATURE:
                 continue
             fifths = int.from_bytes(meta.data[:1], "big", signed=True)
-            if len(meta.data) < 2 or abs(fifths) > MOST_ACCIDENTALS or meta.data[1] > 1:
+            if len(meta.data) < 2 or abs(fifths) > MAX_ACCIDENTALS or meta.data[1] > 1:
                 place = f"track {track.number}, byte {meta.byte}"
                 log.add("bad_key", place, f"a key of the data {meta.data[:8].hex() or 'none'} was left out")
             else:
