@@ -120,13 +120,14 @@ class _Clock:
 
 def _spreads(onset_beats: Sequence[float], seconds_per_beat: Sequence[float]) -> list[float]:
     """Return by how many ticks each onset may be off, as a standard deviation."""
-    off = np.asarray(onset_beats)
-    written = np.minimum.reduce([np.abs(off * k - np.round(off * k)) / k for k in (8, 6)]) < 0.004
-    if np.mean(written) > 0.9:
-        return [MIN_SPREAD * TICKS_PER_QUARTER] * len(onset_beats)
+    beats = np.asarray(onset_beats)
+    written = np.minimum.reduce([np.abs(beats * k - np.round(beats * k)) / k for k in (8, 6)]) < 0.004
+    was_written = float(np.mean(written)) > 0.9
     return [
-        min(max(PLAYED_S / seconds, MIN_SPREAD), MAX_SPREAD) * TICKS_PER_QUARTER
-        for seconds in seconds_per_beat
+        MIN_SPREAD * TICKS_PER_QUARTER
+        if was_written and is_exact
+        else min(max(PLAYED_S / seconds, MIN_SPREAD), MAX_SPREAD) * TICKS_PER_QUARTER
+        for seconds, is_exact in zip(seconds_per_beat, written.tolist(), strict=True)
     ]
 
 
