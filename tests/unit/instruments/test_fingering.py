@@ -96,6 +96,17 @@ def test_each_note_says_what_was_chosen_and_why():
     assert fast == "3 in place of 1-2 beside G4, C5 at 12 notes a second: moves 2 fingers and not 4"
 
 
+def test_usual_fingerings_alone_are_those_of_the_chart():
+    score = score_of(melody(written(77, 76, 77, 69, 67, 69, 91, 90, 91), 0.08))
+    trumpet = INSTRUMENTS["trumpet"]
+    assert not trumpet.play(score, 0).fingering.primary.all()
+    usual = trumpet.play(score, 0, usual_fingerings=True)
+    chart = {note.sounding_pitch: list(note.fingerings[0]) for note in trumpet.fingering_chart}
+    pitches = usual.line.sounding_pitch.tolist()
+    assert [usual.fingering.pressed(note) for note in range(len(pitches))] == [chart[p] for p in pitches]
+    assert usual.fingering.primary.all()
+
+
 def test_what_is_out_of_range_is_not_played_with_other_valves():
     played = play(melody([51, 52, 89, 90]))
     assert played.fingering.playable.tolist() == [False, True, True, False]
