@@ -19,6 +19,7 @@ from reina.api import (
     frames,
     library,
     page,
+    part,
     rigs,
     sessions,
     show,
@@ -103,6 +104,7 @@ def create_app(
         library,
         lab,
         cast,
+        part,
         catalogue,
         stream,
     ):

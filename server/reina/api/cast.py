@@ -9,14 +9,24 @@ from fastapi import APIRouter, Body
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
-from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting
+from reina.instruments import INSTRUMENTS, MAX_PLAYERS, Cast, Casting, Instrument
 from reina.instruments.player import SEATS
+from reina.notation import both_names
 from reina.protocol import resources
 from reina.sessions.description import cast_resource
 
 router = APIRouter(tags=["cast"], route_class=BoundedRoute)
 
-ALONE = ("part", "transposition", "written", "octave_fit", "joined_parts", "player", "handedness")
+ALONE = (
+    "part",
+    "transposition",
+    "written",
+    "octave_fit",
+    "joined_parts",
+    "usual_fingerings",
+    "player",
+    "handedness",
+)
 """Fields of the form that are for one player."""
 
 EXAMPLE = {"castings": [{"part": 0, "player": "soloist", "instrument": "cornet", "octave_fit": True}]}
@@ -34,6 +44,9 @@ async def list_instruments(store: Store) -> resources.InstrumentList:
                 rig=INSTRUMENTS[name].rig,
                 players=list(store.stage.players(name)),
                 handedness=list(INSTRUMENTS[name].handedness),
+                clef=INSTRUMENTS[name].clef,
+                valves=INSTRUMENTS[name].valve_count,
+                chart=_chart(INSTRUMENTS[name]),
             )
             for name in store.stage.instruments
         ],
@@ -104,3 +117,16 @@ def refuse_twice(alone: Iterable[str]) -> None:
 def _casting(fields: dict[str, Any]) -> Casting:
     fields["joined_parts"] = tuple(fields["joined_parts"])
     return Casting(**fields)
+
+
+def _chart(instrument: Instrument) -> list[resources.ChartLine]:
+    return [
+        resources.ChartLine(
+            sounding_pitch=note.sounding_pitch,
+            written_pitch=note.written_pitch,
+            sounding_names=list(both_names(note.sounding_pitch)),
+            written_names=list(both_names(note.written_pitch)),
+            fingerings=[list(fingering) for fingering in note.fingerings],
+        )
+        for note in instrument.fingering_chart
+    ]

@@ -79,6 +79,11 @@ _FORM: dict[str, Any] = {
                             "description": "indices of further parts that the player plays together with it, "
                             "as `1,2`",
                         },
+                        "usual_fingerings": {
+                            "type": "boolean",
+                            "default": False,
+                            "description": "take no fingering but the usual one of each note",
+                        },
                         "sequence": {
                             "type": "integer",
                             "minimum": 0,
@@ -100,8 +105,8 @@ _FORM: dict[str, Any] = {
                             "type": "string",
                             "contentMediaType": "application/json",
                             "description": "everybody who plays, as `PUT /sessions/{id}/cast` takes it, "
-                            "in place of part, transposition, written, octave_fit, joined_parts, player and "
-                            "handedness; `auto`, the default where none of these is there, gives a player "
+                            "in place of part, transposition, written, octave_fit, joined_parts, usual_fingerings, "
+                            "player and handedness; `auto`, the default where none of these is there, gives a player "
                             "to each part that the score has for the instruments that there are",
                         },
                     },

@@ -30,6 +30,7 @@ FIELD_LIMITS = {
     "written": 5,
     "octave_fit": 5,
     "joined_parts": 10_000,
+    "usual_fingerings": 5,
     "sequence": 10,
     "player": 200,
     "handedness": 10,

@@ -20,6 +20,7 @@ from reina.cli.score_tables import (
 from reina.errors import InputError, ReinaError
 from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score
 from reina.music import Score, read_score
+from reina.notation import keys_of
 from reina.sessions.production import Production
 from reina.sessions.stage import Stage
 
@@ -48,6 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="who plays what: JSON or a file of it, as PUT /sessions/{id}/cast takes it, or auto; "
         "each player's part, fingerings and warnings are printed",
     )
+    parser.add_argument(
+        "--usual-fingerings", action="store_true", help="take no fingering but the usual one of each note"
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -69,6 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
             written=arguments.written,
             octave_fit=arguments.octave_fit,
             joined_parts=arguments.joined_parts,
+            usual_fingerings=arguments.usual_fingerings,
         )
     except (OSError, ReinaError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
@@ -88,7 +93,14 @@ def _of_cast(file: Path, arguments: argparse.Namespace) -> str:
         InputError: The score or the cast cannot be read, or not be played so.
         OSError: A file cannot be read.
     """
-    alone = {"part": None, "transposition": 0, "written": False, "octave_fit": False, "joined_parts": ()}
+    alone = {
+        "part": None,
+        "transposition": 0,
+        "written": False,
+        "octave_fit": False,
+        "joined_parts": (),
+        "usual_fingerings": False,
+    }
     said = [f"--{name.replace('_', '-')}" for name, value in alone.items() if vars(arguments)[name] != value]
     if said:
         raise InputError(f"--cast says what everybody plays; leave out {', '.join(said)}")
@@ -130,12 +142,34 @@ def _lines(
     yield from section("Metre")
     metres = [(f"{s.onset_beats:g}", f"{s.numerator}/{s.denominator}") for s in score.metre_map.signatures]
     yield from table(("beat", "metre"), metres)
+    yield from section("Key")
+    yield from table(("beat", "sounds", "written", "because"), _keys(score, instrument, played))
     yield from section(f"Parts, the best for {instrument.name} first")
     yield from table(
         ("", "part", "name", "program", "notes", "score", "because"), _parts(score, rankings, played)
     )
     yield from warning_lines((*score.warnings, *played.warnings))
     yield from fingering_lines(score, instrument, played)
+
+
+_BECAUSE = {
+    "file": "the file says so",
+    "notes": "found from the notes",
+    "none": "the notes are in none",
+}
+
+
+def _keys(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:
+    above = instrument.written_pitch(0)
+    return [
+        (
+            f"{key.onset_beats:g}",
+            key.transposed(played.transposition).name,
+            key.transposed(played.transposition + above).name,
+            _BECAUSE[key.source],
+        )
+        for key in keys_of(score)
+    ]
 
 
 def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) -> list[tuple[str, ...]]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from reina.instruments import Instrument, PlayedPart, pitch_name
+from reina.instruments import Instrument, NoteNames, PlayedPart
 from reina.music import Score, ScoreWarning
 
 REST = "–"
@@ -40,9 +40,10 @@ def fingering_rows(score: Score, instrument: Instrument, played: PlayedPart) -> 
     """What is played, note by note, in the columns of `FINGERING_HEADS`."""
     rows: list[tuple[str, ...]] = []
     line, fingering = played.line, played.fingering
+    names = NoteNames(score, [(instrument, played)])
     positions = score.metre_map.positions(score.notes.onset_beats[line.note_index])
     for place, position in enumerate(positions):
-        pitch = int(line.sounding_pitch[place])
+        sounding, written = names.of(int(line.note_index[place]))
         played_so = fingering.notes[place]
         rows.append(
             (
@@ -50,8 +51,8 @@ def fingering_rows(score: Score, instrument: Instrument, played: PlayedPart) -> 
                 f"{position.beat:g}",
                 f"{line.onset_s[place]:.3f}",
                 f"{line.end_s[place] - line.onset_s[place]:.3f}",
-                pitch_name(instrument.written_pitch(pitch)),
-                pitch_name(pitch),
+                written,
+                sounding,
                 REST if played_so is None else instrument.show_fingering(played_so),
                 fingering.reasons[place],
             )

@@ -5,6 +5,7 @@ Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 
 from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
 from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
+from reina.instruments.chart_note import ChartNote
 from reina.instruments.describe import describe_notes, describe_score
 from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
@@ -17,6 +18,7 @@ from reina.instruments.note_fingerings import (
     StrikeFingering,
     ValvesFingering,
 )
+from reina.instruments.note_names import NoteNames, spell_line
 from reina.instruments.parameters import cast_parameters, player_parameters, streamed_parameters
 from reina.instruments.performer import GESTURES, Performer, PerformerFrames
 from reina.instruments.pitch_names import pitch_name
@@ -33,11 +35,13 @@ __all__ = [
     "Cast",
     "CastError",
     "Casting",
+    "ChartNote",
     "Fingering",
     "Instrument",
     "KeysFingering",
     "Line",
     "NoteFingering",
+    "NoteNames",
     "PartRanking",
     "Performer",
     "PerformerFrames",
@@ -58,6 +62,7 @@ __all__ = [
     "playable_line",
     "player_parameters",
     "rank_parts",
+    "spell_line",
     "streamed_parameters",
     "unplayed_parts",
     "who_has_tune",

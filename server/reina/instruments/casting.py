@@ -33,6 +33,7 @@ class Casting:
         octave_fit: Whether it is moved by the octaves that bring most of it into range.
         joined_parts: Further parts that are played together with it.
         handedness: Which hand leads: one of `HANDEDNESS` that the instrument is played with.
+        usual_fingerings: Whether no fingering is taken but the usual one of each note.
     """
 
     part: int | None = None
@@ -44,10 +45,11 @@ class Casting:
     octave_fit: bool = False
     joined_parts: tuple[int, ...] = ()
     handedness: str = "right"
+    usual_fingerings: bool = False
 
     @property
     def sound(self) -> tuple[object, ...]:
-        """What of it is heard: who plays, and where, is not."""
+        """What of it is heard: who plays, where, and with which valves, is not."""
         heard = (self.part, self.transposition, self.written, self.octave_fit, self.joined_parts)
         return (*heard, self.instrument)
 

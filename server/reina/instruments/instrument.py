@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from reina.curves import Parameter
+    from reina.instruments.chart_note import ChartNote
     from reina.instruments.note_fingerings import NoteFingering
     from reina.instruments.played import PlayedPart
     from reina.instruments.player.engagement import Engagement
@@ -64,6 +65,7 @@ class Instrument(ABC):
         written: bool = False,
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
+        usual_fingerings: bool = False,
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -74,12 +76,28 @@ class Instrument(ABC):
             written: Whether its pitches are the written ones of this instrument and not those that sound.
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
             joined_parts: Indices of further parts that are played with it, as if their notes were its own.
+            usual_fingerings: Whether to take no fingering but the usual one of each note.
 
         Raises:
             NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
         """
 
     # --- its notation
+
+    @property
+    def clef(self) -> Literal["treble", "bass"]:
+        """The clef that it is written in."""
+        return "treble"
+
+    @property
+    def valve_count(self) -> int:
+        """How many valves it has; an instrument of another kind has none."""
+        return 0
+
+    @property
+    def fingering_chart(self) -> tuple[ChartNote, ...]:
+        """How each note is fingered on valves, from the lowest up; of other kinds there is no chart."""
+        return ()
 
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""

@@ -105,6 +105,8 @@ class Session(WireModel):
     """Further parts that the player plays together with it, as if their notes were its own; ascending."""
     handedness: str
     """Which of the player's hands leads."""
+    usual_fingerings: bool
+    """Whether no fingering is taken but the usual one of each note."""
     player: str
     """Who plays: a rig with a hold on the instrument."""
     players: list[str]
@@ -164,6 +166,7 @@ class SessionChange(WireModel):
     written: bool | None = None
     octave_fit: bool | None = None
     joined_parts: list[PartIndex] | None = None
+    usual_fingerings: bool | None = None
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName | None = None
     handedness: Handedness | None = None
@@ -187,6 +190,8 @@ class CastingFields(WireModel):
     joined_parts: list[PartIndex] = Field(default_factory=list[int])
     handedness: Handedness = "right"
     """Which hand leads, where the instrument can be played so."""
+    usual_fingerings: bool = False
+    """Take no fingering but the usual one of each note."""
 
 
 class CastFields(WireModel):
@@ -218,6 +223,7 @@ class SessionFields(WireModel):
         default_factory=list[int]
     )
     """As `1,2`."""
+    usual_fingerings: bool = False
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName = "trumpeter"
     handedness: Handedness = "right"
@@ -238,6 +244,7 @@ class CastingSummary(WireModel):
     octave_fit: bool
     joined_parts: list[int]
     handedness: str
+    usual_fingerings: bool
     sounding_transposition: int
     """Semitones by which the part is played away from the file's pitches."""
     notes: int
@@ -299,6 +306,18 @@ class Cast(WireModel):
     """Who is heard above the others, from the beginning to the end: the higher, livelier, louder line."""
 
 
+class ChartLine(WireModel):
+    """How an instrument plays one note."""
+
+    sounding_pitch: int
+    written_pitch: int
+    sounding_names: list[str]
+    """One name, or of a black key both: the sharp, then the flat."""
+    written_names: list[str]
+    fingerings: list[list[int]]
+    """The usual one first, then the alternates; each the valves that are down, ascending."""
+
+
 class InstrumentSummary(WireModel):
     """An instrument that somebody can play."""
 
@@ -309,6 +328,12 @@ class InstrumentSummary(WireModel):
     """The rigs that hold it."""
     handedness: list[str]
     """Which hand may lead."""
+    clef: Literal["treble", "bass"]
+    """The clef that it is written in."""
+    valves: int
+    """How many it has."""
+    chart: list[ChartLine]
+    """Every note that it has, from the lowest up."""
 
 
 class InstrumentList(WireModel):
@@ -339,6 +364,22 @@ class Metre(WireModel):
     denominator: int
 
 
+class MusicKey(WireModel):
+    """A key and where it begins."""
+
+    onset_beats: float
+    onset_s: float
+    name: str
+    """As the first player's part sounds: `E♭ major`; `no key` where the notes are in none."""
+    fifths: int
+    """Sharps of its signature; flats are negative."""
+    written_name: str
+    """As it stands in the first player's part."""
+    written_fifths: int
+    source: Literal["file", "notes", "none"]
+    """Whether the file says it, or it is found from the notes."""
+
+
 class Score(WireModel):
     """The score, as far as it is drawn and played."""
 
@@ -352,9 +393,11 @@ class Score(WireModel):
     joined_parts: list[int]
     """Further parts that the player plays together with it, ascending."""
     handedness: str
+    usual_fingerings: bool
     parts: list[PartSummary]
     tempi: list[Tempo]
     metres: list[Metre]
+    keys: list[MusicKey]
     bar_lines_s: list[float]
     notes: list[WireNote]
     """By onset; of one part alone with `?part=`."""

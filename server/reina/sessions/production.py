@@ -225,6 +225,7 @@ def _prepare(
                 written=casting.written,
                 octave_fit=casting.octave_fit,
                 joined_parts=casting.joined_parts,
+                usual_fingerings=casting.usual_fingerings,
             )
         except NotInScoreError as error:
             raise NotInScoreError(error.detail, location=f"{place}{error.location}") from error

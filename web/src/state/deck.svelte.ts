@@ -36,6 +36,7 @@ export class Deck {
   showOpen = $state(remembered().showOpen);
   noteNames = $state(remembered().noteNames);
   helpOpen = $state(false);
+  paperOpen = $state(false);
   cameraTaken = $state(false);
   /** The window has room for one panel at a time. */
   narrow = $state(false);
@@ -69,6 +70,7 @@ export class Deck {
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
     show: () => this.toggleShow(),
+    paper: () => this.togglePaper(),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
@@ -106,14 +108,22 @@ export class Deck {
 
   togglePiece(open = !this.pieceOpen): void {
     if (open && this.narrow) this.toggleShow(false);
+    if (open) this.paperOpen = false;
     this.pieceOpen = open;
     remember({ pieceOpen: open });
   }
 
   toggleShow(open = !this.showOpen): void {
     if (open && this.narrow) this.togglePiece(false);
+    if (open && this.narrow) this.paperOpen = false;
     this.showOpen = open;
     remember({ showOpen: open });
+  }
+
+  togglePaper(open = !this.paperOpen): void {
+    if (open) this.togglePiece(false);
+    if (open && this.narrow) this.toggleShow(false);
+    this.paperOpen = open;
   }
 
   nameNotes(noteNames: NoteNames): void {
@@ -123,6 +133,7 @@ export class Deck {
 
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
+    else if (this.paperOpen) this.togglePaper(false);
     else if (this.showOpen) this.toggleShow(false);
     else if (this.pieceOpen) this.togglePiece(false);
     else return false;

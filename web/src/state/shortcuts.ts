@@ -25,6 +25,7 @@ export type Action =
   | "fullscreen"
   | "piece"
   | "show"
+  | "paper"
   | "names"
   | "open"
   | "help";
@@ -64,6 +65,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },
+  { action: "paper", keys: ["t"], shown: "T", says: "The part on paper" },
   { action: "names", keys: ["n"], shown: "N", says: "Name notes as written, or as they sound" },
   { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },
   { action: "help", keys: ["?"], shown: "?", says: "This list" },

@@ -1,4 +1,5 @@
 export type NoteNames = "written" | "sounding";
+export type Paper = "A4" | "letter";
 
 /** What this browser remembers: the sessions that it may change, and how the person likes the page. */
 export interface Remembered {
@@ -19,6 +20,8 @@ export interface Remembered {
   readonly snaps: readonly ("bars" | "beats" | "keys" | "markers" | "frames")[];
   /** Notes are called as written for the trumpet, or as they sound. */
   readonly noteNames: NoteNames;
+  /** What parts are printed on; null for what is usual where the person is. */
+  readonly paper: Paper | null;
   /** Somebody has pressed Play here before: the welcome has done its work. */
   readonly hasPlayed: boolean;
 }
@@ -38,6 +41,7 @@ const NOTHING: Remembered = {
   snapping: true,
   snaps: ["bars", "beats", "keys", "markers"],
   noteNames: "written",
+  paper: null,
   hasPlayed: false,
 };
 
