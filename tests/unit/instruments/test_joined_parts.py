@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from tests.unit.instruments.scores import melody, score_of
 
-from reina.instruments import INSTRUMENTS, describe_notes, describe_score
+from reina.instruments import describe_notes, describe_score
+from reina.instruments.brass.family import FAMILY
 from reina.music import NotInScoreError
 
-TRUMPET = INSTRUMENTS["trumpet"]
+TRUMPET = FAMILY["trumpet"]
 SCORE = score_of(
     melody([65, 67], start=0.0),
     melody([84], start=0.5),

@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from reina.instruments import INSTRUMENTS, PlayedPart
+from reina.instruments.brass.family import FAMILY
+from reina.instruments.brass.fingering import BrassPart
 from reina.music import Score, read_score
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 FILES = sorted((EXAMPLES / "scores").iterdir())
-TRUMPET = INSTRUMENTS["trumpet"]
+TRUMPET = FAMILY["trumpet"]
 
 
-def opened(name: str) -> tuple[Score, PlayedPart]:
+def opened(name: str) -> tuple[Score, BrassPart]:
     path = EXAMPLES / "scores" / name
     score = read_score(path.read_bytes(), filename=path.name)
     return score, TRUMPET.play(score, TRUMPET.rank_parts(score)[0].part)

@@ -6,6 +6,7 @@ import pytest
 
 from reina import rotations as r
 from reina.curves import ParameterRegistry
+from reina.instruments.brass.fingering import brass_fingering
 from reina.instruments.player.pose_keys import POSE_PARAMETERS
 from reina.performance import BLOCK_FRAMES, FrameBlock, Performance
 from reina.show import Show, TimeMap
@@ -178,7 +179,7 @@ def test_valves_follow_the_fingering(played: Frames) -> None:
         following = float(part.line.onset_s[note + 1]) if note + 1 < len(part.line) else np.inf
         end = min(end, following - min(0.040, 0.4 * (following - onset)))
         inside = (played.time_s >= onset) & (played.time_s < end - 1e-9)
-        wanted = part.fingering.valves[note].astype(np.float64)
+        wanted = brass_fingering(part).valves[note].astype(np.float64)
         found = played.parameters[inside, valve : valve + 3]
         np.testing.assert_array_equal(found, np.broadcast_to(wanted, found.shape))
         checked += int(inside.sum())
