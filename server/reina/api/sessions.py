@@ -106,8 +106,9 @@ _FORM: dict[str, Any] = {
                             "contentMediaType": "application/json",
                             "description": "everybody who plays, as `PUT /sessions/{id}/cast` takes it, "
                             "in place of part, transposition, written, octave_fit, joined_parts, "
-                            "usual_fingerings, player and handedness; `auto`, the default where none of these "
-                            "is there, gives a player to each part that the score has for the instruments that there are",
+                            "usual_fingerings, player and handedness; `auto`, the default where none of "
+                            "these is there, gives a player to each part that the score has for the "
+                            "instruments that there are",
                         },
                     },
                 }
