@@ -1,4 +1,4 @@
-"""Microseconds a frame to evaluate and to encode one player, by block length.
+"""Microseconds a frame to evaluate and to encode a player, by block length, and a block of several players.
 
 Run as ``python tests/benchmarks/bench_frame.py``. A 3,000-note part with every gesture on and a show with a
 dozen tracks. What counts is the block of 60, which is what the server evaluates; the best of many
@@ -19,11 +19,11 @@ from typing import TYPE_CHECKING
 import mido
 import numpy as np
 
-from reina.instruments import INSTRUMENTS, Performer, player_parameters
-from reina.instruments.player import Engagement
+from reina.instruments import INSTRUMENTS, Performer, cast_parameters
+from reina.instruments.player import SEATS, SEATS_FOR, Engagement, plan_glances
 from reina.music import read_score
 from reina.performance import Performance
-from reina.protocol import build_manifest, encode_block
+from reina.protocol import Manifest, build_manifest, encode_block
 from reina.show import Show, TimeMap
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 RIGS = Path(__file__).parents[2] / "rigs"
 BLOCK_LENGTHS = (1, 6, 30, 60, 600)
+CASTS = (1, 2, 4, 8)
+"""How many play; a session has four at most, eight are for this measurement."""
 
 
 def part(notes: int) -> bytes:
@@ -51,9 +53,10 @@ def part(notes: int) -> bytes:
     return data.getvalue()
 
 
-def performance(notes: int, tracks: int = 12) -> Performance:
-    """A performance of such a part under a show with so many tracks, twelve at most."""
-    registry = stage_registry().extended(player_parameters(0, INSTRUMENTS["trumpet"]))
+def performance(notes: int, tracks: int = 12, players: int = 1) -> Performance:
+    """So many players, each with such a part, under a show with so many tracks, twelve at most."""
+    instrument = INSTRUMENTS["trumpet"]
+    registry = stage_registry().extended(cast_parameters([instrument] * players))
     numbers = [p for p in registry if p.type == "number"][:tracks]
     documents = [
         {
@@ -66,21 +69,35 @@ def performance(notes: int, tracks: int = 12) -> Performance:
         for parameter in numbers
     ]
     score = read_score(part(notes))
-    instrument = INSTRUMENTS["trumpet"]
     show = Show.from_document({"version": 1, "tracks": documents}, registry)
-    performer = Performer(
-        instrument,
-        Engagement(
-            score=score,
-            played=instrument.play(score, 0),
-            player_rig=load_rig(RIGS / "trumpeter"),
-            instrument_rigs={instrument.name: load_rig(RIGS / "trumpet")},
-            hold=load_hold(RIGS / "trumpeter", "trumpet"),
-            registry=registry,
-        ),
-    )
+    names = SEATS_FOR[1] if players == 1 else tuple(SEATS)[1:]
+    seats = [SEATS[names[number % len(names)]] for number in range(players)]
+    played = [instrument.play(score, 0) for _ in seats]
+    rigs = [load_rig(RIGS / name) for name in ("trumpeter", "soloist")]
+    holds = [load_hold(RIGS / name, "trumpet") for name in ("trumpeter", "soloist")]
+    trumpet = load_rig(RIGS / "trumpet")
+    performers = [
+        Performer(
+            instrument,
+            Engagement(
+                score=score,
+                played=part_of,
+                player_rig=rigs[number % 2],
+                instrument_rigs={instrument.name: trumpet},
+                hold=holds[number % 2],
+                registry=registry,
+                number=number,
+                seat=seat,
+                seed=number,
+                glances=looks,
+            ),
+        )
+        for number, (part_of, seat, looks) in enumerate(
+            zip(played, seats, plan_glances(played, seats), strict=True)
+        )
+    ]
     plan = show.plan(registry, TimeMap.steady())
-    return Performance([performer], plan, duration_s=score.duration_s)
+    return Performance(performers, plan, duration_s=score.duration_s)
 
 
 def microseconds(run: Callable[[int], object], frames: int, repetitions: int) -> tuple[float, float]:
@@ -142,6 +159,22 @@ def main() -> None:
     for name, run_part in parts.items():
         best, middle = microseconds(run_part, 60, options.repetitions)
         print(f"{best:14.1f} {middle:7.1f}   {name}")
+
+    print("players    best  median   of one   block, ms   (a block of 60)")
+    alone = 0.0
+    for players in CASTS:
+        several = performance(options.notes, players=players)
+        manifest = build_manifest(several.layout)
+
+        def run_cast(
+            repetition: int, several: Performance = several, manifest: Manifest = manifest
+        ) -> object:
+            first = 60 * (repetition % 400)
+            return encode_block(manifest, several.sample(np.arange(first, first + 60) / 60.0, first))
+
+        best, middle = microseconds(run_cast, 60, options.repetitions)
+        alone = alone or best
+        print(f"{players:7d} {best:7.1f} {middle:7.1f} {best / alone:8.2f} {middle * 60 / 1000:15.2f}")
 
 
 if __name__ == "__main__":

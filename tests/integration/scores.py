@@ -48,6 +48,24 @@ def duet() -> bytes:
     return file.getvalue()
 
 
+def trumpets(count: int = 4, *, notes: int = 30) -> bytes:
+    """So many trumpets, one entering after the other, each a third lower, with a long rest in the middle."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    for channel in range(count):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        track.append(mido.MetaMessage("track_name", name=f"Trumpet {channel + 1}"))
+        track.append(mido.Message("program_change", program=56, channel=channel))
+        for number in range(notes):
+            note = {"note": 76 - 4 * channel + 5 * number % 7, "channel": channel}
+            rest = {0: 2 * TICKS + channel * TICKS, notes // 2: 16 * TICKS}.get(number, 0)
+            track.append(mido.Message("note_on", velocity=90, time=rest, **note))
+            track.append(mido.Message("note_off", time=TICKS // 2, **note))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
 def relay() -> bytes:
     """A melody that goes from a trumpet to a muted one; a flute and drums beside it, two notes each."""
     midi = mido.MidiFile(ticks_per_beat=TICKS)

@@ -103,10 +103,10 @@ def _pose(
     return Pose(positions, rotations, rig)
 
 
-def button(instrument: Pose, take_: Take, valve: int) -> NDArray[np.float64]:
+def button(instrument: Pose, take_: Take, valve: int, prefix: str = "") -> NDArray[np.float64]:
     """(F, 3): the top of a valve's button in the world = the instrument's pose · (up + value · travel)."""
     entry = next(entry for entry in instrument.rig["buttons"] if entry["valve"] == valve)
-    value = take_.parameters[f"trumpet/valve/{valve}"]
+    value = take_.parameters[f"{prefix}trumpet/valve/{valve}"]
     local = np.array(entry["position"]) + value * np.array(entry["travel"])
     root = instrument.rig["joints"][0]["name"]
     return instrument.positions[root] + instrument.rotations[root].apply(local)

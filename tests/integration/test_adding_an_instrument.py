@@ -6,6 +6,7 @@ import io
 import json
 import re
 import shutil
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -162,6 +163,7 @@ def test_one_that_cannot_be_used_is_told(
     from reina.instruments.registry import InstrumentError, discover_instruments
 
     install(tmp_path, point)
-    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    monkeypatch.delitem(sys.modules, "desk_bell", raising=False)
     with pytest.raises(InstrumentError, match=re.escape(told)):
         discover_instruments()

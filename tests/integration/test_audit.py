@@ -267,10 +267,10 @@ def test_another_process_gives_the_same_bytes(
 
 def test_every_gesture_has_an_amount_that_frames_obey(client: httpx.Client) -> None:
     """Every ``player/`` parameter is listed, and what a show sets it to is seen in the frames."""
-    listed = client.get("/api/v1/parameters").raise_for_status().json()["parameters"]
+    made = upload(client, "a long note and a rest")
+    listed = client.get(f"/api/v1/sessions/{made['id']}/parameters").raise_for_status().json()["parameters"]
     player = {entry["path"]: entry for entry in listed if entry["path"].startswith("player/")}
     assert len(player) >= 15
-    made = upload(client, "a long note and a rest")
     headers = {"Authorization": f"Bearer {made['control_token']}"}
 
     def frames(*tracks: dict[str, Any]) -> dict[str, NDArray[np.float64]]:

@@ -9,7 +9,7 @@ import httpx
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from tests.integration.scores import duet, scale, song
+from tests.integration.scores import collection, duet, relay, scale, song, trumpets
 from tests.integration.server import serve, upload
 from tests.integration.stranger import take
 from tests.integration.test_audit import excess
@@ -90,13 +90,14 @@ def test_each_player_plays_exactly_wherever_they_stand(pair: Owned) -> None:
 
 def test_a_second_player_changes_nothing_for_the_first_but_the_seat(client: httpx.Client) -> None:
     castings = [{"part": 1, "seat": "middle"}, {"part": 0, "seat": "left", "transposition": -12}]
-    both = upload(client, duet(), **SONG, cast=json.dumps({"castings": castings}))
-    alone = upload(client, duet(), **SONG)
+    rest: dict[str, Any] = {"show": ("show.json", b'{"version": 1, "tracks": []}')}
+    both = upload(client, duet(), **SONG, **rest, cast=json.dumps({"castings": castings}))
+    alone = upload(client, duet(), **SONG, **rest)
     assert all(one["seat_chosen"] for one in client.get(f"{both.path}/cast").json()["castings"])
     one, two = (take(client, made.id, 0.0, 2.0) for made in (alone, both))
     for skeleton in ("player", "trumpet"):
         np.testing.assert_array_equal(one.local[skeleton], two.local[skeleton])
-    for path in one.parameters.keys() - {"camera/position", "camera/target"}:
+    for path in one.parameters:
         np.testing.assert_array_equal(one.parameters[path], two.parameters[path], err_msg=path)
     for made in (both, alone):
         made.change("DELETE")
@@ -170,3 +171,147 @@ def test_what_there_is_to_cast(client: httpx.Client) -> None:
     assert told["instruments"][0]["players"] == ["trumpeter", "soloist"]
     assert told["seats"][0] == "middle"
     assert told["max_players"] == 4
+
+
+def told(session: Owned) -> list[tuple[int, str, str]]:
+    """Part, instrument and player of each casting that `GET .../cast` tells."""
+    castings = session.client.get(f"{session.path}/cast").raise_for_status().json()["castings"]
+    return [(one["part"], one["instrument"], one["player"]) for one in castings]
+
+
+TWO = [(0, "trumpet", "trumpeter"), (1, "trumpet", "soloist")]
+
+
+def test_a_score_of_several_trumpets_is_cast_by_itself_with_reasons(client: httpx.Client) -> None:
+    made = upload(client, trumpets(2), **SONG)
+    cast = client.get(f"{made.path}/cast").json()
+    assert cast["auto"] is True
+    assert told(made) == TWO
+    assert [one["seat"] for one in cast["castings"]] == ["right", "left"]
+    assert cast["castings"][1]["cast_because"][0] == "named “Trumpet 2”: a part for the trumpet"
+    assert cast["unplayed"] == []
+    # The answer to the upload tells it too, without what else each could play.
+    summary = {name: value for name, value in cast.items() if name not in {"castings", "tune"}}
+    assert {name: made.body["cast"][name] for name in summary} == summary
+    assert [one["part"] for one in made.body["cast"]["castings"]] == [0, 1]
+    assert (made.body["part"], made.body["player"]) == (0, "trumpeter")
+    made.change("DELETE")
+
+
+def test_of_what_nobody_plays_it_is_told_why(client: httpx.Client) -> None:
+    made = upload(client, relay(), **SONG)
+    cast = client.get(f"{made.path}/cast").json()
+    assert [(one["part"], one["part_name"]) for one in cast["unplayed"]] == [
+        (1, "Trumpet (muted)"),
+        (2, "Flute"),
+        (3, "Drums"),
+    ]
+    reasons = [one["reason"] for one in cast["unplayed"]]
+    assert "plays only where “Trumpet” rests" in reasons[0]
+    assert reasons[1:] == ["no player for flute yet; it is heard", "no player for drums yet; it is heard"]
+    made.change("DELETE")
+
+
+@pytest.mark.parametrize(
+    "form", [{"part": "1"}, {"player": "soloist"}, {"cast": json.dumps({"castings": [{}]})}]
+)
+def test_an_upload_that_says_who_plays_is_obeyed(client: httpx.Client, form: dict[str, str]) -> None:
+    made = upload(client, trumpets(2), **SONG, **form)
+    assert len(told(made)) == 1
+    assert made.body["cast"]["auto"] is False
+    made.change("DELETE")
+
+
+@pytest.mark.parametrize("back", [("PATCH", "", {"cast": "auto"}), ("PUT", "/cast", {"cast": "auto"})])
+def test_one_goes_back_to_the_cast_that_was_found(client: httpx.Client, back: tuple[str, str, Any]) -> None:
+    made = upload(client, trumpets(2), **SONG, cast="auto")
+    made.change("PUT", "/cast", json={"castings": [{"part": 1}]}).raise_for_status()
+    assert told(made) == [(1, "trumpet", "trumpeter")]
+    method, path, body = back
+    made.change(method, path, json=body).raise_for_status()
+    assert told(made) == TWO
+    assert client.get(made.path).json()["cast"]["auto"] is True
+    twice = made.change("PATCH", "", json={"cast": "auto", "part": 0})
+    assert twice.status_code == 422
+    assert "leave out part" in twice.json()["detail"]
+    wrong = made.change(method, path, json={"cast": "best"})
+    assert wrong.status_code == 422
+    assert "auto" in wrong.text
+    made.change("DELETE")
+
+
+def test_the_first_player_may_take_another_s_part_and_then_they_change(client: httpx.Client) -> None:
+    made = upload(client, trumpets(2), **SONG)
+    changed = made.change("PATCH", "", json={"part": 1}).raise_for_status().json()
+    assert (changed["part"], changed["cast"]["auto"]) == (1, False)
+    assert told(made) == [(1, "trumpet", "trumpeter"), (0, "trumpet", "soloist")]
+    made.change("PATCH", "", json={"joined_parts": [0]}).raise_for_status()
+    assert told(made) == [(1, "trumpet", "trumpeter")]
+    made.change("DELETE")
+
+
+def test_a_found_cast_outlives_the_server_and_another_sequence_is_cast_anew(tmp_path: Path) -> None:
+    with serve(tmp_path) as before, httpx.Client(base_url=before.address, timeout=30) as client:
+        made = upload(client, trumpets(3), **SONG)
+        cast = client.get(f"{made.path}/cast").json()
+        several = upload(client, collection(), **SONG)
+        assert several.change("PATCH", "", json={"sequence": 1}).json()["cast"]["auto"] is True
+    with serve(tmp_path) as after, httpx.Client(base_url=after.address, timeout=30) as client:
+        assert client.get(f"{made.path}/cast").json() == cast
+
+
+def test_the_first_show_is_written_anew_for_more_players_unless_it_was_edited(client: httpx.Client) -> None:
+    made = upload(client, trumpets(2), **SONG)
+
+    def tracks() -> set[str]:
+        return {track["parameter"] for track in client.get(f"{made.path}/show").json()["tracks"]}
+
+    spot = "lights/spots/1/target"
+    assert spot in tracks()
+    made.change("PUT", "/cast", json={"castings": [{}]}).raise_for_status()
+    assert spot not in tracks()
+    key = {"keyframes": [{"time": 0, "value": 0.5}]}
+    made.change("PUT", "/show/tracks/player/sway", json=key).raise_for_status()
+    made.change("PUT", "/cast", json={"cast": "auto"}).raise_for_status()
+    assert spot not in tracks()
+    assert "player/sway" in tracks()
+    made.change("DELETE")
+
+
+def test_every_player_s_parameters_are_listed_for_all_and_for_a_session(client: httpx.Client) -> None:
+    made = upload(client, trumpets(2), **SONG)
+    manifest = client.get(f"{made.path}/manifest").json()
+    own = client.get(f"{made.path}/parameters").raise_for_status().json()
+    listed = [entry["path"] for entry in (*own["parameters"], *own["streamed"])]
+    assert listed == [entry["path"] for entry in manifest["parameters"]]
+    assert {"players/2/player/sway", "players/2/player/glance", "player/glance"} <= set(listed)
+    assert not any(path.startswith("players/3/") for path in listed)
+    everything = client.get("/api/v1/parameters").json()
+    for kind in ("parameters", "streamed"):
+        known = {entry["path"] for entry in everything[kind]}
+        assert {entry["path"] for entry in own[kind]} <= known
+        assert any(path.startswith("players/4/") for path in known)
+    streamed = {entry["path"] for entry in everything["streamed"]}
+    assert {"trumpet/valve/1", "players/4/cornet/valve/1", "players/2/face/smile"} <= streamed
+    made.change("DELETE")
+
+
+def test_hands_are_told_and_a_left_handed_trumpeter_is_refused(client: httpx.Client) -> None:
+    made = upload(client, scale(4), **SONG, handedness="right")
+    assert made.body["handedness"] == "right"
+    assert client.get(f"{made.path}/score").json()["handedness"] == "right"
+    assert client.get("/api/v1/instruments").json()["instruments"][0]["handedness"] == ["right"]
+    form = {"handedness": "left"}
+    for refused in (
+        made.change("PUT", "/cast", json={"castings": [{"handedness": "left"}]}),
+        made.change("PATCH", "", json={"handedness": "left"}),
+        client.post("/api/v1/sessions", files={"score": ("s.mid", scale(4))}, data=form),
+    ):
+        assert refused.status_code == 422
+        assert refused.json()["detail"] == (
+            "handedness: the B♭ trumpet is played right-handed, not left-handed"
+        )
+    unknown = made.change("PUT", "/cast", json={"castings": [{"handedness": "both"}]})
+    assert unknown.status_code == 422
+    assert "'right' or 'left'" in unknown.text
+    made.change("DELETE")

@@ -165,10 +165,11 @@ def test_frames_over_http_follow_the_show(owned: Owned) -> None:
 
 
 def test_every_parameter_is_described(owned: Owned) -> None:
-    described = owned.client.get("/api/v1/parameters").json()
+    described = owned.client.get(f"{owned.path}/parameters").json()
     manifest = owned.client.get(f"{owned.path}/manifest").json()
     streamed = [parameter["path"] for parameter in manifest["parameters"]]
     assert streamed[: len(described["parameters"])] == [p["path"] for p in described["parameters"]]
+    assert streamed[len(described["parameters"]) :] == [p["path"] for p in described["streamed"]]
     intensity = next(p for p in described["parameters"] if p["path"] == LIGHT)
     assert intensity["type"] == "number"
     assert intensity["documentation"]
@@ -177,7 +178,7 @@ def test_every_parameter_is_described(owned: Owned) -> None:
 
 
 def test_every_parameter_says_what_it_is_and_how_far_it_goes(owned: Owned) -> None:
-    described = owned.client.get("/api/v1/parameters").json()
+    described = owned.client.get(f"{owned.path}/parameters").json()
     groups = {parameter["path"].partition("/")[0] for parameter in described["parameters"]}
     assert groups >= {"camera", "lights", "stage", "blocks", "player", "look"}
     for parameter in described["parameters"]:

@@ -20,6 +20,7 @@ from reina.api import (
     frames,
     library,
     page,
+    part,
     rigs,
     sessions,
     show,
@@ -105,6 +106,7 @@ def create_app(
         library,
         lab,
         cast,
+        part,
         catalogue,
         stream,
     ):

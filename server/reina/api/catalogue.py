@@ -1,11 +1,13 @@
 """What the server has for everybody: the show's parameters, and its health."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, Request
 
 import reina
-from reina.api.http.access import Store
+from reina.api.http.access import Store, Watched
+from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, ShowParameterList
 
@@ -17,8 +19,26 @@ router = APIRouter(tags=["server"])
 
 @router.get("/parameters")
 async def list_parameters(store: Store) -> ShowParameterList:
-    """Every show parameter in the frame's order, and every interpolation that a keyframe may name."""
-    return ShowParameterList.model_validate(store.stage.registry().describe())
+    """Every parameter of the largest cast in the frame's order, and every interpolation of keyframes.
+
+    What a session has of them says `GET /sessions/{id}/parameters`.
+    """
+    stage = store.stage
+    return _listed(stage.largest_registry(), stage.streamed())
+
+
+@router.get("/sessions/{session_id}/parameters")
+async def list_session_parameters(session: Watched) -> ShowParameterList:
+    """Every parameter of a session's cast in the frame's order, and every interpolation of keyframes."""
+    performers = session.production.performers
+    streamed = [parameter for performer in performers for parameter in performer.parameters]
+    return _listed(session.production.registry, streamed)
+
+
+def _listed(registry: ParameterRegistry, streamed: Sequence[Parameter]) -> ShowParameterList:
+    described = registry.describe()
+    others = ParameterRegistry(streamed).describe()["parameters"]
+    return ShowParameterList.model_validate({**described, "streamed": others})
 
 
 @router.get("/health")

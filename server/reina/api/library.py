@@ -30,7 +30,7 @@ def list_shows(settings: ServerSettings) -> ShowLibrary:
 @router.get("/shows/schema")
 def get_schema(store: Store) -> dict[str, Any]:
     """JSON Schema of shows, over the parameters and interpolations of this server."""
-    return show_schema(store.stage.registry(), interpolations())
+    return show_schema(store.stage.largest_registry(), interpolations())
 
 
 @lru_cache(maxsize=256)

@@ -7,11 +7,12 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query, Request, Response
 from pydantic import ValidationError
 
-from reina.api.cast import cast_of_fields
+from reina.api.cast import cast_of_fields, refuse_twice
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
 from reina.api.upload import FILE_LIMITS, MEGABYTE, Upload, receive_upload
+from reina.instruments import HANDEDNESS
 from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
@@ -78,6 +79,11 @@ _FORM: dict[str, Any] = {
                             "description": "indices of further parts that the player plays together with it, "
                             "as `1,2`",
                         },
+                        "usual_fingerings": {
+                            "type": "boolean",
+                            "default": False,
+                            "description": "take no fingering but the usual one of each note",
+                        },
                         "sequence": {
                             "type": "integer",
                             "minimum": 0,
@@ -89,11 +95,20 @@ _FORM: dict[str, Any] = {
                             "default": "trumpeter",
                             "description": "who plays: a rig that holds the instrument",
                         },
+                        "handedness": {
+                            "type": "string",
+                            "enum": list(HANDEDNESS),
+                            "default": "right",
+                            "description": "which hand leads, where the instrument can be played so",
+                        },
                         "cast": {
                             "type": "string",
                             "contentMediaType": "application/json",
                             "description": "everybody who plays, as `PUT /sessions/{id}/cast` takes it, "
-                            "in place of part, transposition, written, octave_fit, joined_parts and player",
+                            "in place of part, transposition, written, octave_fit, joined_parts, "
+                            "usual_fingerings, player and handedness; `auto`, the default where none of "
+                            "these is there, gives a player to each part that the score has for the "
+                            "instruments that there are",
                         },
                     },
                 }
@@ -185,7 +200,12 @@ async def change_session(
     named = {field: wanted.pop(field) for field in ("title", "public") if field in wanted}
     if "joined_parts" in wanted:
         wanted["joined_parts"] = tuple(wanted["joined_parts"])
-    await store.change(session, **named, recast=lambda cast: cast.changed(**wanted))
+    if wanted.pop("cast", None):
+        sequence = wanted.pop("sequence", None)
+        refuse_twice(wanted)
+        await store.change(session, **named, recast=lambda cast: cast.found_anew(sequence))
+    else:
+        await store.change(session, **named, recast=lambda cast: cast.changed(**wanted))
     return await asyncio.to_thread(session.resource)
 
 

@@ -30,8 +30,10 @@ FIELD_LIMITS = {
     "written": 5,
     "octave_fit": 5,
     "joined_parts": 10_000,
+    "usual_fingerings": 5,
     "sequence": 10,
     "player": 200,
+    "handedness": 10,
     "cast": 20_000,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS

@@ -7,11 +7,22 @@ import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from reina.errors import InputError
-from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, pitch_name
+from reina.api.settings import Settings
+from reina.cli.inspect_cast import asked_cast, cast_document, cast_lines
+from reina.cli.score_tables import (
+    REST,
+    fingering_lines,
+    heading,
+    section,
+    table,
+    warning_lines,
+)
+from reina.errors import InputError, ReinaError
+from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score
 from reina.music import Score, read_score
-
-REST = "–"
+from reina.notation import keys_of
+from reina.sessions.production import Production
+from reina.sessions.stage import Stage
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,6 +43,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PARTS",
         help="further parts that are played together with it, as 1,2",
     )
+    parser.add_argument(
+        "--cast",
+        metavar="CAST",
+        help="who plays what: JSON or a file of it, as PUT /sessions/{id}/cast takes it, or auto; "
+        "each player's part, fingerings and warnings are printed",
+    )
+    parser.add_argument(
+        "--usual-fingerings", action="store_true", help="take no fingering but the usual one of each note"
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -39,6 +59,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Print what is in the file; return 1, with the reason on stderr, if it cannot be read."""
     file: Path = arguments.file
     try:
+        if arguments.cast is not None:
+            text = _of_cast(file, arguments)
+            return _print(text)
         score = read_score(file.read_bytes(), filename=file.name, sequence=arguments.sequence)
         instrument = INSTRUMENTS[arguments.instrument]
         rankings = instrument.rank_parts(score)
@@ -50,8 +73,9 @@ def run(arguments: argparse.Namespace) -> int:
             written=arguments.written,
             octave_fit=arguments.octave_fit,
             joined_parts=arguments.joined_parts,
+            usual_fingerings=arguments.usual_fingerings,
         )
-    except (OSError, InputError) as error:
+    except (OSError, ReinaError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         print(f"reina inspect: {file}: {reason}", file=sys.stderr)
         return 1
@@ -59,6 +83,37 @@ def run(arguments: argparse.Namespace) -> int:
         text = json.dumps(describe_score(score, instrument, played, rankings=rankings), ensure_ascii=False)
     else:
         text = "\n".join(_lines(score, instrument, rankings, played))
+    return _print(text)
+
+
+def _of_cast(file: Path, arguments: argparse.Namespace) -> str:
+    """What is printed of a cast.
+
+    Raises:
+        InputError: The score or the cast cannot be read, or not be played so.
+        OSError: A file cannot be read.
+    """
+    alone = {
+        "part": None,
+        "transposition": 0,
+        "written": False,
+        "octave_fit": False,
+        "joined_parts": (),
+        "usual_fingerings": False,
+    }
+    said = [f"--{name.replace('_', '-')}" for name, value in alone.items() if vars(arguments)[name] != value]
+    if said:
+        raise InputError(f"--cast says what everybody plays; leave out {', '.join(said)}")
+    cast = asked_cast(arguments.cast, arguments.sequence)
+    score = read_score(file.read_bytes(), filename=file.name, sequence=cast.sequence)
+    stage = Stage.load(Settings().rigs_dir)
+    production = Production.plan(stage, score, cast=cast)
+    if arguments.json:
+        return json.dumps(cast_document(production), ensure_ascii=False)
+    return "\n".join(cast_lines(production))
+
+
+def _print(text: str) -> int:
     try:
         print(text, flush=True)
     except BrokenPipeError:
@@ -77,29 +132,44 @@ def _indices(text: str) -> tuple[int, ...]:
 def _lines(
     score: Score, instrument: Instrument, rankings: Sequence[PartRanking], played: PlayedPart
 ) -> Iterable[str]:
-    minutes, seconds = divmod(score.duration_s, 60)
-    yield f"{score.title}  {int(minutes)}:{seconds:05.2f}  {len(score.notes)} notes"
-    if score.sequences > 1:
-        yield f"sequence {score.sequence} of {score.sequences}"
-    yield from _section("Tempo")
+    yield from heading(score)
+    yield from section("Tempo")
     tempos = [
         (f"{t.onset_beats:g}", f"{t.onset_s:.3f}", f"{t.beats_per_minute:.2f}")
         for t in score.tempo_map.tempos
     ]
-    yield from _table(("beat", "second", "beats a minute"), tempos)
-    yield from _section("Metre")
+    yield from table(("beat", "second", "beats a minute"), tempos)
+    yield from section("Metre")
     metres = [(f"{s.onset_beats:g}", f"{s.numerator}/{s.denominator}") for s in score.metre_map.signatures]
-    yield from _table(("beat", "metre"), metres)
-    yield from _section(f"Parts, the best for {instrument.name} first")
-    yield from _table(
+    yield from table(("beat", "metre"), metres)
+    yield from section("Key")
+    yield from table(("beat", "sounds", "written", "because"), _keys(score, instrument, played))
+    yield from section(f"Parts, the best for {instrument.name} first")
+    yield from table(
         ("", "part", "name", "program", "notes", "score", "because"), _parts(score, rankings, played)
     )
-    warnings = (*score.warnings, *played.warnings)
-    yield from _section(f"Warnings: {len(warnings) or 'none'}")
-    yield from _table(("kind", "place", "what"), [(w.kind, w.place, w.message) for w in warnings])
-    yield from _section(f"Fingerings of {_named(played.parts)}, transposed by {played.transposition}")
-    heads = ("bar", "beat", "second", "lasts", "written", "sounds", "fingering", "why")
-    yield from _table(heads, _fingerings(score, instrument, played))
+    yield from warning_lines((*score.warnings, *played.warnings))
+    yield from fingering_lines(score, instrument, played)
+
+
+_BECAUSE = {
+    "file": "the file says so",
+    "notes": "found from the notes",
+    "none": "the notes are in none",
+}
+
+
+def _keys(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:
+    above = instrument.written_pitch(0)
+    return [
+        (
+            f"{key.onset_beats:g}",
+            key.transposed(played.transposition).name,
+            key.transposed(played.transposition + above).name,
+            _BECAUSE[key.source],
+        )
+        for key in keys_of(score)
+    ]
 
 
 def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) -> list[tuple[str, ...]]:
@@ -117,45 +187,7 @@ def _parts(score: Score, rankings: Sequence[PartRanking], played: PlayedPart) ->
     ]
 
 
-def _named(parts: Sequence[int]) -> str:
-    return f"part{'' if len(parts) == 1 else 's'} {', '.join(map(str, parts))}"
-
-
 def _mark(part: int, played: PlayedPart) -> str:
     if part == played.part:
         return "▶"
     return "+" if part in played.joined_parts else ""
-
-
-def _fingerings(score: Score, instrument: Instrument, played: PlayedPart) -> list[tuple[str, ...]]:
-    rows: list[tuple[str, ...]] = []
-    line, fingering = played.line, played.fingering
-    positions = score.metre_map.positions(score.notes.onset_beats[line.note_index])
-    for place, position in enumerate(positions):
-        pitch = int(line.sounding_pitch[place])
-        played_so = fingering.notes[place]
-        rows.append(
-            (
-                str(position.bar),
-                f"{position.beat:g}",
-                f"{line.onset_s[place]:.3f}",
-                f"{line.end_s[place] - line.onset_s[place]:.3f}",
-                pitch_name(instrument.written_pitch(pitch)),
-                pitch_name(pitch),
-                REST if played_so is None else instrument.show_fingering(played_so),
-                fingering.reasons[place],
-            )
-        )
-    return rows
-
-
-def _section(title: str) -> tuple[str, str]:
-    return ("", title)
-
-
-def _table(heads: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> Iterable[str]:
-    if not rows:
-        return
-    widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
-    for row in (heads, *rows):
-        yield "  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()

@@ -3,8 +3,11 @@
 Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 """
 
-from reina.instruments.casting import MAX_PLAYERS, Cast, CastError, Casting
+from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
+from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
+from reina.instruments.chart_note import ChartNote
 from reina.instruments.describe import describe_notes, describe_score
+from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts
 from reina.instruments.line import playable_line
@@ -15,25 +18,30 @@ from reina.instruments.note_fingerings import (
     StrikeFingering,
     ValvesFingering,
 )
-from reina.instruments.parameters import player_parameters
+from reina.instruments.note_names import NoteNames, spell_line
+from reina.instruments.parameters import cast_parameters, player_parameters, streamed_parameters
 from reina.instruments.performer import GESTURES, Performer, PerformerFrames
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Fingering, Line, PlayedPart
 from reina.instruments.ranking import PartRanking, Suitability, rank_parts
 from reina.instruments.registry import INSTRUMENTS
+from reina.instruments.tune import TunePassage, who_has_tune
 
 __all__ = [
     "GESTURES",
+    "HANDEDNESS",
     "INSTRUMENTS",
     "MAX_PLAYERS",
     "Cast",
     "CastError",
     "Casting",
+    "ChartNote",
     "Fingering",
     "Instrument",
     "KeysFingering",
     "Line",
     "NoteFingering",
+    "NoteNames",
     "PartRanking",
     "Performer",
     "PerformerFrames",
@@ -41,12 +49,21 @@ __all__ = [
     "SlideFingering",
     "StrikeFingering",
     "Suitability",
+    "TunePassage",
+    "UnplayedPart",
     "ValvesFingering",
+    "cast_parameters",
+    "casting_reasons",
     "check_parts",
     "describe_notes",
     "describe_score",
+    "find_cast",
     "pitch_name",
     "playable_line",
     "player_parameters",
     "rank_parts",
+    "spell_line",
+    "streamed_parameters",
+    "unplayed_parts",
+    "who_has_tune",
 ]

@@ -8,6 +8,9 @@ from reina.errors import InputError
 MAX_PLAYERS = 4
 """How many play at once at most."""
 
+HANDEDNESS = ("right", "left")
+"""Which hand leads, as a casting may say it."""
+
 PLAYER = "trumpeter"
 INSTRUMENT = "trumpet"
 
@@ -29,6 +32,8 @@ class Casting:
         written: Whether the part is taken as notated for the instrument.
         octave_fit: Whether it is moved by the octaves that bring most of it into range.
         joined_parts: Further parts that are played together with it.
+        handedness: Which hand leads: one of `HANDEDNESS` that the instrument is played with.
+        usual_fingerings: Whether no fingering is taken but the usual one of each note.
     """
 
     part: int | None = None
@@ -39,10 +44,12 @@ class Casting:
     written: bool = False
     octave_fit: bool = False
     joined_parts: tuple[int, ...] = ()
+    handedness: str = "right"
+    usual_fingerings: bool = False
 
     @property
     def sound(self) -> tuple[object, ...]:
-        """What of it is heard: who plays, and where, is not."""
+        """What of it is heard: who plays, where, and with which valves, is not."""
         heard = (self.part, self.transposition, self.written, self.octave_fit, self.joined_parts)
         return (*heard, self.instrument)
 
@@ -60,6 +67,8 @@ class Cast:
     Attributes:
         castings: At least one, in the order of the players.
         sequence: Which sequence of a MIDI file of format 2; None: nobody chose, and the first is played.
+        auto: Whether the castings are found from the score by `find_cast`: they are still to be found where
+            one of them has no part.
 
     Raises:
         CastError: There is nobody, or there are too many.
@@ -67,11 +76,17 @@ class Cast:
 
     castings: tuple[Casting, ...] = field(default=(Casting(),))
     sequence: int | None = None
+    auto: bool = False
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.castings) <= MAX_PLAYERS:
             told = f"1 to {MAX_PLAYERS} players play at once, not {len(self.castings)}"
             raise CastError(told, location="castings")
+
+    @property
+    def is_to_be_found(self) -> bool:
+        """Whether the score has still to say who plays."""
+        return self.auto and any(casting.part is None for casting in self.castings)
 
     @property
     def lead(self) -> Casting:
@@ -83,15 +98,30 @@ class Cast:
         """What of it is heard."""
         return (self.sequence, *(casting.sound for casting in self.castings))
 
+    def found_anew(self, sequence: int | None = None) -> "Cast":
+        """The cast that the score asks for by itself, of this sequence or another."""
+        return Cast(sequence=self.sequence if sequence is None else sequence, auto=True)
+
     def changed(self, *, sequence: int | None = None, **lead: Any) -> "Cast":
         """The same with another sequence, or other fields of the first player's casting.
 
         Of another sequence, whose parts are others, everybody plays the part that suits best, unless the
-        first player's is named with it.
+        first player's is named with it. Another player who has the part that the first is given takes the
+        first's in exchange; one whose part is joined to the first's leaves.
         """
         castings = self.castings
         if sequence is not None and sequence != (self.sequence or 0):
-            castings = tuple(replace(one, part=None, joined_parts=()) for one in castings)
+            kept = castings[:1] if self.auto and lead else castings
+            castings = tuple(replace(one, part=None, joined_parts=()) for one in kept)
         if lead:
-            castings = (castings[0].changed(**lead), *castings[1:])
-        return Cast(castings, self.sequence if sequence is None else sequence)
+            first, *others = castings
+            given = lead.get("part", first.part)
+            if given is not None and given != first.part:
+                others = [
+                    other.changed(part=first.part) if other.part == given else other for other in others
+                ]
+            first = first.changed(**lead)
+            others = [other for other in others if other.part not in first.joined_parts]
+            castings = (first, *others)
+        chosen = self.sequence if sequence is None else sequence
+        return Cast(castings, chosen, auto=self.auto and not lead)

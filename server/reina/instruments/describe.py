@@ -6,9 +6,11 @@ import numpy as np
 
 from reina.instruments.instrument import Instrument
 from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
+from reina.instruments.note_names import NoteNames
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.music.score import Score
+from reina.notation import keys_of
 
 
 def describe_score(
@@ -30,6 +32,7 @@ def describe_score(
     """
     ranking_of = {ranking.part: ranking for ranking in rankings or instrument.rank_parts(score)}
     counts = np.bincount(score.notes.part, minlength=len(score.parts)).tolist()
+    moved = played.transposition + instrument.written_pitch(0)
     bar_lines = score.metre_map.bar_lines(score.duration_beats)
     return {
         "title": score.title,
@@ -65,6 +68,17 @@ def describe_score(
             }
             for signature in score.metre_map.signatures
         ],
+        "keys": [
+            {
+                "onset_beats": key.onset_beats,
+                "name": key.name,
+                "fifths": key.fifths,
+                "written_name": (written := key.transposed(moved)).name,
+                "written_fifths": written.fifths,
+                "source": key.source,
+            }
+            for key in keys_of(score)
+        ],
         "pickup_beats": score.metre_map.pickup_beats,
         "bar_lines_s": score.tempo_map.seconds(bar_lines).tolist(),
         "notes": describe_notes(score, instrument, played, part),
@@ -86,6 +100,8 @@ def describe_notes(
     line, fingering = played.line, played.fingering
     place_in_line = {note: place for place, note in enumerate(line.note_index.tolist())}
     shortened = set(line.shortened.tolist())
+    names = NoteNames(score, [(instrument, played)])
+    usual = {note.sounding_pitch: note.fingerings[0] for note in instrument.fingering_chart}
     described: list[dict[str, Any]] = []
     for index in range(len(score.notes)) if part is None else score.note_indices(part).tolist():
         note = score.notes[index]
@@ -93,6 +109,7 @@ def describe_notes(
         own = note.part in played.parts
         pitch = note.sounding_pitch + (played.transposition if own else 0)
         played_so: NoteFingering | None = None
+        sounding_name, written_name = names.of(index)
         reason = "another part than the player's"
         if place is not None:
             played_so, reason = fingering.notes[place], fingering.reasons[place]
@@ -108,8 +125,11 @@ def describe_notes(
                 "duration_beats": note.duration_beats,
                 "sounding_pitch": pitch,
                 "written_pitch": instrument.written_pitch(pitch),
+                "sounding_name": sounding_name,
+                "written_name": written_name,
                 "velocity": note.velocity,
                 "valves": list(played_so.valves) if isinstance(played_so, ValvesFingering) else None,
+                "usual_valves": list(usual[pitch]) if isinstance(played_so, ValvesFingering) else None,
                 "fingering": None if played_so is None else played_so.model_dump(mode="json"),
                 "reason": reason,
                 "played_duration_s": None

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from reina.curves import Parameter
+    from reina.instruments.chart_note import ChartNote
     from reina.instruments.note_fingerings import NoteFingering
     from reina.instruments.played import PlayedPart
     from reina.instruments.player.engagement import Engagement
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from reina.instruments.ranking import PartRanking
     from reina.kinematics import Curve, MotionCurves
     from reina.music.score import Score
+
+MAX_PITCH = 127
+"""The highest MIDI number of a pitch."""
 
 
 class Instrument(ABC):
@@ -31,6 +35,8 @@ class Instrument(ABC):
     """The General MIDI program, from 0, that it sounds with where the score says none."""
     parameters: tuple[Parameter, ...] = ()
     """What of it moves in every frame; the paths begin with its name."""
+    handedness: tuple[str, ...] = ("right",)
+    """With which hand leading it can be played: of `HANDEDNESS`."""
     show_parameters: tuple[Parameter, ...] = ()
     """What a show may choose of it; the paths begin with ``player/``."""
 
@@ -40,6 +46,10 @@ class Instrument(ABC):
         return {self.name: self.rig}
 
     # --- its part
+
+    def can_play(self, sounding_pitch: int) -> bool:
+        """Return whether it has a note, a MIDI number as it sounds; it has every one by default."""
+        return 0 <= sounding_pitch <= MAX_PITCH
 
     @abstractmethod
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
@@ -55,6 +65,7 @@ class Instrument(ABC):
         written: bool = False,
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
+        usual_fingerings: bool = False,
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -65,12 +76,28 @@ class Instrument(ABC):
             written: Whether its pitches are the written ones of this instrument and not those that sound.
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
             joined_parts: Indices of further parts that are played with it, as if their notes were its own.
+            usual_fingerings: Whether to take no fingering but the usual one of each note.
 
         Raises:
             NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
         """
 
     # --- its notation
+
+    @property
+    def clef(self) -> Literal["treble", "bass"]:
+        """The clef that it is written in."""
+        return "treble"
+
+    @property
+    def valve_count(self) -> int:
+        """How many valves it has; an instrument of another kind has none."""
+        return 0
+
+    @property
+    def fingering_chart(self) -> tuple[ChartNote, ...]:
+        """How each note is fingered on valves, from the lowest up; of other kinds there is no chart."""
+        return ()
 
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""

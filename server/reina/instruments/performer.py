@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.instruments.parameters import streamed_parameters
 from reina.instruments.player import face
 from reina.instruments.player.amounts import Amounts
 from reina.instruments.player.face import Face
+from reina.instruments.player.glances import CURVES, GlanceAmount, add_glances
 from reina.instruments.player.idle_motion import IdleMotion
 from reina.instruments.player.instrument_body import BodyMotion, Float32Array
 from reina.instruments.player.pose_keys import PoseKeys
@@ -82,7 +84,9 @@ class Performer:
 
         planned = instrument.plan_gestures(self.played, seed=engagement.seed)
         still: dict[str, Curve] = {name: (np.zeros((0, 3)), 0.0) for name in GESTURES if name not in planned}
-        self._curves = MotionCurves(planned | still)
+        self._curves = MotionCurves(planned | still | dict(engagement.glances))
+        self._glance_rows = self._curves.index(CURVES if engagement.glances else ())
+        self._glance_amount = GlanceAmount(registry, self.prefix)
         self._gesture_rows = dict(zip(GESTURES, self._curves.index(GESTURES).tolist(), strict=True))
         self._body = instrument.body(engagement, self._curves)
 
@@ -93,13 +97,10 @@ class Performer:
         )
         """The player's and the instrument's."""
         joints = np.cumsum([0, *(len(rig.skeleton.names) for rig in in_frame.values())])
-        self._roots = [
-            (int(first), rig.skeleton.rest_rotations[0])
-            for first, rig in zip(joints, in_frame.values(), strict=False)
-        ]
-        own = (*instrument.parameters, *self._face.parameters)
-        self.parameters: tuple[Parameter, ...] = tuple(
-            replace(parameter, path=self.prefix + parameter.path) for parameter in own
+        self._roots = joints[:-1]
+        self._roots_rest: FloatArray = np.stack([rig.skeleton.rest_rotations[0] for rig in in_frame.values()])
+        self.parameters: tuple[Parameter, ...] = streamed_parameters(
+            engagement.number, instrument, player_rig
         )
         """What it gives to every frame beside the show."""
 
@@ -114,6 +115,10 @@ class Performer:
         amounts = self._amounts.read(shown)
         curves = self._curves.evaluate(times_s)
         gestures = {name: curves[row] for name, row in self._gesture_rows.items()}
+        keyed = self._pose_keys.read(shown)
+        glances = curves[self._glance_rows]
+        if glances.any():
+            keyed = add_glances(keyed, glances, self._glance_amount.read(shown))
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
         posed = self._body.solve(
             BodyMotion(
@@ -121,7 +126,7 @@ class Performer:
                 shown=shown,
                 curves=curves,
                 amounts=amounts,
-                signals=self._body_signals(times_s, gestures, amounts, self._pose_keys.read(shown)),
+                signals=self._body_signals(times_s, gestures, amounts, keyed),
                 lowered=lowered,
                 stance=self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None]),
             )
@@ -129,9 +134,8 @@ class Performer:
         rotations, positions = posed.rotations, posed.root_positions
         if not self.seat.is_middle:
             positions = self.seat.place(positions)
-            for joint, rest in self._roots:
-                turned = self.seat.turn(rotations[:, joint].astype(np.float64))
-                rotations[:, joint] = same_hemisphere(turned, rest)
+            turned = self.seat.turn(rotations[:, self._roots].astype(np.float64))
+            rotations[:, self._roots] = same_hemisphere(turned, self._roots_rest)
         weights = self._face.evaluate(self._face_signals(times_s, gestures, amounts, lowered))
         return PerformerFrames(rotations, positions, np.concatenate([posed.parameters, weights], axis=1))
 

@@ -8,6 +8,7 @@ from reina.music.controls import Control, ControlKind
 from reina.music.document.schema import score_schema
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.music.events import Listener, NoteEvent, NoteEventEmitter
+from reina.music.key_signature import KeySignature
 from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.metre import BarPosition, MetreMap, TimeSignature
 from reina.music.notes import Note, Notes
@@ -23,6 +24,7 @@ __all__ = [
     "ClockState",
     "Control",
     "ControlKind",
+    "KeySignature",
     "Limits",
     "Listener",
     "MetreMap",

@@ -6,6 +6,7 @@ import numpy as np
 
 from reina.music.arrays import IntArray
 from reina.music.controls import Control
+from reina.music.key_signature import KeySignature
 from reina.music.metre import MetreMap
 from reina.music.notes import Notes
 from reina.music.tempo import TempoMap
@@ -48,6 +49,7 @@ class Score:
         duration_s: End of the last note.
         sequence: Which of the file's sequences this is, counted from 0; a file of format 2 may hold several.
         sequences: How many it holds.
+        key_signatures: As the file has them, by their beat; none where it says nothing of a key.
     """
 
     title: str
@@ -60,6 +62,7 @@ class Score:
     duration_s: float
     sequence: int = 0
     sequences: int = 1
+    key_signatures: tuple[KeySignature, ...] = ()
 
     @property
     def duration_beats(self) -> float:

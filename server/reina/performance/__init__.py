@@ -1,5 +1,6 @@
 """Show and performers put together: what is on screen at any frame."""
 
+from reina.performance.cast_parameters import show_parameters
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
 from reina.performance.performance import TAIL_S, Performance
 
@@ -9,4 +10,5 @@ __all__ = [
     "FrameBlock",
     "FrameLayout",
     "Performance",
+    "show_parameters",
 ]

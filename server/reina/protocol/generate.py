@@ -20,6 +20,7 @@ from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
 from reina.protocol.reader import frame_reader
 from reina.protocol.typescript import interfaces
+from reina.protocol.written_part import WrittenPart
 from reina.show.show_schema import show_schema_text
 from reina.stage import stage_registry
 
@@ -38,6 +39,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.Score,
     resources.Cast,
     resources.InstrumentList,
+    WrittenPart,
     resources.ShowEdited,
     resources.ShowWarnings,
     timeline.ShowCurves,

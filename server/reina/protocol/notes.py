@@ -27,12 +27,18 @@ class WireNote(WireModel):
     """MIDI number as it sounds."""
     written_pitch: int
     """MIDI number as a player of the instrument reads it."""
+    sounding_name: str
+    """What it is called as it sounds, in the key of the music: `F♯4`; C4 is 60."""
+    written_name: str
+    """What it is called in the part of who plays it."""
     velocity: float
     """0 to 1."""
     valves: list[int] | None
     """The valves that are down, ascending; [] is open, null is not playable, not played, no valves."""
     fingering: NoteFingering | None
     """How it is played, by the kind of instrument; null where it is not."""
+    usual_valves: list[int] | None
+    """What a beginner's chart shows for it, null where `valves` is; where both differ, `reason` says why."""
     reason: str
     """Why it is played so, or why it is not."""
     player: int | None

@@ -13,6 +13,7 @@ from reina.protocol.notes import WireNote
 Title = Annotated[str, Field(min_length=1, max_length=200)]
 PlayerName = Annotated[str, Field(min_length=1, max_length=200)]
 PartIndex = Annotated[int, Field(ge=0)]
+Handedness = Literal["right", "left"]
 
 
 def _split_at_commas(text: str) -> list[str]:
@@ -102,6 +103,10 @@ class Session(WireModel):
     """Whether the part is moved by the octaves that bring most of its notes into range."""
     joined_parts: list[int]
     """Further parts that the player plays together with it, as if their notes were its own; ascending."""
+    handedness: str
+    """Which of the player's hands leads."""
+    usual_fingerings: bool
+    """Whether no fingering is taken but the usual one of each note."""
     player: str
     """Who plays: a rig with a hold on the instrument."""
     players: list[str]
@@ -115,6 +120,8 @@ class Session(WireModel):
     parts: list[PartSummary]
     choices: list[PartChoice]
     """The parts that the instrument could play, best first."""
+    cast: "CastSummary"
+    """Everybody who plays: part, instrument, player and the like beside it are the first one's."""
     notes: int
     warnings: list[Warned]
     song: SongState
@@ -159,8 +166,12 @@ class SessionChange(WireModel):
     written: bool | None = None
     octave_fit: bool | None = None
     joined_parts: list[PartIndex] | None = None
+    usual_fingerings: bool | None = None
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName | None = None
+    handedness: Handedness | None = None
+    cast: Literal["auto"] | None = None
+    """`auto`: the score itself says who plays it; the fields for one player are then left out."""
 
 
 class CastingFields(WireModel):
@@ -177,12 +188,24 @@ class CastingFields(WireModel):
     written: bool = False
     octave_fit: bool = False
     joined_parts: list[PartIndex] = Field(default_factory=list[int])
+    handedness: Handedness = "right"
+    """Which hand leads, where the instrument can be played so."""
+    usual_fingerings: bool = False
+    """Take no fingering but the usual one of each note."""
 
 
 class CastFields(WireModel):
     """Who is to play what, the first player first."""
 
     castings: Annotated[list[CastingFields], Field(min_length=1, max_length=MAX_PLAYERS)]
+    sequence: Annotated[int, Field(ge=0)] | None = None
+    """Which sequence of a MIDI file of format 2; null leaves it as it is."""
+
+
+class AutoCast(WireModel):
+    """That the score itself is to say who plays it."""
+
+    cast: Literal["auto"]
     sequence: Annotated[int, Field(ge=0)] | None = None
     """Which sequence of a MIDI file of format 2; null leaves it as it is."""
 
@@ -200,13 +223,15 @@ class SessionFields(WireModel):
         default_factory=list[int]
     )
     """As `1,2`."""
+    usual_fingerings: bool = False
     sequence: Annotated[int, Field(ge=0)] | None = None
     player: PlayerName = "trumpeter"
-    cast: Json[CastFields] | None = None
-    """Everybody who plays, as JSON; the fields for one player are then left out."""
+    handedness: Handedness = "right"
+    cast: Literal["auto"] | Json[CastFields] | None = None
+    """Everybody who plays, as JSON; or `auto`, the default where there is no field for one player."""
 
 
-class Casting(WireModel):
+class CastingSummary(WireModel):
     """What a player does, and how it came out."""
 
     part: int
@@ -220,6 +245,8 @@ class Casting(WireModel):
     written: bool
     octave_fit: bool
     joined_parts: list[int]
+    handedness: str
+    usual_fingerings: bool
     sounding_transposition: int
     """Semitones by which the part is played away from the file's pitches."""
     notes: int
@@ -228,15 +255,69 @@ class Casting(WireModel):
     """How many of these the instrument has."""
     reasons: list[str]
     """Why this part suits the instrument, or does not."""
+    cast_because: list[str]
+    """Why there is a player for it: what the part is for, and what it is beside the parts of those before."""
+
+
+class Casting(CastingSummary):
+    """What a player does, how it came out, and what else there is."""
+
     choices: list[PartChoice]
     """The parts that the instrument could play, best first."""
 
 
-class Cast(WireModel):
-    """Who plays what, in the order of the players."""
+class TunePassage(WireModel):
+    """A stretch in which one player has the tune."""
+
+    start_s: float
+    end_s: float
+    """Where the next begins."""
+    player: int
+    """The player's place in the cast."""
+
+
+class UnplayedPart(WireModel):
+    """A part that nobody plays; it is heard."""
+
+    part: int
+    part_name: str
+    reason: str
+
+
+class CastSummary(WireModel):
+    """Who plays what, in the order of the players, and why nobody plays the rest."""
 
     sequence: int
+    auto: bool
+    """Whether the score itself said who plays; false once somebody has chosen."""
+    castings: list[CastingSummary]
+    unplayed: list[UnplayedPart]
+    """Every other part of the score, in its order."""
+
+
+class Cast(WireModel):
+    """Who plays what, in the order of the players, with what else each could play."""
+
+    sequence: int
+    auto: bool
+    """Whether the score itself said who plays; false once somebody has chosen."""
     castings: list[Casting]
+    unplayed: list[UnplayedPart]
+    """Every other part of the score, in its order."""
+    tune: list[TunePassage]
+    """Who is heard above the others, from the beginning to the end: the higher, livelier, louder line."""
+
+
+class ChartLine(WireModel):
+    """How an instrument plays one note."""
+
+    sounding_pitch: int
+    written_pitch: int
+    sounding_names: list[str]
+    """One name, or of a black key both: the sharp, then the flat."""
+    written_names: list[str]
+    fingerings: list[list[int]]
+    """The usual one first, then the alternates; each the valves that are down, ascending."""
 
 
 class FileRole(WireModel):
@@ -258,6 +339,14 @@ class InstrumentSummary(WireModel):
     rig: str
     players: list[str]
     """The rigs that hold it."""
+    handedness: list[str]
+    """Which hand may lead."""
+    clef: Literal["treble", "bass"]
+    """The clef that it is written in."""
+    valves: int
+    """How many it has."""
+    chart: list[ChartLine]
+    """Every note that it has, from the lowest up."""
 
 
 class InstrumentList(WireModel):
@@ -288,6 +377,22 @@ class Metre(WireModel):
     denominator: int
 
 
+class MusicKey(WireModel):
+    """A key and where it begins."""
+
+    onset_beats: float
+    onset_s: float
+    name: str
+    """As the first player's part sounds: `E♭ major`; `no key` where the notes are in none."""
+    fifths: int
+    """Sharps of its signature; flats are negative."""
+    written_name: str
+    """As it stands in the first player's part."""
+    written_fifths: int
+    source: Literal["file", "notes", "none"]
+    """Whether the file says it, or it is found from the notes."""
+
+
 class Score(WireModel):
     """The score, as far as it is drawn and played."""
 
@@ -300,9 +405,12 @@ class Score(WireModel):
     octave_fit: bool
     joined_parts: list[int]
     """Further parts that the player plays together with it, ascending."""
+    handedness: str
+    usual_fingerings: bool
     parts: list[PartSummary]
     tempi: list[Tempo]
     metres: list[Metre]
+    keys: list[MusicKey]
     bar_lines_s: list[float]
     notes: list[WireNote]
     """By onset; of one part alone with `?part=`."""
@@ -394,9 +502,12 @@ class Interpolation(WireModel):
 
 
 class ShowParameterList(WireModel):
-    """Every show parameter in the frame's order, and every interpolation."""
+    """Every parameter in the frame's order, and every interpolation."""
 
     parameters: list[ShowParameter]
+    """What a show can move. The first player's paths stand alone, the second's begin with `players/2/`."""
+    streamed: list[ShowParameter]
+    """What the players give to a frame beside the show, such as valves; no keyframe moves it."""
     interpolations: list[Interpolation]
 
 

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reina.instruments import ValvesFingering
+from reina.instruments import NoteNames, ValvesFingering
 from reina.protocol import resources
 from reina.protocol.messages import Transport
 from reina.protocol.notes import WireNote
 from reina.protocol.transport import Loop, TransportState
+from reina.sessions.written_part import music_keys
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -58,6 +59,8 @@ def lead_fields(production: Production) -> dict[str, Any]:
         "written": lead.written,
         "octave_fit": lead.octave_fit,
         "joined_parts": list(lead.joined_parts),
+        "handedness": lead.handedness,
+        "usual_fingerings": lead.usual_fingerings,
     }
 
 
@@ -78,15 +81,34 @@ def part_summaries(score: Score) -> list[resources.PartSummary]:
 
 def cast_resource(production: Production) -> resources.Cast:
     """Who plays what, and why."""
-    castings: list[resources.Casting] = []
-    for casting, performer, ranking in zip(
-        production.cast.castings, production.performers, production.rankings, strict=True
+    summary = cast_summary(production)
+    castings = [
+        resources.Casting(**dict(casting), choices=part_choices(ranking))
+        for casting, ranking in zip(summary.castings, production.rankings, strict=True)
+    ]
+    tune = [
+        resources.TunePassage(start_s=passage.start_s, end_s=passage.end_s, player=passage.player)
+        for passage in production.tune
+    ]
+    return resources.Cast(**dict(summary) | {"castings": castings, "tune": tune})
+
+
+def cast_summary(production: Production) -> resources.CastSummary:
+    """Who plays what, without what else each could play."""
+    score, cast = production.score, production.cast
+    castings: list[resources.CastingSummary] = []
+    for casting, performer, ranking, why in zip(
+        cast.castings,
+        production.performers,
+        production.rankings,
+        production.casting_reasons,
+        strict=True,
     ):
         played = performer.played
         castings.append(
-            resources.Casting(
+            resources.CastingSummary(
                 part=played.part,
-                part_name=production.score.parts[played.part].name,
+                part_name=score.parts[played.part].name,
                 instrument=casting.instrument,
                 player=casting.player,
                 seat=performer.seat.name,
@@ -95,14 +117,24 @@ def cast_resource(production: Production) -> resources.Cast:
                 written=casting.written,
                 octave_fit=casting.octave_fit,
                 joined_parts=list(played.joined_parts),
+                handedness=casting.handedness,
+                usual_fingerings=casting.usual_fingerings,
                 sounding_transposition=played.transposition,
                 notes=len(played.line),
                 playable=int(np.count_nonzero(played.fingering.playable)),
                 reasons=next(list(choice.reasons) for choice in ranking if choice.part == played.part),
-                choices=part_choices(ranking),
+                cast_because=list(why),
             )
         )
-    return resources.Cast(sequence=production.score.sequence, castings=castings)
+    return resources.CastSummary(
+        sequence=score.sequence,
+        auto=cast.auto,
+        castings=castings,
+        unplayed=[
+            resources.UnplayedPart(part=one.part, part_name=score.parts[one.part].name, reason=one.reason)
+            for one in production.unplayed
+        ],
+    )
 
 
 def part_choices(ranking: Iterable[PartRanking]) -> list[resources.PartChoice]:
@@ -119,6 +151,13 @@ class NoteTable:
     def __init__(self, production: Production) -> None:
         self._production = production
         performers = list(enumerate(production.performers))
+        self._names = NoteNames(
+            production.score, [(one.instrument, one.played) for one in production.performers]
+        )
+        self._usual = [
+            {note.sounding_pitch: list(note.fingerings[0]) for note in one.instrument.fingering_chart}
+            for one in production.performers
+        ]
         self._player_of_part = {part: player for player, one in performers for part in one.played.parts}
         self._line_of_note = {
             note: number
@@ -131,6 +170,7 @@ class NoteTable:
         production = self._production
         note = production.score.notes[index]
         pitch, played_so, reason = note.sounding_pitch, None, NOT_PLAYED
+        sounding_name, written_name = self._names.of(index)
         player = self._player_of_part.get(note.part)
         performer = production.performers[player or 0]
         number = self._line_of_note.get(index)
@@ -151,8 +191,11 @@ class NoteTable:
             duration_beats=note.duration_beats,
             sounding_pitch=pitch,
             written_pitch=performer.instrument.written_pitch(pitch),
+            sounding_name=sounding_name,
+            written_name=written_name,
             velocity=note.velocity,
             valves=list(played_so.valves) if isinstance(played_so, ValvesFingering) else None,
+            usual_valves=self._usual[player or 0][pitch] if isinstance(played_so, ValvesFingering) else None,
             fingering=played_so,
             reason=reason,
             player=player,
@@ -189,6 +232,7 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
             )
             for signature in metre_map.signatures
         ],
+        keys=music_keys(score, production.played.transposition, production.instrument.written_pitch(0)),
         bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
         notes=[],
         warnings=warned(production.warnings),

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.instruments import ValvesFingering
+from reina.instruments import ValvesFingering, who_has_tune
 from reina.show import TimeMap, Triggers
 from reina.stage import MusicForm
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments import PlayedPart
+    from reina.instruments import PlayedPart, TunePassage
     from reina.music import Score
-    from reina.music.arrays import FloatArray
+    from reina.music.arrays import BoolArray, FloatArray
 
 
 def bar_lines_beats(score: Score) -> FloatArray:
@@ -67,8 +68,45 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
     )
 
 
+def tune_of(score: Score, played: Sequence[PlayedPart]) -> tuple[TunePassage, ...]:
+    """Who of several players has the tune when."""
+    lines_s = score.tempo_map.seconds(bar_lines_beats(score))
+    return who_has_tune(played, lines_s, score.duration_s)
+
+
+def tune_form(score: Score, played: Sequence[PlayedPart], tune: Sequence[TunePassage]) -> MusicForm:
+    """What the tune is like that goes from player to player, and where its phrases and the bars begin."""
+    forms = [music_form(score, one) for one in played]
+    begins = np.array([passage.start_s for passage in tune])
+    leads = np.array([passage.player for passage in tune])
+
+    def has_it(player: int, onset_s: FloatArray) -> BoolArray:
+        return leads[np.maximum(np.searchsorted(begins, onset_s, side="right") - 1, 0)] == player
+
+    kept = [has_it(player, form.onset_s) for player, form in enumerate(forms)]
+    columns = np.concatenate(
+        [
+            np.stack([form.onset_s, form.end_s, form.pitch, form.velocity])[:, own]
+            for form, own in zip(forms, kept, strict=True)
+        ],
+        axis=1,
+    )
+    onset_s, end_s, pitch, velocity = columns[:, np.argsort(columns[0], kind="stable")]
+    phrases_s = np.concatenate(
+        [form.phrases_s[has_it(player, form.phrases_s[:, 0])] for player, form in enumerate(forms)]
+    )
+    return replace(
+        forms[0],
+        onset_s=onset_s,
+        end_s=end_s,
+        pitch=pitch,
+        velocity=velocity,
+        phrases_s=phrases_s[np.argsort(phrases_s[:, 0], kind="stable")],
+    )
+
+
 def music_form(score: Score, played: PlayedPart) -> MusicForm:
-    """What the player's line is like, and where its phrases and the bars begin."""
+    """What a player's line is like, and where its phrases and the bars begin."""
     line = played.line
     first = np.flatnonzero(np.diff(line.phrase, prepend=-1))
     last = np.append(first[1:], len(line))[: len(first)] - 1

@@ -4,21 +4,32 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
-from reina.instruments import Cast, CastError
-from reina.instruments.player import SEATS, SEATS_FOR
+from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
+from reina.instruments.player import SEATS, SEATS_FOR, plan_glances
 from reina.music import NotInScoreError
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
-from reina.sessions.music_arrays import music_form, time_map, triggers
+from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
 from reina.sound.plan import PlayedParts
-from reina.stage import write_default_show
+from reina.stage import CastForm, Place, write_default_show
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from reina.curves import ParameterRegistry
-    from reina.instruments import Casting, Instrument, PartRanking, Performer, PlayedPart
+    from reina.instruments import (
+        Casting,
+        Instrument,
+        PartRanking,
+        Performer,
+        PlayedPart,
+        TunePassage,
+        UnplayedPart,
+    )
     from reina.instruments.player import Seat
     from reina.music import Score, ScoreWarning
     from reina.sessions.stage import Stage
@@ -73,20 +84,27 @@ class Production:
             stage: Who can play what.
             score: What is played.
             show: The show around it; when None, one is written from the form of the music.
-            cast: Who plays what; the trumpeter the part that suits best when None.
+            cast: Who plays what, or that the score is to say so; the trumpeter the part that suits best when
+                None.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
             NotInScoreError: The score has no such part.
         """
         cast = cast or Cast()
+        if cast.is_to_be_found:
+            cast = stage.found_cast(score, cast.sequence)
         castings, played, rankings = _prepare(stage, score, cast)
         registry = stage.registry(tuple(casting.instrument for casting in castings))
+        seats = _seats(cast)
+        glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, score, part, registry)
-            for number, (casting, seat, part) in enumerate(zip(castings, _seats(cast), played, strict=True))
+            stage.performer(casting, number, seat, score, part, registry, looks)
+            for number, (casting, seat, part, looks) in enumerate(
+                zip(castings, seats, played, glances, strict=True)
+            )
         ]
-        show = _show_for(score, played[0]) if show is None else rebound(show, registry)
+        show = _show_for(score, played, seats) if show is None else rebound(show, registry)
         show_plan = show.plan(registry, time_map(score), triggers=triggers(score, played))
         performance = Performance(performers, show_plan, duration_s=score.duration_s)
         return cls(
@@ -112,9 +130,29 @@ class Production:
         return self.performers[0].played
 
     @property
+    def seats(self) -> tuple[Seat, ...]:
+        """Where each player stands."""
+        return tuple(performer.seat for performer in self.performers)
+
+    @cached_property
+    def tune(self) -> tuple[TunePassage, ...]:
+        """Who has the tune when."""
+        return tune_of(self.score, [performer.played for performer in self.performers])
+
+    @property
     def instrument(self) -> Instrument:
         """The first player's instrument."""
         return self.performers[0].instrument
+
+    @cached_property
+    def casting_reasons(self) -> tuple[tuple[str, ...], ...]:
+        """Why there is each player."""
+        return casting_reasons(self.score, self.cast, self.stage.kinds)
+
+    @cached_property
+    def unplayed(self) -> tuple[UnplayedPart, ...]:
+        """The parts that nobody plays, and why."""
+        return unplayed_parts(self.score, self.cast, self.stage.kinds)
 
     @property
     def sounding(self) -> tuple[PlayedParts, ...]:
@@ -133,7 +171,8 @@ class Production:
     @property
     def has_default_show(self) -> bool:
         """Whether the show is still the one that was written from the form of this music."""
-        return self.show == _show_for(self.score, self.played)
+        played = [performer.played for performer in self.performers]
+        return self.show == _show_for(self.score, played, self.seats)
 
     def with_show(self, show: Show) -> Production:
         """The same with another show; what was planned of the players is kept."""
@@ -186,6 +225,7 @@ def _prepare(
                 written=casting.written,
                 octave_fit=casting.octave_fit,
                 joined_parts=casting.joined_parts,
+                usual_fingerings=casting.usual_fingerings,
             )
         except NotInScoreError as error:
             raise NotInScoreError(error.detail, location=f"{place}{error.location}") from error
@@ -212,5 +252,13 @@ def _seats(cast: Cast) -> tuple[Seat, ...]:
     return tuple(seats)
 
 
-def _show_for(score: Score, played: PlayedPart) -> Show:
-    return write_default_show(music_form(score, played), title=score.title)
+def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat]) -> Show:
+    """The show that is written for a cast."""
+    if len(played) == 1 and seats[0].is_middle:
+        return write_default_show(music_form(score, played[0]), title=score.title)
+    tune = tune_of(score, played)
+    cast = CastForm(
+        places=tuple(Place(seat.x_m, seat.z_m, seat.facing_rad) for seat in seats),
+        tune=tuple((passage.start_s, passage.player) for passage in tune),
+    )
+    return write_default_show(tune_form(score, played, tune), title=score.title, cast=cast)

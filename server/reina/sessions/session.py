@@ -16,6 +16,7 @@ from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, Transp
 from reina.sessions.audience import Audience
 from reina.sessions.description import (
     NoteTable,
+    cast_summary,
     lead_fields,
     part_choices,
     part_summaries,
@@ -146,6 +147,7 @@ class Session:
             sequences=score.sequences,
             parts=part_summaries(score),
             choices=part_choices(self.production.rankings[0]),
+            cast=cast_summary(self.production),
             notes=len(score.notes),
             warnings=[
                 *warned(self.production.warnings),

@@ -6,8 +6,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
-from reina.instruments import INSTRUMENTS, CastError, Performer, player_parameters
+from reina.instruments import (
+    HANDEDNESS,
+    INSTRUMENTS,
+    MAX_PLAYERS,
+    CastError,
+    Performer,
+    cast_parameters,
+    find_cast,
+    streamed_parameters,
+)
 from reina.instruments.player import Engagement
+from reina.performance import show_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
 
@@ -17,8 +27,9 @@ if TYPE_CHECKING:
 
     from reina.curves import Parameter
     from reina.instruments import Instrument, PlayedPart
-    from reina.instruments.casting import Casting
+    from reina.instruments.casting import Cast, Casting
     from reina.instruments.player import Seat
+    from reina.kinematics import Curve
     from reina.music import Score
     from reina.skeleton import Hold, Rig
 
@@ -84,18 +95,28 @@ class Stage:
             instruments: Each player's, in the cast's order; by default the first that there is, alone.
         """
         played = self.instruments[:1] if instruments is None else instruments
-        own = (
-            parameter
-            for number, name in enumerate(played)
-            for parameter in player_parameters(number, self.kinds[name])
-        )
+        own = cast_parameters([self.kinds[name] for name in played])
         return ParameterRegistry((*self.parameters, *own))
+
+    def largest_registry(self) -> ParameterRegistry:
+        """Everything that a show of the largest cast can move, whatever its players play."""
+        return ParameterRegistry(show_parameters(self.kinds.values(), MAX_PLAYERS, self.parameters))
+
+    def streamed(self) -> tuple[Parameter, ...]:
+        """All that the largest cast can give to a frame beside the show, whoever plays what."""
+        found = {
+            parameter.path: parameter
+            for number in range(MAX_PLAYERS)
+            for player, instrument in self.holds
+            for parameter in streamed_parameters(number, self.kinds[instrument], self.rigs[player])
+        }
+        return tuple(found.values())
 
     def instrument(self, casting: Casting, place: str) -> Instrument:
         """A casting's instrument.
 
         Raises:
-            CastError: There is none of that name, or the player cannot play it.
+            CastError: There is none of that name, or the player cannot play it, or not so.
         """
         if casting.instrument not in self.instruments:
             known = ", ".join(self.instruments)
@@ -109,7 +130,24 @@ class Stage:
                 f"there is no player {casting.player!r}; there are {known} for the {casting.instrument}",
                 location=f"{place}player",
             )
-        return self.kinds[casting.instrument]
+        instrument = self.kinds[casting.instrument]
+        if casting.handedness not in instrument.handedness:
+            known = " or ".join(instrument.handedness)
+            told = f"is played {known}-handed, not {casting.handedness}-handed"
+            if casting.handedness not in HANDEDNESS:
+                told = f"is played {known}-handed; there is no handedness {casting.handedness!r}"
+            raise CastError(f"the {instrument.title} {told}", location=f"{place}handedness")
+        return instrument
+
+    def found_cast(self, score: Score, sequence: int | None = None) -> Cast:
+        """The cast that a score asks for by itself.
+
+        Args:
+            score: The score.
+            sequence: Which sequence of the file it is, as `Cast` has it.
+        """
+        players = {name: self.players(name) for name in self.instruments}
+        return find_cast(score, self.kinds, players, sequence=sequence)
 
     def performer(
         self,
@@ -119,6 +157,7 @@ class Stage:
         score: Score,
         played: PlayedPart,
         registry: ParameterRegistry,
+        glances: Mapping[str, Curve],
     ) -> Performer:
         """Who plays a casting that names what there is.
 
@@ -129,6 +168,7 @@ class Stage:
             score: What is played.
             played: The part as it is played.
             registry: The show's parameters.
+            glances: How the player looks at the others.
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
@@ -143,5 +183,6 @@ class Stage:
                 number=number,
                 seat=seat,
                 seed=number,
+                glances=glances,
             ),
         )

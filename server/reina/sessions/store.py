@@ -358,7 +358,7 @@ class SessionStore:
         before, kept = session.production, session.show_revision
         path = self._folders.folder(session.id) / SCORE
         planned = await self._plan(path, session.record.score_filename, wanted)
-        another = planned.score.sequence != before.score.sequence
+        another = planned.score.sequence != before.score.sequence or planned.seats != before.seats
         if not another or not await asyncio.to_thread(lambda: before.has_default_show):
             planned = await asyncio.to_thread(planned.with_show, before.show)
         if planned.show is not kept.show:

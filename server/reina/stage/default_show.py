@@ -12,63 +12,15 @@ from reina.curves.interpolation import BUILT_IN
 from reina.curves.keyframe import Keyframe
 from reina.show.show import Marker, Show
 from reina.show.track import Track
+from reina.stage.cast_form import CastForm, leads_of
+from reina.stage.cast_lights import SideSpot, side_spots
+from reina.stage.cast_shots import cast_shot
 from reina.stage.music_form import MusicForm, Passage, passages
-from reina.stage.shots import SHOTS, Pose
+from reina.stage.shot_choice import ALONE, TOGETHER, Piece, choose_shots
+from reina.stage.shots import SHOTS, Pose, Shot
 
 REST_BEFORE_CUT = 0.02
 """How long before a cut a move is over, in bars."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """What a passage is compared with: the means of all passages, weighted by their bars."""
-
-    notes_per_second: float
-    loudness: float
-    height: float
-
-    @classmethod
-    def of(cls, all_passages: Sequence[Passage]) -> "Piece":
-        """The means of passages, one at least."""
-        bars = sum(passage.end_bar - passage.start_bar for passage in all_passages)
-
-        def mean(value: Callable[[Passage], float]) -> float:
-            return sum(value(p) * (p.end_bar - p.start_bar) for p in all_passages) / bars
-
-        return cls(mean(lambda p: p.notes_per_second), mean(lambda p: p.loudness), mean(lambda p: p.height))
-
-
-@dataclass(frozen=True)
-class Choice:
-    """When some shots are chosen.
-
-    Attributes:
-        shots: Names of `SHOTS`, the one that is liked best first.
-        name: What the marker says.
-        suits: Whether a passage of a piece asks for it.
-    """
-
-    shots: tuple[str, ...]
-    name: str
-    suits: Callable[[Passage, Piece], bool]
-
-
-CHOICES = (
-    Choice(("room", "figure"), "Rest", lambda p, _: p.sounding < 0.25),
-    Choice(
-        ("valves", "fingers", "bell"),
-        "Fast",
-        lambda p, piece: p.notes_per_second >= max(3.5, 1.15 * piece.notes_per_second),
-    ),
-    Choice(("low", "bell", "shoulder"), "Loud", lambda p, piece: p.loudness >= piece.loudness + 0.05),
-    Choice(("portrait", "bell", "crane"), "High", lambda p, piece: p.height >= piece.height + 2.5),
-    Choice(("profile", "shoulder", "crane"), "Soft", lambda p, piece: p.loudness <= piece.loudness - 0.05),
-)
-"""The first that suits is taken; of its shots the first that was not just seen: its best one may come again
-after one other, the rest after two."""
-
-IN_TURN = ("figure", "portrait", "shoulder", "fingers", "profile", "crane", "low", "bell")
-"""What is shown where nothing asks for something else."""
 
 
 @dataclass(frozen=True)
@@ -154,49 +106,34 @@ LEAST, GREATEST = 0.12, 5.0
 """No light of a mood is weaker or stronger."""
 
 
-def write_default_show(form: MusicForm, *, title: str = "") -> Show:
+def write_default_show(form: MusicForm, *, title: str = "", cast: CastForm | None = None) -> Show:
     """A show for a piece.
 
-    It cuts on bar lines by phrase, comes close to the valves in fast passages, and lights by loudness.
+    It cuts on bar lines by phrase, comes close to the valves in fast passages, and lights by loudness. Of a
+    cast it sees everybody, or who has the tune, and each side of the stage has a spot of its own.
 
     Args:
-        form: The piece.
+        form: The piece; of a cast the tune, whoever has it.
         title: What to call the show.
+        cast: Where several players stand, and who has the tune; None of one player.
     """
     found = passages(form)
     piece = Piece.of(found)
-    shots = _choose(found, piece)
-    tracks = [
-        *_camera(found, [shot for shot, _ in shots]),
-        *_colors(found),
-        *_lights(found, piece),
-    ]
-    markers = tuple(Marker(float(p.start_bar), name) for p, (_, name) in zip(found, shots, strict=True))
+    if cast is None:
+        chosen = choose_shots(found, piece, ALONE)
+        shots = [SHOTS[name] for name, _ in chosen]
+        spots: list[Track] = []
+    else:
+        chosen = choose_shots(found, piece, TOGETHER)
+        leads = leads_of(form, found, cast)
+        shots = [cast_shot(name, lead, cast.places) for (name, _), lead in zip(chosen, leads, strict=True)]
+        spots = _spots(found, side_spots(leads, cast.places))
+    tracks = [*_camera(found, shots), *_colors(found), *_lights(found, piece), *spots]
+    markers = tuple(Marker(float(p.start_bar), name) for p, (_, name) in zip(found, chosen, strict=True))
     return Show(tuple(tracks), title=title, time="bars", markers=markers)
 
 
-def _choose(found: Sequence[Passage], piece: Piece) -> list[tuple[str, str]]:
-    """Each passage's shot, and why. It begins, and ends, with the whole room."""
-    chosen: list[tuple[str, str]] = []
-    turn = 0
-    for index, passage in enumerate(found):
-        recent = [shot for shot, _ in chosen[-2:]]
-        name = "Beginning" if index == 0 else "End" if index == len(found) - 1 else f"Phrase {passage.phrase}"
-        choice = next((choice for choice in CHOICES if choice.suits(passage, piece)), None)
-        if choice is not None:
-            name = choice.name if index > 0 else name
-        liked = ["room"] if index in (0, len(found) - 1) and len(found) > 1 else []
-        liked += choice.shots if choice is not None and index > 0 else ()
-        shot = next((s for s in liked if s not in recent or (s == liked[0] and s != recent[-1])), None)
-        while shot is None:
-            shot = IN_TURN[turn % len(IN_TURN)]
-            shot = None if shot in recent else shot
-            turn += 1
-        chosen.append((shot, name))
-    return chosen
-
-
-def _camera(found: Sequence[Passage], shots: Sequence[str]) -> list[Track]:
+def _camera(found: Sequence[Passage], shots: Sequence[Shot]) -> list[Track]:
     lines: list[tuple[str, Callable[[Pose], Any]]] = [
         ("camera/position", lambda pose: pose.position),
         ("camera/target", lambda pose: pose.target),
@@ -205,8 +142,7 @@ def _camera(found: Sequence[Passage], shots: Sequence[str]) -> list[Track]:
     tracks: list[Track] = []
     for path, part in lines:
         keyframes: list[Keyframe[Any]] = []
-        for passage, name in zip(found, shots, strict=True):
-            shot = SHOTS[name]
+        for passage, shot in zip(found, shots, strict=True):
             keyframes.append(Keyframe(float(passage.start_bar), part(shot.start)))
             if part(shot.end) != part(shot.start):
                 end = passage.end_bar - REST_BEFORE_CUT
@@ -249,6 +185,19 @@ def _lights(found: Sequence[Passage], piece: Piece) -> list[Track]:
         *(_changes(path, found, [mood.colors[path] for mood in moods]) for path in MOODS[0].colors),
         _changes("blocks/glow", found, glow),
     ]
+
+
+def _spots(found: Sequence[Passage], spots: Sequence[SideSpot]) -> list[Track]:
+    """Each side's spot rests on its players, and changes with who has the tune."""
+    tracks: list[Track] = []
+    for spot in spots:
+        path = f"lights/spots/{spot.number}"
+        tracks += [
+            _track(f"{path}/target", [Keyframe(0.0, spot.target)]),
+            _track(f"{path}/angle", [Keyframe(0.0, spot.angle)]),
+            _changes(f"{path}/intensity", found, spot.levels),
+        ]
+    return tracks
 
 
 def _changes(path: str, found: Sequence[Passage], values: Sequence[Any]) -> Track:

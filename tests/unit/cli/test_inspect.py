@@ -50,7 +50,7 @@ def test_tables(capsys: pytest.CaptureFixture[str]):
         "written",
         "E5",
     ]
-    assert "2-3: usual for written A♭5" in lines[first + 1]
+    assert "2-3: usual for written G♯5" in lines[first + 1]
     assert "○ ● ●" in lines[first + 1]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import reina.music
-from reina.music import Score, ScoreError, ScoreLimitError, read_score, score_schema
+from reina.music import KeySignature, Score, ScoreError, ScoreLimitError, read_score, score_schema
 from reina.music.document.schema import schema_text
 
 
@@ -396,6 +396,15 @@ def test_the_published_schema_is_the_present_one():
     assert published == schema_text()
     assert json.loads(published) == score_schema()
     assert score_schema()["required"] == ["format", "parts"]
+
+
+def test_key_signatures_of_our_own_form():
+    keys = [{"beat": 4, "fifths": 0, "mode": "minor"}, {"beat": 0, "fifths": -2}]
+    score = read_score(json.dumps(own(key_signatures=keys)).encode())
+    assert score.key_signatures == (KeySignature(0.0, -2), KeySignature(4.0, 0, is_minor=True))
+    with pytest.raises(ScoreError, match="less than or equal to 7"):
+        read_score(json.dumps(own(key_signatures=[{"beat": 0, "fifths": 8}])).encode())
+    assert read_score(json.dumps(own(key_signatures=None)).encode()).key_signatures == ()
 
 
 @pytest.mark.parametrize("letter", ["x", "\0", "\x80", "\U000e0001", "\ud800", "\\", "'"])

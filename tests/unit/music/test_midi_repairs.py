@@ -18,7 +18,7 @@ from tests.unit.music.midi_bytes import (
     varlen,
 )
 
-from reina.music import Score, ScoreError, ScoreLimitError, read_score
+from reina.music import KeySignature, Score, ScoreError, ScoreLimitError, read_score
 
 NOTE = (on(0, 60), off(480, 60))
 
@@ -280,9 +280,25 @@ def test_a_bad_metre_is_left_out(bad: tuple[int, bytes]):
     assert kinds(score) == ["bad_metre"]
 
 
-@pytest.mark.parametrize("key", [meta(0, 0x59, b"\x7f\x09"), meta(0, 0x59, b""), meta(0, 0x7F, b"\0" * 300)])
-def test_metas_that_are_not_needed_may_hold_anything(key: tuple[int, bytes]):
-    score = read_score(midi((key, *NOTE)))
+@pytest.mark.parametrize("key", [meta(0, 0x59, b"\x08\0"), meta(0, 0x59, b""), meta(0, 0x59, b"\2\2")])
+def test_a_bad_key_is_left_out(key: tuple[int, bytes]):
+    score = read_score(midi((key, meta(0, 0x59, b"\xfd\1"), *NOTE)))
+    assert score.key_signatures == (KeySignature(0.0, -3, is_minor=True),)
+    assert kinds(score) == ["bad_key"]
+
+
+def test_of_keys_at_one_tick_the_first_tracks_holds():
+    score = read_score(
+        midi(
+            (meta(0, 0x59, b"\2\0"), meta(480, 0x59, b"\2\0"), meta(480, 0x59, b"\xff\0")),
+            (meta(0, 0x59, b"\4\0"), *NOTE),
+        )
+    )
+    assert score.key_signatures == (KeySignature(0.0, 2), KeySignature(2.0, -1))
+
+
+def test_metas_that_are_not_needed_may_hold_anything():
+    score = read_score(midi((meta(0, 0x7F, b"\0" * 300), *NOTE)))
     assert only_note(score) == (0.0, 0.5, 60)
     assert score.warnings == ()
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reina.music import Score, ScoreError, read_score
+from reina.music import KeySignature, Score, ScoreError, read_score
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -223,7 +223,7 @@ def test_fields_that_are_unknown_are_told_once_a_list():
 
 def test_fields_that_are_known_and_not_read_may_hold_anything():
     whole = document()
-    whole["header"].update(keySignatures=None, meta=5)
+    whole["header"].update(meta=5)
     whole["tracks"][0].update(endOfTrackTicks="x", id=[])
     whole["tracks"][0]["notes"][0].update(noteOffVelocity=-3, channel=99)
     assert read(whole).warnings == ()
@@ -355,3 +355,25 @@ def test_any_field_replaced_costs_at_most_itself(path: str, value: object):
     if is_strange(path, value):
         # Of a metre the whole is left out.
         assert {path, path.partition("/timeSignature/")[0] + "/timeSignature"} & {p for _, p in told(score)}
+
+
+def test_key_signatures_are_read_and_strange_ones_left_out():
+    whole = document()
+    whole["header"]["keySignatures"] = [
+        {"key": "Bb", "scale": "major", "ticks": 0},
+        {"key": "H", "scale": "major", "ticks": 480},
+        {"key": 3, "ticks": 480},
+        {"key": "C", "scale": "minor", "ticks": 960},
+        {"key": "C"},
+        {},
+    ]
+    score = read(whole)
+    ppq = whole["header"]["ppq"]
+    assert score.key_signatures == (KeySignature(0.0, -2), KeySignature(960 / ppq, 0, is_minor=True))
+    assert [place for kind, place in told(score)] == [
+        "header/keySignatures/5",
+        "header/keySignatures/1/key",
+        "header/keySignatures/2/key",
+        "header/keySignatures/4",
+    ]
+    assert read(changed("header/keySignatures", None)).key_signatures == ()

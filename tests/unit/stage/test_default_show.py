@@ -9,8 +9,8 @@ from tests.unit.stage.framing import VALVES, furthest_out
 
 from reina.show import Show, TimeMap
 from reina.stage import MusicForm, stage_registry, write_default_show
-from reina.stage.default_show import Piece
 from reina.stage.music_form import LONGEST_S, SHORTEST_S, passages
+from reina.stage.shot_choice import Piece
 from reina.stage.shots import SHOTS
 
 REGISTRY = stage_registry()

@@ -184,12 +184,18 @@ export interface WireNote {
   sounding_pitch: number
   /** MIDI number as a player of the instrument reads it. */
   written_pitch: number
+  /** What it is called as it sounds, in the key of the music: F♯4; C4 is 60. */
+  sounding_name: string
+  /** What it is called in the part of who plays it. */
+  written_name: string
   /** 0 to 1. */
   velocity: number
   /** The valves that are down, ascending; [] is open, null is not playable, not played, no valves. */
   valves: number[] | null
   /** How it is played, by the kind of instrument; null where it is not. */
   fingering: ValvesFingering | SlideFingering | StrikeFingering | KeysFingering | null
+  /** What a beginner's chart shows for it, null where valves is; where both differ, reason says why. */
+  usual_valves: number[] | null
   /** Why it is played so, or why it is not. */
   reason: string
   /** Who plays its part: a place in the cast, 0 being the first; null if nobody does. */
@@ -218,6 +224,10 @@ export interface Session {
   octave_fit: boolean
   /** Further parts that the player plays together with it, as if their notes were its own; ascending. */
   joined_parts: number[]
+  /** Which of the player's hands leads. */
+  handedness: string
+  /** Whether no fingering is taken but the usual one of each note. */
+  usual_fingerings: boolean
   /** Who plays: a rig with a hold on the instrument. */
   player: string
   /** Who could. */
@@ -231,6 +241,8 @@ export interface Session {
   parts: PartSummary[]
   /** The parts that the instrument could play, best first. */
   choices: PartChoice[]
+  /** Everybody who plays: part, instrument, player and the like beside it are the first one's. */
+  cast: CastSummary
   notes: number
   warnings: Warned[]
   song: SongState
@@ -276,6 +288,10 @@ export interface ScoreChanged {
   octave_fit: boolean
   /** Further parts that the player plays together with it, ascending. */
   joined_parts: number[]
+  /** Which of the player's hands leads. */
+  handedness: string
+  /** Whether no fingering is taken but the usual one of each note. */
+  usual_fingerings: boolean
   /** How long the music now lasts. */
   duration_s: number
   song: SongState
@@ -339,19 +355,28 @@ export interface Score {
   octave_fit: boolean
   /** Further parts that the player plays together with it, ascending. */
   joined_parts: number[]
+  handedness: string
+  usual_fingerings: boolean
   parts: PartSummary[]
   tempi: Tempo[]
   metres: Metre[]
+  keys: MusicKey[]
   bar_lines_s: number[]
   /** By onset; of one part alone with ?part=. */
   notes: WireNote[]
   warnings: Warned[]
 }
 
-/** Who plays what, in the order of the players. */
+/** Who plays what, in the order of the players, with what else each could play. */
 export interface Cast {
   sequence: number
+  /** Whether the score itself said who plays; false once somebody has chosen. */
+  auto: boolean
   castings: Casting[]
+  /** Every other part of the score, in its order. */
+  unplayed: UnplayedPart[]
+  /** Who is heard above the others, from the beginning to the end: the higher, livelier, louder line. */
+  tune: TunePassage[]
 }
 
 /** What a cast can be made of. */
@@ -361,6 +386,27 @@ export interface InstrumentList {
   seats: string[]
   /** How many play at once at most. */
   max_players: number
+}
+
+/** What one player plays, as notation. */
+export interface WrittenPart {
+  title: string
+  part_name: string
+  /** A place in the cast, 0 being the first. */
+  player: number
+  instrument: string
+  instrument_title: string
+  clef: "treble" | "bass"
+  /** Semitones from a pitch that sounds to the one that is written. */
+  written_above_sounding: number
+  /** Whether swung eighths are written even. */
+  swing: boolean
+  keys: MusicKey[]
+  tempi: PartTempo[]
+  /** The line, by onset. */
+  notes: PartNote[]
+  /** Up to the end of the last note. */
+  measures: PartMeasure[]
 }
 
 /** What came of an edit, an undo or a redo. */
@@ -420,9 +466,12 @@ export interface RigList {
   rigs: RigSummary[]
 }
 
-/** Every show parameter in the frame's order, and every interpolation. */
+/** Every parameter in the frame's order, and every interpolation. */
 export interface ShowParameterList {
+  /** What a show can move. The first player's paths stand alone, the second's begin with players/2/. */
   parameters: ShowParameter[]
+  /** What the players give to a frame beside the show, such as valves; no keyframe moves it. */
+  streamed: ShowParameter[]
   interpolations: Interpolation[]
 }
 
@@ -511,8 +560,12 @@ export interface SessionChange {
   written?: boolean | null
   octave_fit?: boolean | null
   joined_parts?: number[] | null
+  usual_fingerings?: boolean | null
   sequence?: number | null
   player?: string | null
+  handedness?: "left" | "right" | null
+  /** auto: the score itself says who plays it; the fields for one player are then left out. */
+  cast?: "auto" | null
 }
 
 /** Who is to play what, the first player first. */
@@ -528,7 +581,17 @@ export interface CurvePreview {
   track: Record<string, unknown>
 }
 
-/** What a player does, and how it came out. */
+/** Who plays what, in the order of the players, and why nobody plays the rest. */
+export interface CastSummary {
+  sequence: number
+  /** Whether the score itself said who plays; false once somebody has chosen. */
+  auto: boolean
+  castings: CastingSummary[]
+  /** Every other part of the score, in its order. */
+  unplayed: UnplayedPart[]
+}
+
+/** What a player does, how it came out, and what else there is. */
 export interface Casting {
   part: number
   part_name: string
@@ -541,6 +604,8 @@ export interface Casting {
   written: boolean
   octave_fit: boolean
   joined_parts: number[]
+  handedness: string
+  usual_fingerings: boolean
   /** Semitones by which the part is played away from the file's pitches. */
   sounding_transposition: number
   /** How many notes the player plays, one at a time. */
@@ -549,6 +614,8 @@ export interface Casting {
   playable: number
   /** Why this part suits the instrument, or does not. */
   reasons: string[]
+  /** Why there is a player for it: what the part is for, and what it is beside the parts of those before. */
+  cast_because: string[]
   /** The parts that the instrument could play, best first. */
   choices: PartChoice[]
 }
@@ -566,6 +633,48 @@ export interface CastingFields {
   written?: boolean
   octave_fit?: boolean
   joined_parts?: number[]
+  /** Which hand leads, where the instrument can be played so. */
+  handedness?: "right" | "left"
+  /** Take no fingering but the usual one of each note. */
+  usual_fingerings?: boolean
+}
+
+/** What a player does, and how it came out. */
+export interface CastingSummary {
+  part: number
+  part_name: string
+  instrument: string
+  player: string
+  seat: string
+  /** Whether somebody chose the seat; otherwise it is by how many play. */
+  seat_chosen: boolean
+  transposition: number
+  written: boolean
+  octave_fit: boolean
+  joined_parts: number[]
+  handedness: string
+  usual_fingerings: boolean
+  /** Semitones by which the part is played away from the file's pitches. */
+  sounding_transposition: number
+  /** How many notes the player plays, one at a time. */
+  notes: number
+  /** How many of these the instrument has. */
+  playable: number
+  /** Why this part suits the instrument, or does not. */
+  reasons: string[]
+  /** Why there is a player for it: what the part is for, and what it is beside the parts of those before. */
+  cast_because: string[]
+}
+
+/** How an instrument plays one note. */
+export interface ChartLine {
+  sounding_pitch: number
+  written_pitch: number
+  /** One name, or of a black key both: the sharp, then the flat. */
+  sounding_names: string[]
+  written_names: string[]
+  /** The usual one first, then the alternates; each the valves that are down, ascending. */
+  fingerings: number[][]
 }
 
 /** A parameter's values over the times of a ShowCurves. */
@@ -599,6 +708,14 @@ export interface InstrumentSummary {
   rig: string
   /** The rigs that hold it. */
   players: string[]
+  /** Which hand may lead. */
+  handedness: string[]
+  /** The clef that it is written in. */
+  clef: "treble" | "bass"
+  /** How many it has. */
+  valves: number
+  /** Every note that it has, from the lowest up. */
+  chart: ChartLine[]
 }
 
 /** A way to come to a keyframe from the one before. */
@@ -640,6 +757,21 @@ export interface Metre {
   denominator: number
 }
 
+/** A key and where it begins. */
+export interface MusicKey {
+  onset_beats: number
+  onset_s: number
+  /** As the first player's part sounds: E♭ major; no key where the notes are in none. */
+  name: string
+  /** Sharps of its signature; flats are negative. */
+  fifths: number
+  /** As it stands in the first player's part. */
+  written_name: string
+  written_fifths: number
+  /** Whether the file says it, or it is found from the notes. */
+  source: "file" | "notes" | "none"
+}
+
 /** One parameter of the frame. */
 export interface ParameterManifest {
   path: string
@@ -659,6 +791,87 @@ export interface PartChoice {
   reasons: string[]
 }
 
+/** A note or a rest in a bar. */
+export interface PartEntry {
+  /** From the bar's beginning; a quarter has 48. */
+  begin_ticks: number
+  ticks: number
+  /** Which part of a whole note is written: 4 for a quarter. */
+  value: number
+  dots: number
+  /** Its place in notes; null for a rest. */
+  note: number | null
+  /** Whether it is the rest of whole bars. */
+  is_bar_rest: boolean
+  /** As the player reads it. */
+  written: PartPitch | null
+  sounding: PartPitch | null
+  /** Whether a tie comes from the note before. */
+  tied_from: boolean
+  /** Whether a tie goes to the next note. */
+  tied_to: boolean
+  /** Notes of a bar with one number are under one beam. */
+  beam: number | null
+  /** Entries of a bar with one number are a tuplet: three (or six) in the time of two (or four). */
+  tuplet: number | null
+  is_staccato: boolean
+  /** Before it. */
+  graces: PartGrace[]
+  /** A trill with this note of notes, which is the upper one. */
+  trill: number | null
+}
+
+/** A grace note. */
+export interface PartGrace {
+  /** Its place in notes. */
+  note: number
+  written: PartPitch
+  sounding: PartPitch
+}
+
+/** A bar, or several of rest as one. */
+export interface PartMeasure {
+  /** The first whole bar is 1, a pickup 0. */
+  number: number
+  /** How many bars of rest it stands for, else 1. */
+  bars: number
+  begin_s: number
+  end_s: number
+  /** How long each bar is: its entries last together as long. */
+  ticks: number
+  numerator: number
+  denominator: number
+  /** Of the signature as it sounds. */
+  fifths: number
+  /** Of the signature in the player's part. */
+  written_fifths: number
+  entries: PartEntry[]
+}
+
+/** A note of the line that is played. */
+export interface PartNote {
+  /** Its place in the score's table of notes. */
+  index: number
+  onset_s: number
+  end_s: number
+  sounding_name: string
+  written_name: string
+  /** The valves that are down, ascending; null where it cannot be played. */
+  valves: number[] | null
+  usual_valves: number[] | null
+  reason: string
+}
+
+/** Where a note stands on the staff. */
+export interface PartPitch {
+  /** For people: F♯5. */
+  name: string
+  letter: "A" | "B" | "C" | "D" | "E" | "F" | "G"
+  octave: number
+  /** What is printed before it; null where signature and bar say it already. */
+  accidental: "flat" | "natural" | "sharp" | null
+}
+
 /** One part of a score. */
 export interface PartSummary {
   index: number
@@ -668,6 +881,18 @@ export interface PartSummary {
   is_drums: boolean
   /** How many notes it has. */
   notes: number
+}
+
+/** A tempo that is printed. */
+export interface PartTempo {
+  /** Index into measures. */
+  measure: number
+  /** Where in it. */
+  begin_ticks: number
+  /** Quarter notes a minute; null where a word stands. */
+  bpm: number | null
+  /** rit., accel. or nothing. */
+  word: string
 }
 
 /** A rig in the list. */
@@ -822,6 +1047,22 @@ export interface TimeKnots {
   seconds: number[]
   beats: number[]
   bars: number[]
+}
+
+/** A stretch in which one player has the tune. */
+export interface TunePassage {
+  start_s: number
+  /** Where the next begins. */
+  end_s: number
+  /** The player's place in the cast. */
+  player: number
+}
+
+/** A part that nobody plays; it is heard. */
+export interface UnplayedPart {
+  part: number
+  part_name: string
+  reason: string
 }
 
 /** How valved brass plays a note. */

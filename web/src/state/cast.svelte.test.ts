@@ -15,6 +15,9 @@ function casting(part: number, changes: Partial<Casting> = {}): Casting {
     written: false,
     octave_fit: false,
     joined_parts: [],
+    handedness: "right",
+    usual_fingerings: false,
+    cast_because: [],
     sounding_transposition: 0,
     notes: 4,
     playable: 4,
@@ -24,10 +27,12 @@ function casting(part: number, changes: Partial<Casting> = {}): Casting {
   };
 }
 
+const AS_CHOSEN = { sequence: 0, auto: false, unplayed: [], tune: [] };
+
 /** A server that does what it is asked, as far as a part and a figure go. */
 const obliging = (fields: CastFields): Promise<Cast> =>
   Promise.resolve({
-    sequence: 0,
+    ...AS_CHOSEN,
     castings: fields.castings.map(({ part, player }, i) => casting(part ?? i, { player: player ?? "trumpeter" })),
   });
 
@@ -40,7 +45,7 @@ describe("CastState", () => {
   it("asks for the whole cast with one player's field changed, and keeps what others chose", async () => {
     const put = vi.fn(obliging);
     const both = [casting(0, { seat: "middle", seat_chosen: true, octave_fit: true }), casting(1)];
-    const cast = new CastState({ sequence: 0, castings: both }, put, vi.fn());
+    const cast = new CastState({ ...AS_CHOSEN, castings: both }, put, vi.fn());
     await cast.change(1, { player: "soloist" });
     expect(put.mock.calls[0]?.[0].castings).toMatchObject([
       { part: 0, seat: "middle", octave_fit: true, player: "trumpeter" },
@@ -52,7 +57,7 @@ describe("CastState", () => {
 
   it("plays another part alone", async () => {
     const put = vi.fn(obliging);
-    const cast = new CastState({ sequence: 0, castings: [casting(0, { joined_parts: [2] })] }, put, vi.fn());
+    const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0, { joined_parts: [2] })] }, put, vi.fn());
     await cast.change(0, { part: 1 });
     expect(put.mock.calls[0]?.[0].castings[0]).toMatchObject({ part: 1, joined_parts: [] });
     await cast.change(0, { joined_parts: [2] });
@@ -60,7 +65,7 @@ describe("CastState", () => {
   });
 
   it("follows whom it adds, and whoever stays when somebody is left out", async () => {
-    const cast = new CastState({ sequence: 0, castings: [casting(0)] }, obliging, vi.fn());
+    const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0)] }, obliging, vi.fn());
     await cast.add("soloist", "trumpet");
     await cast.add("trumpeter", "trumpet");
     expect([cast.castings.length, cast.followed]).toEqual([3, 2]);
@@ -71,7 +76,7 @@ describe("CastState", () => {
   });
 
   it("follows nobody who is not there", () => {
-    const cast = new CastState({ sequence: 0, castings: [casting(0), casting(1)] }, obliging, vi.fn());
+    const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0), casting(1)] }, obliging, vi.fn());
     cast.follow(1);
     cast.follow(2);
     cast.follow(-1);
@@ -82,7 +87,7 @@ describe("CastState", () => {
 
   it("says what the server refused where it was asked for, and leaves the cast", async () => {
     const tell = vi.fn();
-    const cast = new CastState({ sequence: 0, castings: [casting(0), casting(1)] }, refusing(422), tell);
+    const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0), casting(1)] }, refusing(422), tell);
     await cast.change(1, { part: 0 });
     expect(cast.refusal).toEqual({ player: 1, place: "part", words: "part 1 is taken" });
     expect(cast.castings.map(({ part }) => part)).toEqual([0, 1]);
@@ -94,17 +99,17 @@ describe("CastState", () => {
 
   it("tells the page of what is nobody's fault in the cast", async () => {
     const tell = vi.fn();
-    const cast = new CastState({ sequence: 0, castings: [casting(0)] }, refusing(0), tell);
+    const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0)] }, refusing(0), tell);
     await cast.change(0, { octave_fit: true });
     expect(cast.refusal).toBeNull();
     expect(tell).toHaveBeenCalledOnce();
   });
 
-  it("keeps what a server that finds casts says: which hand leads, and why nobody plays a part", async () => {
+  it("keeps what the server says of a cast: which hand leads, and why nobody plays a part", async () => {
     const put = vi.fn(obliging);
     const found = { ...casting(0), handedness: "left" as const, cast_because: ["it has the tune"] };
     const unplayed = [{ part: 2, part_name: "Organ", reason: "several notes at once" }];
-    const cast = new CastState({ sequence: 0, castings: [found], unplayed }, put, vi.fn());
+    const cast = new CastState({ ...AS_CHOSEN, castings: [found], unplayed }, put, vi.fn());
     expect(cast.casting?.cast_because).toEqual(["it has the tune"]);
     expect(cast.unplayed).toEqual(unplayed);
     await cast.change(0, { octave_fit: true });

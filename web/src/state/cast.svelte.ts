@@ -1,5 +1,5 @@
 import { ProblemError } from "../connection";
-import type { Cast, CastFields, Casting, CastingFields } from "../generated/protocol";
+import type { Cast, CastFields, Casting, CastingFields, UnplayedPart } from "../generated/protocol";
 import { playerInk } from "./player-inks";
 
 /** A field of a casting, or what is done with the cast as a whole. */
@@ -12,24 +12,10 @@ export interface Refusal {
   readonly words: string;
 }
 
-/** A part that nobody on the stage plays, and why. */
-export interface UnplayedPart {
-  readonly part: number;
-  readonly part_name: string;
-  readonly reason: string;
-}
-
-/** What a server that finds the cast by itself says beside. */
-type FoundCasting = Casting & { readonly cast_because?: readonly string[]; readonly handedness?: "right" | "left" };
-type FoundCast = Omit<Cast, "castings"> & {
-  readonly castings: readonly FoundCasting[];
-  readonly unplayed?: readonly UnplayedPart[];
-};
-
 /** Who plays: the cast as the server has it, and the player whom this page's strips follow. */
 export class CastState {
-  castings = $state.raw<readonly FoundCasting[]>([]);
-  /** What nobody plays, where the server says it. */
+  castings = $state.raw<readonly Casting[]>([]);
+  /** What nobody plays, and why. */
   unplayed = $state.raw<readonly UnplayedPart[]>([]);
   refusal = $state.raw<Refusal | null>(null);
   /** Colours of the players' blocks on the stage, as they are read on a pane; none before they are drawn. */
@@ -46,16 +32,16 @@ export class CastState {
    * @param put asks the server for another cast.
    * @param tell shows what went wrong where no place of the cast is to blame.
    */
-  constructor(cast: FoundCast, put: (fields: CastFields) => Promise<Cast>, tell: (error: unknown) => void) {
+  constructor(cast: Cast, put: (fields: CastFields) => Promise<Cast>, tell: (error: unknown) => void) {
     this.take(cast);
     this.#put = put;
     this.#tell = tell;
   }
 
   /** Take the cast as the server has it now. */
-  take(cast: FoundCast): void {
+  take(cast: Cast): void {
     this.castings = cast.castings;
-    this.unplayed = cast.unplayed ?? [];
+    this.unplayed = cast.unplayed;
   }
 
   /** A player's colour in panels and strips. */
@@ -64,7 +50,7 @@ export class CastState {
   }
 
   /** The followed player's casting. */
-  get casting(): FoundCasting | null {
+  get casting(): Casting | null {
     return this.castings[this.followed] ?? null;
   }
 
@@ -114,8 +100,9 @@ export class CastState {
 }
 
 /** A casting as it is asked for: without how it came out. */
-export function fieldsOf(casting: FoundCasting): CastingFields {
+export function fieldsOf(casting: Casting): CastingFields {
   const { part, instrument, player, seat, seat_chosen, transposition, written, octave_fit, joined_parts } = casting;
+  const { handedness, usual_fingerings } = casting;
   return {
     part,
     instrument,
@@ -125,7 +112,8 @@ export function fieldsOf(casting: FoundCasting): CastingFields {
     written,
     octave_fit,
     joined_parts,
-    ...(casting.handedness === undefined ? {} : { handedness: casting.handedness }),
+    handedness: handedness === "left" ? "left" : "right",
+    usual_fingerings,
   };
 }
 

@@ -1,3 +1,4 @@
+import { Panels } from "./panels.svelte";
 import { nextRate } from "./rates";
 import { phrasesOf } from "./overview";
 import type { Reina } from "./reina.svelte";
@@ -37,18 +38,14 @@ export interface DeckHands {
 /** What lies over the stage: which panels are open, and what each action does. */
 export class Deck {
   readonly reina: Reina;
-  pieceOpen = $state(remembered().pieceOpen);
-  showOpen = $state(remembered().showOpen);
+  readonly panels = new Panels();
   noteNames = $state(remembered().noteNames);
-  filmOpen = $state(false);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** Files are held over the page. */
   dropping = $state(false);
   /** The camera was taken to the player whom the strips follow, and goes along to whoever is followed next. */
   cameraFollows = $state(false);
-  /** The window has room for one panel at a time. */
-  narrow = $state(false);
   /** Filled by the components that can do these things. */
   readonly hands: Partial<DeckHands> = {};
   #loopStart: number | null = null;
@@ -80,9 +77,10 @@ export class Deck {
     onePlayer: (view) => this.viewPlayer(view.cast.followed),
     nextPlayer: (view) => this.follow((view.cast.followed + 1) % view.cast.castings.length),
     fullscreen: () => this.hands.toggleFullscreen?.(),
-    piece: () => this.togglePiece(),
-    show: () => this.toggleShow(),
-    film: () => this.toggleFilm(),
+    piece: () => this.panels.toggle("piece"),
+    show: () => this.panels.toggle("show"),
+    film: () => this.panels.toggle("film"),
+    paper: () => this.panels.toggle("paper"),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
@@ -140,30 +138,6 @@ export class Deck {
     if (!taken) this.cameraFollows = false;
   }
 
-  togglePiece(open = !this.pieceOpen): void {
-    if (open && this.narrow) this.#makeRoom();
-    this.pieceOpen = open;
-    remember({ pieceOpen: open });
-  }
-
-  toggleShow(open = !this.showOpen): void {
-    if (open && this.narrow) this.#makeRoom();
-    this.showOpen = open;
-    remember({ showOpen: open });
-  }
-
-  toggleFilm(open = !this.filmOpen): void {
-    if (open && this.narrow) this.#makeRoom();
-    this.filmOpen = open;
-  }
-
-  /** Close the panels, where there is room for one. */
-  #makeRoom(): void {
-    this.toggleShow(false);
-    this.togglePiece(false);
-    this.toggleFilm(false);
-  }
-
   nameNotes(noteNames: NoteNames): void {
     this.noteNames = noteNames;
     remember({ noteNames });
@@ -171,10 +145,7 @@ export class Deck {
 
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
-    else if (this.filmOpen) this.toggleFilm(false);
-    else if (this.showOpen) this.toggleShow(false);
-    else if (this.pieceOpen) this.togglePiece(false);
-    else return false;
+    else return this.panels.closeLast();
     return true;
   }
 

@@ -29,6 +29,7 @@ export type Action =
   | "piece"
   | "show"
   | "film"
+  | "paper"
   | "names"
   | "open"
   | "help";
@@ -72,6 +73,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },
   { action: "film", keys: ["r"], shown: "R", says: "Film: record a video, or a still" },
+  { action: "paper", keys: ["t"], shown: "T", says: "The part on paper" },
   { action: "names", keys: ["n"], shown: "N", says: "Name notes as written, or as they sound" },
   { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },
   { action: "help", keys: ["?"], shown: "?", says: "This list" },

@@ -1,4 +1,5 @@
 export type NoteNames = "written" | "sounding";
+export type Paper = "A4" | "letter";
 
 /** What this browser remembers: the sessions that it may change, and how the person likes the page. */
 export interface Remembered {
@@ -8,8 +9,8 @@ export interface Remembered {
   readonly home: string | null;
   readonly volume: number;
   readonly muted: boolean;
-  readonly pieceOpen: boolean;
-  readonly showOpen: boolean;
+  /** Panels that are open. */
+  readonly panels: readonly string[];
   /** Height of the show's editor, pixels; 0 for what suits the window. */
   readonly editorHeight: number;
   /** Groups of tracks that are folded up. */
@@ -19,6 +20,8 @@ export interface Remembered {
   readonly snaps: readonly ("bars" | "beats" | "keys" | "markers" | "frames")[];
   /** Notes are called as written for the trumpet, or as they sound. */
   readonly noteNames: NoteNames;
+  /** What parts are printed on; null for what is usual where the person is. */
+  readonly paper: Paper | null;
   /** Somebody has pressed Play here before: the welcome has done its work. */
   readonly hasPlayed: boolean;
 }
@@ -31,13 +34,13 @@ const NOTHING: Remembered = {
   home: null,
   volume: 0.9,
   muted: false,
-  pieceOpen: false,
-  showOpen: false,
+  panels: [],
   editorHeight: 0,
   closedGroups: [],
   snapping: true,
   snaps: ["bars", "beats", "keys", "markers"],
   noteNames: "written",
+  paper: null,
   hasPlayed: false,
 };
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import resources
-from typing import Any
+from typing import Any, Literal
 
 from reina.instruments.brass.acoustics import Tube
 from reina.instruments.brass.chart import ChartEntry, Valves, read_valves, three_valve_chart
@@ -30,6 +30,7 @@ class BrassModel:
         substitutes: Fingerings that a fourth valve takes the place of, as in 1-3 by 4.
         below_chart: Fingerings of chart pitches below the chart, where a fourth valve reaches further down.
         suitability: What parts it plays.
+        clef: The clef that it is written in.
     """
 
     name: str
@@ -44,6 +45,7 @@ class BrassModel:
     substitutes: Mapping[Valves, Valves]
     below_chart: Mapping[int, Valves]
     suitability: Suitability
+    clef: Literal["treble", "bass"] = "treble"
 
     @property
     def valve_count(self) -> int:
@@ -117,4 +119,5 @@ def _model(table: Mapping[str, Any]) -> BrassModel:
             lowest=lowest,
             highest=highest,
         ),
+        clef=table.get("clef", "treble"),
     )

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 from reina.instruments.brass.chart import show_valves
 from reina.instruments.brass.phrase import Choice, moved
-from reina.instruments.pitch_names import pitch_name
 
 FAST_S = 0.25
 """Onsets nearer than this are called fast."""
@@ -14,7 +13,7 @@ def why(
     note: int,
     taken: Sequence[Choice],
     primaries: Sequence[Choice],
-    pitches: Sequence[int],
+    names: Sequence[str],
     onset_s: Sequence[float],
 ) -> str:
     """Say why a note of a phrase has the fingering it has.
@@ -23,11 +22,11 @@ def why(
         note: Which note of the phrase.
         taken: The choice of each note.
         primaries: What would be usual for each.
-        pitches: Written pitch of each.
+        names: What each is called as it is written.
         onset_s: Onset of each.
     """
     choice, usual = taken[note], primaries[note]
-    name = pitch_name(pitches[note])
+    name = names[note]
     if choice.rank == 0:
         return f"{show_valves(choice.valves)}: usual for written {name}"
     neighbours = [index for index in (note - 1, note + 1) if 0 <= index < len(taken)]
@@ -42,16 +41,18 @@ def why(
         gains.append(f"moves {_count(by_choice, 'finger')} and not {by_usual}")
     if crossed_by_choice < crossed_by_usual:
         gains.append(
-            f"stays on harmonic {choice.harmonic}" if not crossed_by_choice else "crosses fewer harmonics"
+            f"stays on harmonic {choice.harmonic}, so that the valves alone change the note"
+            if not crossed_by_choice
+            else "crosses fewer harmonics"
         )
     if not gains and abs(choice.cents) < abs(usual.cents):
         gains.append(f"is {abs(choice.cents):.0f} cents off and not {abs(usual.cents):.0f}")
     apart = min((abs(onset_s[index] - onset_s[note]) for index in neighbours), default=FAST_S)
-    speed = f", {1 / apart:.0f} notes a second" if 0 < apart < FAST_S else ""
-    around = ", ".join(pitch_name(pitches[index]) for index in neighbours)
+    speed = f" at {1 / apart:.0f} notes a second" if 0 < apart < FAST_S else ""
+    around = ", ".join(dict.fromkeys(names[index] for index in neighbours))
     gain = " and ".join(gains) or "suits the notes further off"
     beside = f" beside {around}" if around else ""
-    return f"{show_valves(choice.valves)} for {show_valves(usual.valves)}: {gain}{beside}{speed}"
+    return f"{show_valves(choice.valves)} in place of {show_valves(usual.valves)}{beside}{speed}: {gain}"
 
 
 def _count(number: int, what: str) -> str:

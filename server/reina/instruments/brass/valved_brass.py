@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -14,10 +15,12 @@ from reina.instruments.brass.model import BrassModel
 from reina.instruments.brass.mute import MUTE_CHOICE, mute_parameter
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
+from reina.instruments.chart_note import ChartNote
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import playable_line
 from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
+from reina.instruments.note_names import spell_line
 from reina.instruments.octaves import fitting_octaves
 from reina.instruments.pitch_names import pitch_name
 from reina.instruments.played import Line, PlayedPart
@@ -27,6 +30,7 @@ from reina.kinematics import Curve, MotionCurves
 from reina.music.arrays import read_only
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
+from reina.notation import keys_of, named
 
 DOWN, UP = "●", "○"
 
@@ -65,6 +69,23 @@ class ValvedBrass(Instrument):
         """How many valves it has."""
         return self.model.valve_count
 
+    def can_play(self, sounding_pitch: int) -> bool:
+        """Return whether it has a note, a MIDI number as it sounds."""
+        return sounding_pitch in self.model.chart
+
+    @property
+    def clef(self) -> Literal["treble", "bass"]:
+        """The clef that it is written in."""
+        return self.model.clef
+
+    @cached_property
+    def fingering_chart(self) -> tuple[ChartNote, ...]:
+        """How each note that it has is fingered, from the lowest up."""
+        return tuple(
+            ChartNote(pitch, self.written_pitch(pitch), (entry.primary, *entry.alternates))
+            for pitch, entry in self.model.chart.items()
+        )
+
     def written_pitch(self, sounding_pitch: int) -> int:
         """Return the pitch that stands in the player's part for one that sounds, both MIDI numbers."""
         return sounding_pitch + self.model.written_above_sounding
@@ -82,6 +103,7 @@ class ValvedBrass(Instrument):
         written: bool = False,
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
+        usual_fingerings: bool = False,
     ) -> BrassPart:
         """As `Instrument.play`."""
         joined = check_parts(score, part, joined_parts)
@@ -106,7 +128,13 @@ class ValvedBrass(Instrument):
                 f"moved by {_octaves(octaves)}, more of its notes would be in range",
             )
         line = playable_line(score, part, transposition, log, joined_parts=joined, playable=self.model.chart)
-        fingering = self.finger(line)
+        above = self.model.written_above_sounding
+        spelled = spell_line(score, line, keys_of(score), moved=transposition, written_above_sounding=above)
+        written_names = [
+            named(pitch + above, name)
+            for pitch, name in zip(line.sounding_pitch.tolist(), spelled.tolist(), strict=True)
+        ]
+        fingering = self.finger(line, written_names, usual_fingerings=usual_fingerings)
         for note in np.flatnonzero(~fingering.playable).tolist():
             index = line.note_index[note]
             where = f"part {score.notes.part[index]}, note {index} at {line.onset_s[note]:.3f} s"
@@ -130,8 +158,16 @@ class ValvedBrass(Instrument):
         streamed = tuple(parameter.path.removeprefix(f"{self.name}/") for parameter in self._moved)
         return BrassBody(engagement, curves, self.valve_count, streamed)
 
-    def finger(self, line: Line) -> BrassFingering:
-        """Finger a line, phrase by phrase; what is out of range ends a phrase."""
+    def finger(
+        self, line: Line, written_names: Sequence[str], *, usual_fingerings: bool = False
+    ) -> BrassFingering:
+        """Finger a line, phrase by phrase; what is out of range ends a phrase.
+
+        Args:
+            line: M notes.
+            written_names: What each is called in the player's part.
+            usual_fingerings: Whether to take no fingering but the usual one of each note.
+        """
         count = len(line)
         pitches: list[int] = line.sounding_pitch.tolist()
         onset_s: list[float] = line.onset_s.tolist()
@@ -153,7 +189,7 @@ class ValvedBrass(Instrument):
                 end += 1
             span = slice(begin, end)
             choices = [
-                self._choices(pitch, until - onset >= SLIDE_FROM_S)
+                self._choices(pitch, until - onset >= SLIDE_FROM_S)[: 1 if usual_fingerings else None]
                 for pitch, onset, until in zip(pitches[span], onset_s[span], end_s[span], strict=True)
             ]
             taken = [
@@ -163,7 +199,6 @@ class ValvedBrass(Instrument):
                 )
             ]
             primaries = [of_note[0] for of_note in choices]
-            written = [self.written_pitch(pitch) for pitch in pitches[span]]
             onsets = onset_s[span]
             for index, choice in enumerate(taken):
                 note = begin + index
@@ -172,7 +207,7 @@ class ValvedBrass(Instrument):
                 primary[note] = choice.rank == 0
                 cents[note] = choice.cents
                 slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
-                reasons[note] = why(index, taken, primaries, written, onsets)
+                reasons[note] = why(index, taken, primaries, written_names[span], onsets)
             begin = end
         return BrassFingering(
             notes=tuple(notes),

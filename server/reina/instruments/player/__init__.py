@@ -2,6 +2,7 @@
 
 from reina.instruments.player.body import PlayerBody, Standing
 from reina.instruments.player.engagement import Engagement, player_prefix
+from reina.instruments.player.glances import plan_glances
 from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames, BodyMotion, InstrumentBody
 from reina.instruments.player.phrasing import (
@@ -30,10 +31,12 @@ __all__ = [
     "SkeletonLayout",
     "StanceChoice",
     "Standing",
+    "cast_parameters",
     "in_order",
     "movements",
     "phrases_of",
     "plan_breath",
+    "plan_glances",
     "plan_phrasing",
     "player_prefix",
 ]

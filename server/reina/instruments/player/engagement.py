@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from reina.instruments.player.seats import SEATS, Seat
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from reina.curves import ParameterRegistry
     from reina.instruments.played import PlayedPart
+    from reina.kinematics import Curve
     from reina.music.score import Score
     from reina.skeleton import Hold, Rig
 
@@ -35,6 +36,7 @@ class Engagement:
         number: The player's place in the cast, the first being 0.
         seat: Where the player stands.
         seed: Which of many equal ways of moving.
+        glances: How the player looks at the others, as `plan_glances` gives it.
     """
 
     score: Score
@@ -46,6 +48,7 @@ class Engagement:
     number: int = 0
     seat: Seat = SEATS["middle"]
     seed: int = 0
+    glances: Mapping[str, Curve] = field(default_factory=dict[str, "Curve"])
 
     @property
     def prefix(self) -> str:

@@ -27,8 +27,8 @@ class HeldPose:
         skeleton = rig.skeleton
         self.rotations: FloatArray = hold.rotations(rig)
         """Local rotations, rest included, ``(J, 4)``."""
-        at_rest = hold.hips_position is None
-        self.root: FloatArray = skeleton.rest_translations[0] if at_rest else hold.hips_position
+        hips = hold.hips_position
+        self.root: FloatArray = skeleton.rest_translations[0] if hips is None else hips
         """The root in the world, metres, ``(3,)``."""
         self.positions, self.world = forward_kinematics(skeleton, self.rotations, self.root)
         self.instrument_rotation = hold.instrument_rotation

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -39,17 +40,20 @@ class Seat:
         """Whether it is where the rigs stand by themselves."""
         return self == Seat(self.name)
 
-    def rotation(self) -> FloatArray:
-        """The turn from the middle, ``(4,)``."""
-        return from_axis_angle(UP, np.array(self.facing_rad))
+    @cached_property
+    def _turning(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Matrices that turn a row of coordinates and a row of a quaternion, and the seat's place."""
+        turn = from_axis_angle(UP, np.array(self.facing_rad))
+        return rotate(turn, np.eye(3)), multiply(turn, np.eye(4)), np.array([self.x_m, 0.0, self.z_m])
 
     def place(self, positions: FloatArray) -> FloatArray:
         """Points ``(..., 3)`` of somebody in the middle, metres, as they are in this seat."""
-        return rotate(self.rotation(), positions) + np.array([self.x_m, 0.0, self.z_m])
+        turn, _, place = self._turning
+        return positions @ turn + place
 
     def turn(self, rotations: FloatArray) -> FloatArray:
         """World rotations ``(..., 4)`` of somebody in the middle, as they are in this seat."""
-        return multiply(self.rotation(), rotations)
+        return rotations @ self._turning[1]
 
 
 _SEATS = (

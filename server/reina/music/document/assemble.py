@@ -9,6 +9,7 @@ from reina.music.arrays import FloatArray, IntArray
 from reina.music.controls import Control
 from reina.music.errors import ScoreError
 from reina.music.gm import PROGRAM_NAMES
+from reina.music.key_signature import KeySignature
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap
 from reina.music.notes import NO_PROGRAM, Notes
@@ -48,6 +49,7 @@ def assemble(
     tempo_map: TempoMap,
     metre_map: MetreMap,
     *,
+    key_signatures: tuple[KeySignature, ...] = (),
     limits: Limits,
     log: WarningLog,
 ) -> Score:
@@ -111,6 +113,7 @@ def assemble(
         controls=tuple(sorted(controls, key=lambda control: control.onset_s)),
         warnings=log.warnings(),
         duration_s=float(np.max(notes.end_s)),
+        key_signatures=key_signatures,
     )
 
 

@@ -72,6 +72,16 @@ class TimeSignatureEntry(_Model):
     denominator: Literal[1, 2, 4, 8, 16, 32, 64]
 
 
+class KeySignatureEntry(_Model):
+    """A key signature from a beat on."""
+
+    beat: Beat = Field(description="Where it begins, in quarter notes from the beginning.")
+    fifths: int = Field(
+        ge=-7, le=7, description="How many sharps, as it sounds; flats are negative: -3 is E flat major."
+    )
+    mode: Literal["major", "minor"] | None = Field(default="major", description="What the key is called.")
+
+
 class NoteEntry(_Model):
     """A note."""
 
@@ -124,6 +134,11 @@ class ScoreDocument(_Model):
         default_factory=list[TimeSignatureEntry],
         max_length=MAX_CHANGES,
         description="4/4 where none is said.",
+    )
+    key_signatures: Listed[KeySignatureEntry] = Field(
+        default_factory=list[KeySignatureEntry],
+        max_length=MAX_CHANGES,
+        description="Found from the notes where none is said.",
     )
     pickup_beats: Beat | None = Field(
         default=0.0, description="Length of an incomplete first bar in quarter notes."

@@ -6,6 +6,7 @@ from reina.music.controls import Control
 from reina.music.document.assemble import PartNotes, assemble
 from reina.music.document.channels import Wish, allot_channels
 from reina.music.document.model import DEFAULT_VELOCITY, NoteEntry, ScoreDocument
+from reina.music.key_signature import KeySignature, in_order
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap, TimeSignature
 from reina.music.score import Score
@@ -52,7 +53,12 @@ def read_own(document: ScoreDocument, *, title: str, limits: Limits, log: Warnin
             )
         )
     metre_map = MetreMap(signatures, pickup_beats=document.pickup_beats or 0.0)
-    return assemble(parts, document.title or title, tempo_map, metre_map, limits=limits, log=log)
+    keys = in_order(
+        [KeySignature(k.beat, k.fifths, k.mode == "minor") for k in document.key_signatures or []]
+    )
+    return assemble(
+        parts, document.title or title, tempo_map, metre_map, key_signatures=keys, limits=limits, log=log
+    )
 
 
 def _velocity(note: NoteEntry) -> float:

@@ -66,7 +66,13 @@ def read_tone(document: JsonObject, *, title: str, limits: Limits, log: WarningL
         raise _no_note(log)
     parts, header = _within_limits(parts, header, limits, log)
     return assemble(
-        parts, header.name[:LONGEST_NAME] or title, header.tempo_map, header.metre_map, limits=limits, log=log
+        parts,
+        header.name[:LONGEST_NAME] or title,
+        header.tempo_map,
+        header.metre_map,
+        key_signatures=header.key_signatures,
+        limits=limits,
+        log=log,
     )
 
 

@@ -1,4 +1,4 @@
-"""The header of a document of Tone.js's converter: its name, tempos and metres."""
+"""The header of a document of Tone.js's converter: its name, tempos, metres and keys."""
 
 from dataclasses import dataclass
 from typing import cast
@@ -7,7 +7,18 @@ import numpy as np
 
 from reina.music.document.fields import LEFT_OUT, Entry, Span, to_number
 from reina.music.document.model import MAX_CHANGES
-from reina.music.document.tonejs import BPM, HEADER, METRE_NUMBER, PPQ, TEMPO, TICKS, TIME_SIGNATURE
+from reina.music.document.tonejs import (
+    BPM,
+    HEADER,
+    KEY_SIGNATURE,
+    KEYS,
+    METRE_NUMBER,
+    PPQ,
+    TEMPO,
+    TICKS,
+    TIME_SIGNATURE,
+)
+from reina.music.key_signature import KeySignature, in_order
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap, TimeSignature
 from reina.music.tempo import DEFAULT_SECONDS_PER_BEAT, TempoMap
@@ -24,6 +35,7 @@ class ToneHeader:
     ppq: float
     tempo_map: TempoMap
     metre_map: MetreMap
+    key_signatures: tuple[KeySignature, ...]
 
 
 def read_header(header: Entry, limits: Limits) -> ToneHeader:
@@ -36,6 +48,7 @@ def read_header(header: Entry, limits: Limits) -> ToneHeader:
         ppq=ppq,
         tempo_map=_tempo_map(header, ppq, limits),
         metre_map=_metre_map(header, ppq),
+        key_signatures=_key_signatures(header, ppq),
     )
 
 
@@ -99,3 +112,26 @@ def _metre(entry: Entry) -> tuple[int, int] | None:
         return int(numbers[0]), int(numbers[1])
     entry.leave_out("timeSignature", "a metre such as [3, 4]")
     return None
+
+
+def _key_signatures(header: Entry, ppq: float) -> tuple[KeySignature, ...]:
+    entries = header.entries("keySignatures", most=MAX_CHANGES)
+    entries.tell_unknown(KEY_SIGNATURE)
+    entries.tell_missing("key")
+    signatures: list[KeySignature] = []
+    at = (entries.column("ticks", TICKS) / ppq).tolist()
+    for row, beat in enumerate(at):
+        entry = entries.entry(row)
+        if "key" not in entry.value:
+            continue
+        if np.isnan(beat) and row > 0:
+            header.log.add(LEFT_OUT, entry.path, NO_PLACE)
+        elif (key := entry.text("key")) not in KEYS:
+            if isinstance(entry.value["key"], str):
+                entry.leave_out("key", "a key such as Bb or F#")
+        else:
+            fifths = KEYS.index(key) - KEYS.index("C")
+            signatures.append(
+                KeySignature(0.0 if np.isnan(beat) else beat, fifths, entry.text("scale") == "minor")
+            )
+    return in_order(signatures)

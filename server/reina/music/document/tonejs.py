@@ -1,7 +1,6 @@
 """The JSON that Tone.js's MIDI converter writes, of the present and of the older form: what stands where.
 
-Fields that are known and not read (key signatures, other metas, measures, the end of a track) may hold
-anything.
+Fields that are known and not read (other metas, measures, the end of a track) may hold anything.
 """
 
 from reina.music.document.fields import Span
@@ -12,6 +11,7 @@ HEADER = frozenset(
 )
 TEMPO = frozenset({"bpm", "ticks", "time"})
 TIME_SIGNATURE = frozenset({"ticks", "timeSignature", "measures", "time"})
+KEY_SIGNATURE = frozenset({"key", "scale", "ticks"})
 TRACK = frozenset(
     {"name", "channel", "channelNumber", "instrument", "instrumentNumber", "instrumentFamily"}
     | {"isPercussion", "notes", "controlChanges", "pitchBends", "endOfTrackTicks"}
@@ -41,6 +41,10 @@ CONTROLLERS = {
     "portamentoControl": 84,
 }
 """Controllers by the names that the converter gives them."""
+
+KEYS = ("Cb", "Gb", "Db", "Ab", "Eb", "Bb", "F", "C", "G", "D", "A", "E", "B", "F#", "C#")
+"""Key signatures from seven flats to seven sharps. The converter names minor ones by these too, with the
+scale beside: ``{"key": "C", "scale": "minor"}`` is A minor."""
 
 MIDI_NUMBER = Span(0, 127, whole=True)
 CHANNEL = Span(0, 15, whole=True)

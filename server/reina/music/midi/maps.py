@@ -1,12 +1,13 @@
-"""Tempo and metre from the meta events of all tracks."""
+"""Tempo, metre and key from the meta events of all tracks."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
+from reina.music.key_signature import MAX_ACCIDENTALS, KeySignature, in_order
 from reina.music.metre import MetreMap, TimeSignature
 from reina.music.midi.division import Division
-from reina.music.midi.track import SET_TEMPO, TIME_SIGNATURE, Track
+from reina.music.midi.track import KEY_SIGNATURE, SET_TEMPO, TIME_SIGNATURE, Track
 from reina.music.tempo import TempoMap
 from reina.music.warnings import WarningLog
 
@@ -51,3 +52,25 @@ def read_metre_map(tracks: Sequence[Track], division: Division, log: WarningLog)
             else:
                 signatures.append(TimeSignature(meta.tick / division.ticks_per_beat, numerator, 2**power))
     return MetreMap(signatures)
+
+
+def read_key_signatures(
+    tracks: Sequence[Track], division: Division, log: WarningLog
+) -> tuple[KeySignature, ...]:
+    """Collect the key signatures of all tracks; at one tick the first track's holds.
+
+    The first track is the conductor's; a transposing part may have a signature of its own.
+    """
+    signatures: list[KeySignature] = []
+    for track in tracks:
+        for meta in track.metas:
+            if meta.kind != KEY_SIGNATURE:
+                continue
+            fifths = int.from_bytes(meta.data[:1], "big", signed=True)
+            if len(meta.data) < 2 or abs(fifths) > MAX_ACCIDENTALS or meta.data[1] > 1:
+                place = f"track {track.number}, byte {meta.byte}"
+                log.add("bad_key", place, f"a key of the data {meta.data[:8].hex() or 'none'} was left out")
+            else:
+                beat = meta.tick / division.ticks_per_beat
+                signatures.append(KeySignature(beat, fifths, meta.data[1] == 1))
+    return in_order(signatures)

@@ -13,7 +13,7 @@ from reina.music.midi.chunks import read_header, unwrap
 from reina.music.midi.control_messages import read_controls
 from reina.music.midi.division import Division, read_division
 from reina.music.midi.encoding import decide_encoding
-from reina.music.midi.maps import read_metre_map, read_tempo_map
+from reina.music.midi.maps import read_key_signatures, read_metre_map, read_tempo_map
 from reina.music.midi.messages import Messages
 from reina.music.midi.note_ends import NoteEnds, find_note_ends
 from reina.music.midi.pairing import Pairs, pair_notes
@@ -79,6 +79,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
     limits.check("duration_s", end_s, what="length in seconds")
     limits.check("beats", end_beats, what="length in beats")
     metre_map = read_metre_map(tracks, division, log)
+    key_signatures = read_key_signatures(tracks, division, log)
     limits.check("bars", metre_map.bar_count(end_beats), what="number of bars")
     table = Notes.from_columns(
         part=part,
@@ -102,6 +103,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         duration_s=float(np.max(table.end_s)),
         sequence=sequence or 0,
         sequences=sequences,
+        key_signatures=key_signatures,
     )
 
 

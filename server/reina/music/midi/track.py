@@ -17,17 +17,18 @@ NOTE_OFF, NOTE_ON, KEY_PRESSURE, CONTROLLER, PROGRAM, CHANNEL_PRESSURE, PITCH_BE
 SYSTEM_DATA_BYTES = {0xF1: 1, 0xF2: 2, 0xF3: 1}
 """System messages that have data; they do not belong into a file, and are skipped."""
 
-TRACK_NAME, INSTRUMENT_NAME, PORT, END_OF_TRACK, SET_TEMPO, TIME_SIGNATURE = (
+TRACK_NAME, INSTRUMENT_NAME, PORT, END_OF_TRACK, SET_TEMPO, TIME_SIGNATURE, KEY_SIGNATURE = (
     0x03,
     0x04,
     0x21,
     0x2F,
     0x51,
     0x58,
+    0x59,
 )
 """Types of the meta events that are read."""
 
-KEPT_METAS = frozenset({TRACK_NAME, INSTRUMENT_NAME, SET_TEMPO, TIME_SIGNATURE})
+KEPT_METAS = frozenset({TRACK_NAME, INSTRUMENT_NAME, SET_TEMPO, TIME_SIGNATURE, KEY_SIGNATURE})
 
 PART_MODE = 0xF
 """Not a command of MIDI: what a system exclusive message says of a channel is kept as a channel message,

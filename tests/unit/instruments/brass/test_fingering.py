@@ -96,9 +96,23 @@ def test_each_note_says_what_was_chosen_and_why():
     played = play(melody(written(77, 76, 77), 0.1))
     usual, alternate, _ = played.fingering.reasons
     assert usual == "1: usual for written F5"
-    assert alternate == "1-2 for open: stays on harmonic 6 beside F5, F5, 10 notes a second"
+    assert alternate == (
+        "1-2 in place of open beside F5 at 10 notes a second: "
+        "stays on harmonic 6, so that the valves alone change the note"
+    )
     fast = play(melody(written(67, 69, 72), 0.08)).fingering.reasons[1]
-    assert fast == "3 for 1-2: moves 2 fingers and not 4 beside G4, C5, 12 notes a second"
+    assert fast == "3 in place of 1-2 beside G4, C5 at 12 notes a second: moves 2 fingers and not 4"
+
+
+def test_usual_fingerings_alone_are_those_of_the_chart():
+    score = score_of(melody(written(77, 76, 77, 69, 67, 69, 91, 90, 91), 0.08))
+    trumpet = TRUMPET
+    assert not trumpet.play(score, 0).fingering.primary.all()
+    usual = trumpet.play(score, 0, usual_fingerings=True)
+    chart = {note.sounding_pitch: list(note.fingerings[0]) for note in trumpet.fingering_chart}
+    pitches = usual.line.sounding_pitch.tolist()
+    assert [pressed(usual, note) for note in range(len(pitches))] == [chart[p] for p in pitches]
+    assert usual.fingering.primary.all()
 
 
 def test_what_is_out_of_range_is_not_played_with_other_valves():
