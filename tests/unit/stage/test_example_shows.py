@@ -10,7 +10,7 @@ from reina.stage import stage_registry
 
 SHOWS = sorted((Path(__file__).parents[3] / "examples" / "shows").glob("*.json"))
 ALONE = [path for path in SHOWS if path.stem != "trumpet-duet"]
-"""Made for one player in the middle; the cameras of the duet are tested in tests/integration/test_framing.py."""
+"""Made for one player; the cameras of the duet are tested in tests/integration/test_framing.py."""
 REGISTRY = stage_registry()
 TIME_MAP = TimeMap.steady(120.0)
 
