@@ -73,7 +73,7 @@ def test_the_part_is_engraved_followed_and_tapped(visit: Visit, client: httpx.Cl
     assert part["notes"][target]["reason"] in paper.inner_text()
 
     late = written[-1]["note"]
-    body = {"action": "seek", "song_time_s": part["notes"][late]["onset_s"]}
+    body = {"action": "seek", "song_time_s": part["notes"][late]["onset_s"] + 0.05}
     client.post(f"/api/v1/sessions/{opened.session}/transport", json=body, headers=opened.headers)
     opened.until("() => [...document.querySelectorAll('.system')].at(-1).matches('.current')")
     opened.until(

@@ -106,7 +106,7 @@ def test_each_player_has_a_part(client: httpx.Client) -> None:
     assert indices[1]
     assert not indices[0] & indices[1]
     answer = client.get(f"{session.path}/part", params={"player": 2})
-    assert (answer.status_code, answer.json()["type"].rsplit("/")[-1]) == (404, "unknown-player")
+    assert (answer.status_code, answer.json()["type"]) == (404, "urn:reina:problem:unknown-player")
     assert "0 to 1, not 2" in answer.json()["detail"]
 
 

@@ -140,4 +140,6 @@ def _weights(score: Score) -> FloatArray:
     notes = score.notes
     drums: IntArray = np.array([part.index for part in score.parts if part.is_drums], dtype=np.int64)
     tones: BoolArray = ~np.isin(notes.part, drums)
-    return np.bincount(notes.sounding_pitch[tones] % 12, weights=notes.duration_beats[tones], minlength=12)
+    pitch_classes = notes.sounding_pitch[tones] % 12
+    counted = np.bincount(pitch_classes, weights=notes.duration_beats[tones], minlength=12)
+    return counted.astype(np.float64)

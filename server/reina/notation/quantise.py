@@ -6,7 +6,7 @@ eighth stays an eighth. Compare the grammar of C. Raphael, A Hybrid Graphical Mo
 (Artificial Intelligence 137, 2002), whose prior is our table.
 """
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -22,6 +22,9 @@ PLAYED_S = 0.02
 """How far people's notes fall from where they are written, as a standard deviation."""
 MIN_SPREAD, MAX_SPREAD = 0.012, 0.05
 """Between these that is kept, quarter notes: a file that was written has the least."""
+
+SAME_BEAT = 0.004
+"""So near to an eighth or a sixth of a beat, in quarter notes, an onset stands where a program wrote it."""
 
 GRIDS_OF_QUARTER = {48: 0.0, 24: 0.4, 12: 1.2, 16: 2.2, 8: 5.0, 6: 4.5, 3: 9.0}
 GRIDS_OF_COMPOUND = {24: 0.0, 12: 0.8, 6: 4.0, 36: 3.0, 18: 6.0, 3: 9.0}
@@ -103,11 +106,8 @@ class _Clock:
 
     def ticks(self, beats: Sequence[float]) -> list[float]:
         """Return places in quarter notes as ticks."""
-        places = np.searchsorted(self._begin_beats, np.asarray(beats) + 1e-9, side="right") - 1
-        return [
-            self._bars[max(place, 0)].ticks_at(beat)
-            for place, beat in zip(places.tolist(), beats, strict=True)
-        ]
+        places = [max(bisect_right(self._begin_beats, beat + 1e-9) - 1, 0) for beat in beats]
+        return [self._bars[place].ticks_at(beat) for place, beat in zip(places, beats, strict=True)]
 
     def cell_at(self, ticks: float) -> _Cell:
         """Return the beat that a place is in."""
@@ -120,8 +120,9 @@ class _Clock:
 
 def _spreads(onset_beats: Sequence[float], seconds_per_beat: Sequence[float]) -> list[float]:
     """Return by how many ticks each onset may be off, as a standard deviation."""
-    beats = np.asarray(onset_beats)
-    written = np.minimum.reduce([np.abs(beats * k - np.round(beats * k)) / k for k in (8, 6)]) < 0.004
+    beats = np.array(onset_beats, dtype=np.float64)
+    off = [np.abs(beats * parts - np.round(beats * parts)) / parts for parts in (8, 6)]
+    written = np.minimum(off[0], off[1]) < SAME_BEAT
     was_written = float(np.mean(written)) > 0.9
     return [
         MIN_SPREAD * TICKS_PER_QUARTER

@@ -13,6 +13,8 @@ sharp and one with a flat; the cheapest way through the whole line is taken (Vit
 Names of two accidentals are never used: in a key where they would be right the simpler name stands.
 """
 
+import math
+from bisect import bisect_right
 from collections.abc import Sequence
 
 import numpy as np
@@ -50,15 +52,14 @@ def spell(pitches: IntArray, onset_beats: FloatArray, keys: Sequence[Key], *, se
     """
     moved = [key.transposed(semitones) for key in keys]
     tables = [_Names(key) for key in moved]
-    begins = np.array([key.onset_beats for key in moved]) - 1e-9
-    which = np.maximum(np.searchsorted(begins, onset_beats, side="right") - 1, 0).tolist()
+    begins = [key.onset_beats - 1e-9 for key in moved]
     before: list[tuple[int, float]] = [(0, 0.0)]
     came_from: list[list[int]] = []
     names: list[list[int]] = []
-    last_pitch, last_beat, last_table = -1, -np.inf, None
-    for pitch, beat, table_index in zip(pitches.tolist(), onset_beats.tolist(), which, strict=True):
-        table = tables[table_index]
-        free = beat - last_beat > FORGET_BEATS or last_table is None
+    last_pitch, last_beat = -1, -math.inf
+    for pitch, beat in zip(pitches.tolist(), onset_beats.tolist(), strict=True):
+        table = tables[max(bisect_right(begins, beat) - 1, 0)]
+        free = beat - last_beat > FORGET_BEATS
         now: list[tuple[int, float]] = []
         steps: list[int] = []
         for name, cost in table.of(pitch % 12):
@@ -72,7 +73,7 @@ def spell(pitches: IntArray, onset_beats: FloatArray, keys: Sequence[Key], *, se
         came_from.append(steps)
         names.append([name for name, _ in now])
         before = now
-        last_pitch, last_beat, last_table = pitch, beat, table
+        last_pitch, last_beat = pitch, beat
     spelled = np.zeros(len(names), dtype=np.int64)
     at = min(range(len(before)), key=lambda index: before[index][1])
     for index in range(len(names) - 1, -1, -1):

@@ -370,7 +370,7 @@ def test_key_signatures_are_read_and_strange_ones_left_out():
     score = read(whole)
     ppq = whole["header"]["ppq"]
     assert score.key_signatures == (KeySignature(0.0, -2), KeySignature(960 / ppq, 0, is_minor=True))
-    assert [place for kind, place in told(score)] == [
+    assert [place for _, place in told(score)] == [
         "header/keySignatures/5",
         "header/keySignatures/1/key",
         "header/keySignatures/2/key",

@@ -21,5 +21,5 @@ def numbers(names: str) -> IntArray:
 def spelled(names: str, key: Key) -> str:
     """What the pitches of these names are called in a key, one note a half beat."""
     pitches = numbers(names)
-    places = spell(pitches, np.arange(len(pitches)) * 0.5, [key])
+    places = spell(pitches, np.arange(len(pitches), dtype=np.float64) * 0.5, [key])
     return " ".join(named(*pair) for pair in zip(pitches.tolist(), places.tolist(), strict=True))

@@ -1,5 +1,6 @@
 """Keys: of files, of notes, of transposing instruments."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ EXAMPLES = Path(__file__).parents[3] / "examples" / "scores"
 
 def with_keys(pitches: list[int], *signatures: KeySignature) -> Score:
     score = score_of(melody(pitches))
-    return Score(**{**score.__dict__, "key_signatures": signatures})
+    return replace(score, key_signatures=signatures)
 
 
 @pytest.mark.parametrize(

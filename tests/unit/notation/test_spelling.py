@@ -96,7 +96,7 @@ def test_a_transposing_part_is_spelled_as_its_own_key_has_it(fifths: int):
     """Written a tone higher it has the same intervals, but where that would need two accidentals."""
     rng = np.random.default_rng(fifths + 5)
     pitches = np.cumsum(rng.integers(-3, 4, 60)) + 70
-    beats = np.arange(60) * 0.5
+    beats = np.arange(60, dtype=np.float64) * 0.5
     keys = [Key(0.0, fifths)]
     sounding = spell(pitches, beats, keys)
     written = spell(pitches + 2, beats, keys, semitones=2)
@@ -107,7 +107,7 @@ def test_a_transposing_part_is_spelled_as_its_own_key_has_it(fifths: int):
 def test_after_a_change_of_key_the_new_one_holds():
     pitches = np.array([66, 66, 66])
     keys = [Key(0.0, 2), Key(1.0, -6), Key(2.0, 1)]
-    names = spell(pitches, np.array([0.0, 1.0, 8.0]), keys)
+    names = spell(pitches, np.array([0.0, 1.0, 8.0], dtype=np.float64), keys)
     assert [named(66, name) for name in names.tolist()] == ["F♯4", "G♭4", "F♯4"]
 
 
@@ -121,7 +121,9 @@ def test_every_name_sounds_its_pitch_and_has_one_accidental_at_most(
     pitches: list[int], fifths: int, is_minor: bool, semitones: int
 ):
     array = np.array(pitches, dtype=np.int64)
-    names = spell(array, np.arange(len(array)) * 1.0, [Key(0.0, fifths, is_minor)], semitones=semitones)
+    names = spell(
+        array, np.arange(len(array), dtype=np.float64), [Key(0.0, fifths, is_minor)], semitones=semitones
+    )
     for pitch, name in zip(pitches, names.tolist(), strict=True):
         assert 7 * name % 12 == pitch % 12
         assert abs(alteration(name)) <= 1

@@ -78,7 +78,7 @@ class ValvedBrass(Instrument):
         """The clef that it is written in."""
         return self.model.clef
 
-    @cached_property
+    @property
     def fingering_chart(self) -> tuple[ChartNote, ...]:
         """How each note that it has is fingered, from the lowest up."""
         return tuple(
