@@ -90,25 +90,28 @@ def decode(data: bytes) -> Decoded:
     starts: list[float] = []
     rate = 1
     with av.open(io.BytesIO(data), "r") as container:
+        name = container.format.name
         codecs = tuple(stream.codec_context.name for stream in container.streams)
-        for frame in container.decode():
-            assert frame.time is not None
-            if isinstance(frame, av.VideoFrame):
-                pictures.append(np.asarray(frame.to_ndarray(format="rgb24"), np.uint8))
-                times.append(frame.time)
-            elif isinstance(frame, av.AudioFrame):
-                rate = frame.sample_rate
-                starts.append(frame.time)
-                sound.append(np.asarray(frame.to_ndarray(), np.float32).mean(axis=0))
-        return Decoded(
-            container=container.format.name,
-            codecs=codecs,
-            pictures=np.stack(pictures).astype(np.int16),
-            times_s=np.array(times),
-            sound=np.concatenate(sound) if sound else np.zeros(0, np.float32),
-            sound_from_s=starts[0] if starts else 0.0,
-            rate=rate,
-        )
+        audible = len(container.streams.audio) > 0
+        for picture in container.decode(video=0):
+            assert picture.time is not None
+            pictures.append(np.asarray(picture.to_ndarray(format="rgb24"), np.uint8))
+            times.append(picture.time)
+    with av.open(io.BytesIO(data), "r") as container:
+        for heard in container.decode(audio=0) if audible else ():
+            assert heard.time is not None
+            rate = heard.sample_rate
+            starts.append(heard.time)
+            sound.append(np.asarray(heard.to_ndarray(), np.float32).mean(axis=0))
+    return Decoded(
+        container=name,
+        codecs=codecs,
+        pictures=np.stack(pictures).astype(np.int16),
+        times_s=np.array(times),
+        sound=np.concatenate(sound) if sound else np.zeros(0, np.float32),
+        sound_from_s=starts[0] if starts else 0.0,
+        rate=rate,
+    )
 
 
 def difference(one: NDArray[np.int16], other: NDArray[np.int16]) -> float:
