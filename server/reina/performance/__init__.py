@@ -2,7 +2,12 @@
 
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout, SkeletonLayout
 from reina.performance.performance import TAIL_S, Performance
-from reina.performance.performer import Performer, player_parameters, player_prefix
+from reina.performance.performer import (
+    Performer,
+    any_player_pattern,
+    player_parameters,
+    player_prefix,
+)
 from reina.performance.seats import SEATS, SEATS_FOR, Seat
 
 __all__ = [
@@ -16,6 +21,7 @@ __all__ = [
     "Performer",
     "Seat",
     "SkeletonLayout",
+    "any_player_pattern",
     "player_parameters",
     "player_prefix",
 ]

@@ -47,6 +47,16 @@ def player_parameters(number: int) -> tuple[Parameter, ...]:
     )
 
 
+def any_player_pattern(parameter: Parameter) -> str | None:
+    """The paths that a first player's parameter has for each player of a cast, as a regular expression.
+
+    None where it is no player's.
+    """
+    if all(parameter.path != own.path for own in player_parameters(0)):
+        return None
+    return f"^(players/([2-9]|[1-9][0-9]+)/)?{parameter.path}$"
+
+
 @dataclass(frozen=True, eq=False)
 class PerformerFrames:
     """F frames of one performer."""

@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reina.performance import any_player_pattern, player_parameters
 from reina.protocol import resources, timeline, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
@@ -122,7 +123,9 @@ def main() -> int:
         ROOT / "web/src/generated/protocol.ts": typescript(),
         ROOT / "web/src/generated/lab.ts": lab_typescript(),
         ROOT / "docs/protocol.md": documentation(),
-        ROOT / "docs/show.schema.json": show_schema_text(stage_registry()),
+        ROOT / "docs/show.schema.json": show_schema_text(
+            (*stage_registry(), *player_parameters(0)), any_player_pattern
+        ),
     }
     return write_or_check(files, check=arguments.check)
 

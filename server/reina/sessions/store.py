@@ -387,4 +387,4 @@ class SessionStore:
 
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:
-    write_atomically(folder / SHOW, kept.text.text.encode())
+    write_atomically(folder / SHOW, kept.text.text())

@@ -10,7 +10,8 @@ from typing import Any
 
 from reina.curves.interpolation import BUILT_IN
 from reina.curves.keyframe import Keyframe
-from reina.show.show import Marker, Show
+from reina.show.document import Marker
+from reina.show.show import Show
 from reina.show.track import Track
 from reina.stage.music_form import MusicForm, Passage, passages
 from reina.stage.shots import SHOTS, Pose
@@ -171,7 +172,7 @@ def write_default_show(form: MusicForm, *, title: str = "") -> Show:
         *_colors(found),
         *_lights(found, piece),
     ]
-    markers = tuple(Marker(float(p.start_bar), name) for p, (_, name) in zip(found, shots, strict=True))
+    markers = tuple(Marker(time=p.start_bar, name=name) for p, (_, name) in zip(found, shots, strict=True))
     return Show(tuple(tracks), title=title, time="bars", markers=markers)
 
 

@@ -9,14 +9,16 @@ from typing import Any, cast
 
 import pytest
 
+from reina.performance import any_player_pattern, player_parameters
 from reina.show import Show, ShowError
 from reina.show.show_schema import show_schema, show_schema_text
 from reina.stage import stage_registry
 
 ROOT = Path(__file__).parents[3]
 PUBLISHED = ROOT / "docs" / "show.schema.json"
-SCHEMA = show_schema(stage_registry())
-REGISTRY = stage_registry()
+REGISTRY = stage_registry().extended([*player_parameters(0), *player_parameters(1)])
+PUBLISHED_FOR = (*stage_registry(), *player_parameters(0))
+SCHEMA = show_schema(PUBLISHED_FOR, pattern=any_player_pattern)
 EXAMPLES = sorted((ROOT / "examples" / "shows").glob("*.json"))
 
 Check = Callable[[Any], bool]
@@ -28,6 +30,7 @@ TYPES: dict[str, tuple[type, ...]] = {
     "boolean": (bool,),
     "number": (int, float),
     "integer": (int,),
+    "null": (type(None),),
 }
 
 
@@ -82,7 +85,9 @@ def _one(path: str, *, events: Any = None, track: Any = None, **keyframe: Any) -
 
 
 def test_the_published_schema_is_up_to_date() -> None:
-    assert PUBLISHED.read_text(encoding="utf-8") == show_schema_text(REGISTRY), "run `make generate`"
+    assert PUBLISHED.read_text(encoding="utf-8") == show_schema_text(PUBLISHED_FOR, any_player_pattern), (
+        "run `make generate`"
+    )
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
@@ -90,6 +95,7 @@ def test_the_examples_are_valid(path: Path) -> None:
     assert _valid(json.loads(path.read_text(encoding="utf-8")), SCHEMA)
 
 
+OF_A_PLAYER = next(parameter for parameter in player_parameters(0) if parameter.type == "number")
 GOOD: list[dict[str, Any]] = [
     {"version": 1, "tracks": []},
     _one("camera/fov", value=0.5),
@@ -101,6 +107,7 @@ GOOD: list[dict[str, Any]] = [
     _one("camera/fov", events={"on": "bars", "cycle": [0.5, 0.4]}),
     _one("lights/key/intensity", events={"on": "notes", "amount": 3, "hold": 1, "where": {"valves": [1]}}),
     _one("camera/fov", track={"before": "ping_pong", "muted": True, "time": "bars"}, value=1),
+    _one("players/2/" + OF_A_PLAYER.path, value=OF_A_PLAYER.default),
 ]
 BAD: list[dict[str, Any]] = [
     {"tracks": []},
@@ -120,6 +127,8 @@ BAD: list[dict[str, Any]] = [
     _one("camera/fov", events={"on": "never", "cycle": [0.5]}),
     _one("camera/fov", track={"after": "stop"}, value=1),
     _one("camera/fov", key="a b", value=1),
+    _one(OF_A_PLAYER.path, value="wide"),
+    _one("players/2/" + OF_A_PLAYER.path, value="wide"),
 ]
 
 
