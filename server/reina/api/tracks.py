@@ -38,7 +38,7 @@ TrackPath = Annotated[
     str, Path(description="The parameter's path, slashes and all.", examples=["lights/key/intensity"])
 ]
 Key = Annotated[str, Path(description="The keyframe's key in its track.", examples=["k3"])]
-NewKeyframe = Annotated[
+KeyframeFields = Annotated[
     Document,
     read_later(NewKeyframe),
     Body(examples=[{"key": "k3", "time": 1.5, "value": 0.8, "interpolation": "quad_in"}]),
@@ -75,7 +75,7 @@ def list_keyframes(session: Watched, path: TrackPath) -> Response:
 async def add_keyframe(
     session: Controlled,
     path: TrackPath,
-    fields: NewKeyframe,
+    fields: KeyframeFields,
     store: Store,
     response: Response,
     if_match: IfMatch = None,
@@ -87,12 +87,13 @@ async def add_keyframe(
 
     def edit(show: Show) -> Show:
         there = {keyframe.key for keyframe in _keyframes(show, path)}
-        if fields.get("key") in there:
+        key = fields.get("key")
+        if isinstance(key, str) and key in there:
             raise ProblemError(
                 409,
                 "key-taken",
                 "There is such a keyframe already",
-                f"{path} has a keyframe {fields['key']}; PATCH changes it",
+                f"{path} has a keyframe {key}; PATCH changes it",
             )
         edited = make(show)
         added.extend(keyframe for keyframe in _keyframes(edited, path) if keyframe.key not in there)
