@@ -15,6 +15,9 @@ from reina.show.event_response import EventResponse
 from reina.show.model import ShowModel, Text
 from reina.show.time_map import TimeUnit
 
+Slope = Number | Annotated[tuple[Number, ...], Strict(strict=False)]
+"""Value per unit of time: a number, or as many as a value has."""
+
 
 class ShowKeyframe(ShowModel):
     """A value at a time. Options of its interpolation stand beside its own fields."""
@@ -29,9 +32,9 @@ class ShowKeyframe(ShowModel):
     """As its parameter has it."""
     interpolation: str = "linear"
     """How to come here from the keyframe before; `step` where nothing lies between two values."""
-    in_tangent: Any = None
+    in_tangent: Slope | None = None
     """The slope with which a spline comes to it, value per unit of time."""
-    out_tangent: Any = None
+    out_tangent: Slope | None = None
     """The slope with which a spline that ends at the next keyframe leaves it."""
 
 

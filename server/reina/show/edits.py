@@ -1,7 +1,7 @@
 """Edits of a show as JSON: several at once, all or none. The one way to change a show."""
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal, cast, get_args
+from typing import Annotated, Any, ClassVar, Literal, cast, get_args
 
 from pydantic import Field, Strict, ValidationError
 
@@ -28,6 +28,8 @@ MIN_FACTOR = 1e-6
 class TrackChanges(ShowModel):
     """Fields of a track to change; null takes one back to its default."""
 
+    null_is_said: ClassVar[bool] = True
+
     time: TimeUnit | None = None
     """With another unit the keyframes stay where they are in the music, and get other numbers."""
     before: Extrapolation | None = None
@@ -40,6 +42,8 @@ class TrackChanges(ShowModel):
 
 class ShowChanges(ShowModel):
     """Fields of a show to change; null takes one back to its default."""
+
+    null_is_said: ClassVar[bool] = True
 
     title: Text | None = None
     description: Text | None = None

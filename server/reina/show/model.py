@@ -1,8 +1,10 @@
 """The base of what a show's document is made of."""
 
-from typing import Annotated
+from typing import Annotated, Any, ClassVar
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from reina.curves.value_types import LARGEST, STRICT
 
@@ -11,6 +13,24 @@ class ShowModel(BaseModel):
     """Immutable, and strict: no field that is not declared, no number in quotes."""
 
     model_config = ConfigDict(**STRICT, frozen=True, use_attribute_docstrings=True)
+    null_is_said: ClassVar[bool] = False
+    """Whether null says something; else it is read as what is not given, and nobody needs to write it."""
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """The schema, without null where it says nothing."""
+        schema = handler(core_schema)
+        properties: dict[str, Any] = handler.resolve_ref_schema(schema).get("properties", {})
+        for name, field in properties.items():
+            kinds: list[Any] = field.get("anyOf", [])
+            if cls.null_is_said or {"type": "null"} not in kinds:
+                continue
+            given = [kind for kind in kinds if kind != {"type": "null"}]
+            rest = {key: value for key, value in field.items() if key not in ("anyOf", "default")}
+            properties[name] = (given[0] if len(given) == 1 else {"anyOf": given}) | rest
+        return schema
 
 
 def read_later(model: type[BaseModel]) -> BeforeValidator:

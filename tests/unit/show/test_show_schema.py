@@ -30,7 +30,6 @@ TYPES: dict[str, tuple[type, ...]] = {
     "boolean": (bool,),
     "number": (int, float),
     "integer": (int,),
-    "null": (type(None),),
 }
 
 

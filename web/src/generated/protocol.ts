@@ -348,16 +348,6 @@ export interface Score {
   warnings: Warned[]
 }
 
-/** What came of an edit, an undo or a redo. */
-export interface ShowEdited extends ShowState {
-  /** The show as it is now, but for its tracks: title, time, markers. */
-  head: ShowHead
-  /** The tracks that changed, as the show holds them now; none with Prefer: return=minimal. */
-  tracks: ShowTrack[]
-  /** Parameters whose tracks are gone. */
-  removed: string[]
-}
-
 /** What of a show has no effect in the piece that it is put on, and why. Nothing of it is dropped. */
 export interface ShowWarnings {
   /** Each with the parameter, or markers, as its place. */
@@ -488,49 +478,12 @@ export interface SessionChange {
   player?: string | null
 }
 
-/** A track whose curve is asked for; it is not kept. */
-export interface CurvePreview {
-  /** As a show has it, with its parameter; times without a unit of their own are in the show's. */
-  track: ShowTrack
-}
-
 /** A parameter's values over the times of a ShowCurves. */
 export interface CurveLine {
   /** A list a component, each as long as times_s: colours linear sRGB, choices indices, as in frames. */
   values: number[][]
   /** Indices i where the value jumps between times_s[i - 1] and times_s[i]; a line is broken there. */
   jumps: number[]
-}
-
-/**
- * What a track does at events, on top of its keyframes: a swell (amount) or values in turn (cycle).
- *
- * Times are in the track's unit.
- */
-export interface EventResponse {
-  /** What it answers. */
-  on: "notes" | "beats" | "bars"
-  /** Which notes count. */
-  where?: NoteFilter
-  /** Only each such event, from the first: 2 takes every other one. */
-  every?: number
-  /** From the event until the swell is whole, straight. */
-  attack?: number
-  /** How long it stays whole. */
-  hold?: number
-  /** From then until it is gone, fast at first: (1 - x)². */
-  decay?: number
-  /** The swell's value at its height. */
-  amount?: unknown
-  /** Whether a note's velocity scales its swell. */
-  by_velocity?: boolean
-  /**
-   * How the swell e, 0..1, is put on the keyframes' value v: replace goes from v to the amount, add is
-   * v + e · amount, multiply is v · (1 + e · (amount - 1)), max the greater of v and e · amount.
-   */
-  blend?: "replace" | "add" | "multiply" | "max"
-  /** Values that take turns: the first from the first event on, the second from the second on. */
-  cycle?: unknown[]
 }
 
 /** A bundled piece: its files, to be posted as a session of one's own. */
@@ -573,32 +526,12 @@ export interface Loop {
   end_s: number
 }
 
-/** A named place, in the show's unit of time. */
-export interface Marker {
-  /** Where. */
-  time: number
-  /** What to call it. */
-  name: string
-}
-
 /** A time signature and where it begins. */
 export interface Metre {
   onset_beats: number
   onset_s: number
   numerator: number
   denominator: number
-}
-
-/** Which notes count; what is not given lets all of them through. */
-export interface NoteFilter {
-  /** Index of the part; notes of a part that is joined to it count too. */
-  part?: number | null
-  /** Lowest and highest MIDI number, both counted in. */
-  pitch?: number[] | null
-  /** Least and greatest velocity, 0..1. */
-  velocity?: number[] | null
-  /** Numbers of valves, from 1; those notes count that press exactly these, none for open notes. */
-  valves?: number[] | null
 }
 
 /** One parameter of the frame. */
@@ -671,38 +604,6 @@ export interface ShowCurve {
   with_events: CurveLine | null
 }
 
-/** What a show has beside its tracks. */
-export interface ShowHead {
-  /** The address of the JSON Schema, for editors. */
-  "$schema"?: string
-  /** Of this form of documents. */
-  version: 1
-  /** What the person calls it. */
-  title?: string
-  /** What else there is to say. */
-  description?: string
-  /** The unit of times where a track names no other. Bars are counted by how many have gone by. */
-  time?: "seconds" | "beats" | "bars"
-  /** Named places. */
-  markers?: Marker[]
-}
-
-/** A value at a time. Options of its interpolation stand beside its own fields. */
-export interface ShowKeyframe {
-  /** Its name within the track; the next free one where it is not given. */
-  key?: string
-  /** In the track's unit. */
-  time: number
-  /** As its parameter has it. */
-  value: unknown
-  /** How to come here from the keyframe before; step where nothing lies between two values. */
-  interpolation?: string
-  /** The slope with which a spline comes to it, value per unit of time. */
-  in_tangent?: unknown
-  /** The slope with which a spline that ends at the next keyframe leaves it. */
-  out_tangent?: unknown
-}
-
 /** A parameter that keyframes can move. */
 export interface ShowParameter {
   path: string
@@ -726,28 +627,6 @@ export interface ShowSummary {
   title: string
   description: string
   href: string
-}
-
-/** The keyframes of one parameter, and what it does where there are none. */
-export interface ShowTrack {
-  /** The parameter's path. */
-  parameter: string
-  /** The unit of its keyframes' times; the show's where it names none. */
-  time?: "seconds" | "beats" | "bars" | null
-  /** What happens before the first keyframe. */
-  before?: "hold" | "loop" | "ping_pong" | "extrapolate"
-  /** What happens after the last. */
-  after?: "hold" | "loop" | "ping_pong" | "extrapolate"
-  /** What colours are mixed in. */
-  color_space?: "oklab" | "linear"
-  /** Whether the show leaves the track out. */
-  muted?: boolean
-  /** Whether the show leaves out all tracks that are not solo. */
-  solo?: boolean
-  /** What it does at notes, beats or bars on top of its keyframes; it then needs none. */
-  events?: EventResponse | null
-  /** No two at one time, no two of one key. */
-  keyframes?: ShowKeyframe[]
 }
 
 /** One skeleton of the frame. */

@@ -1,5 +1,5 @@
 import type { Editor } from "../state/editor.svelte";
-import type { ShowMarker } from "../state/show-document";
+import type { Marker } from "../../generated/show";
 
 /** A marker at the playhead. */
 export function addMarker(editor: Editor): void {
@@ -33,7 +33,7 @@ export function removeMarker(editor: Editor, index: number): void {
   );
 }
 
-function change(editor: Editor, says: string, index: number, changes: Partial<ShowMarker>): void {
+function change(editor: Editor, says: string, index: number, changes: Partial<Marker>): void {
   const markers = editor.store.document?.markers ?? [];
   const changed = markers.map((marker, place) => (place === index ? { ...marker, ...changes } : marker));
   const kept = changed[index];
@@ -41,6 +41,6 @@ function change(editor: Editor, says: string, index: number, changes: Partial<Sh
   editor.marker = kept === undefined ? null : (editor.store.document?.markers ?? []).indexOf(kept);
 }
 
-function put(editor: Editor, says: string, markers: readonly ShowMarker[]): void {
+function put(editor: Editor, says: string, markers: readonly Marker[]): void {
   editor.edit(says, [{ edit: "change_show", changes: { markers: [...markers].sort((a, b) => a.time - b.time) } }]);
 }
