@@ -1,7 +1,7 @@
 """The golden edits: what the server makes of edits and of the music's time, which the page works out too.
 
-`python -m tests.contract.golden_edits` writes tests/golden/show_edits.json anew; the page's tests read the same
-file, so that until the server has answered the page shows what the server will say.
+`python -m tests.contract.golden_edits` writes tests/golden/show_edits.json anew; the page's tests read the
+same file, so that until the server has answered the page shows what the server will say.
 """
 
 from __future__ import annotations
