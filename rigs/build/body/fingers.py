@@ -2,8 +2,7 @@
 
 A finger's proximal, intermediate and distal joints and its pad lie in one plane whose normal is the Z axis
 of all three, so that a planar three-bone solve is exact. +X runs to the next joint (from the distal joint:
-to the pad),
-+Y is dorsal, and flexion is a negative turn about Z on both hands.
+to the pad), +Y is dorsal, and flexion is a negative turn about Z on both hands.
 """
 
 from __future__ import annotations

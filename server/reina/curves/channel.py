@@ -16,9 +16,8 @@ Stretch = Callable[[FloatArray], FloatArray]
 class Channel:
     """K keys as K + 1 segments: before the first key, between each two, after the last.
 
-    A point at time t is start + delta · pace((t - begin) / duration), for splines with the slopes' parts
-    added; segments
-    with a formula of their own stand in `stretches`. What does not move has delta 0.
+    A point at time t is start + delta · easing((t - begin) / duration), for splines with the slopes' parts
+    added; segments with a formula of their own stand in `stretches`. What does not move has delta 0.
 
     Attributes:
         space: What the points mean.
@@ -32,8 +31,8 @@ class Channel:
         leaving: ``(K + 1, W)`` slope at the beginning times the duration; 0 but for splines.
         arriving: ``(K + 1, W)`` slope at the end times the duration.
         origins: ``(K + 1, L)`` value at each segment's beginning, for `space`.
-        paces: The ease-in functions in use; the first is linear.
-        pace: ``(K + 1,)`` index into `paces`.
+        easings: The ease-in functions in use; the first is linear.
+        easing: ``(K + 1,)`` index into `easings`.
         directions: ``(K + 1,)`` codes of `DIRECTION_CODES`.
         options: ``(K + 1, Q)`` the ease-ins' options.
         stretches: Segments with a formula of their own.

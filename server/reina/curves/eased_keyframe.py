@@ -1,4 +1,4 @@
-"""Interpolations that go straight from key to key and differ only in their pace."""
+"""Interpolations that go straight from key to key and differ only in their easing."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ from reina.curves.options import option, options_of
 class EasedKeyframe(Keyframe[T], Generic[T]):
     """previous + (this - previous) · ease(fraction). This class itself is ``linear``.
 
-    A subclass with another pace sets `ease_in` and `direction`; then a block evaluates all its segments in
+    A subclass with another easing sets `ease_in` and `direction`; then a block evaluates all its segments in
     one call.
     """
 
-    documentation: ClassVar[str] = "Goes straight, at an even pace."
+    documentation: ClassVar[str] = "Goes straight, without easing."
     ease_in: ClassVar[Callable[[FloatArray, FloatArray], FloatArray]] = EASE_IN["linear"]
     direction: ClassVar[Direction] = "in"
 
@@ -53,7 +53,7 @@ class EasedKeyframe(Keyframe[T], Generic[T]):
 class CubicBezierKeyframe(EasedKeyframe[T], Generic[T]):
     """``cubic_bezier``."""
 
-    documentation: ClassVar[str] = "Its pace is a Bézier curve with two handles, as in CSS."
+    documentation: ClassVar[str] = "Goes straight, eased by a Bézier curve with two handles, as in CSS."
     ease_in: ClassVar[Callable[[FloatArray, FloatArray], FloatArray]] = cubic_bezier
     handles: tuple[float, float, float, float] = option(
         (0.25, 0.1, 0.25, 1.0),

@@ -20,8 +20,7 @@ class PerformanceEventEmitter(Generic[T]):
     """Keyframes of one value, evaluated at any time.
 
     The values are numbers, arrays of numbers, or objects of any class that can be added, subtracted and
-    multiplied by a
-    float; with `space` they are arrays that are interpolated in it (`OKLAB`, `ORIENTATION`).
+    multiplied by a float; with `space` they are arrays that are interpolated in it (`OKLAB`, `ORIENTATION`).
     """
 
     def __init__(

@@ -16,11 +16,11 @@ class SegmentTable:
 
     Attributes:
         rows: ``(S, R)``.
-        begins: Column of the rows, and so `durations`, `directions` and `pace` (an index into `paces`).
+        begins: Column of the rows, and so `durations`, `directions` and `easing` (an index into `easings`).
         starts: Columns of the rows, and so `deltas`, `leaving`, `arriving`, `options` and `origins`.
         jumps: ``(S,)``.
         first: ``(C,)`` each channel's first row.
-        paces: The easing functions in use; the first is linear.
+        easings: The easing functions in use; the first is linear.
         stretches: Formulas of their own, by row.
         has_stretch: ``(S,)`` whether a row is among them.
         quaternion_row: ``(S,)`` row in `quaternions`, or -1.

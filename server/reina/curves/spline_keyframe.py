@@ -63,7 +63,7 @@ def arriving_weight(u: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def quaternion_easing(u: NDArray[np.float64], _: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Marks splines of quaternions, which have no pace along a straight line."""
+    """Marks splines of quaternions, which have no easing along a straight line."""
     return u
 
 

@@ -29,8 +29,7 @@ def clamped_slopes(chords: FloatArray, durations: FloatArray) -> FloatArray:
     """Slopes at inner keys that keep the curve between its keys, component by component; arguments as above.
 
     The weighted harmonic mean of F. N. Fritsch and J. Butland, "A method for constructing local monotone
-    piecewise cubic
-    interpolants", SIAM J. Sci. Stat. Comput. 5 (1984); 0 where the direction turns.
+    piecewise cubic interpolants", SIAM J. Sci. Stat. Comput. 5 (1984); 0 where the direction turns.
     """
     first, second = chords[:-1], chords[1:]
     before, after = durations[:-1, None], durations[1:, None]

@@ -40,12 +40,12 @@ class Fingering:
 
     Attributes:
         valves: (M, V) bool, whether each valve is down; the first column is valve 1, the one nearest the
-        face. playable: (M,) bool; where not, no valve is down.
+            face.
+        playable: (M,) bool; where not, no valve is down.
         reasons: Of each note what was chosen and why, or why it cannot be played.
         primary: (M,) bool, whether it is the usual fingering.
         cents: (M,) how far the note is off equal temperament before the player corrects it by the lips;
-        positive is
-            sharp; 0 where not playable.
+            positive is sharp; 0 where not playable.
         slide: (M,) extension of the third valve's slide, 0 in, 1 out as far as it goes.
     """
 

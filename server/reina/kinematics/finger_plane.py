@@ -22,8 +22,7 @@ def target_in_hand(
         origin: World position of the finger's first joint, ``(..., 3)``.
         target: World position of the target, ``(..., 3)``.
         axis_signs: -1 for each of the joint's axes that is to be flipped, so that x points away from the
-        wrist and y
-            away from the palm. Reina's rigs are built so already.
+            wrist and y away from the palm. Reina's rigs are built so already.
 
     Returns:
         ``(..., 3)``, metres.

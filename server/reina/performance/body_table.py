@@ -149,8 +149,7 @@ def body_matrix(rig: Rig, joints: Sequence[str]) -> FloatArray:
     Args:
         rig: The player's rig.
         joints: Columns: three for each of these joints' rotation vectors, in the joint's own rest frame;
-            then three
-            for the instrument's, three for the hips' shift and three for the right hand's.
+            then three for the instrument's, three for the hips' shift and three for the right hand's.
 
     Returns:
         ``(len(SIGNALS), 3 * len(joints) + 9)``.

@@ -20,10 +20,8 @@ class TimeMap:
         beats: Seconds -> beats (quarter notes).
         seconds: Beats -> seconds.
         bar_lines_beats: ``(B,)`` beats at which bars begin, increasing. Bars beyond the last line are as long
-            as the last.
-            A time in bars is the number of bars that have gone by: 0 is the first bar line, 1.5 the middle of
-            the second
-            bar. With a pickup the first bar line is the pickup's beginning.
+            as the last. A time in bars is the number of bars that have gone by: 0 is the first bar line, 1.5
+            the middle of the second bar. With a pickup the first bar line is the pickup's beginning.
     """
 
     beats: Callable[[FloatArray], FloatArray]

@@ -26,8 +26,7 @@ class Track:
     Attributes:
         parameter: The parameter's path.
         keyframes: In the order of their times, no two at one time, no two with one key. Their values are as
-            JSON writes
-            them (`reina.curves.value_types.Value`).
+            JSON writes them (`reina.curves.value_types.Value`).
         time: The unit of the keyframes' times.
         before: What happens before the first keyframe.
         after: What happens after the last.

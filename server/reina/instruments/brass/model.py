@@ -22,7 +22,8 @@ class BrassModel:
         rig: Name of its rig, or "" if it has none yet.
         written_above_sounding: Semitones from a sounding pitch to the one written for the player.
         chart_above_sounding: Semitones from a sounding pitch to the one under which it stands in the
-        three-valve chart. lowest: Lowest playable sounding pitch.
+            three-valve chart.
+        lowest: Lowest playable sounding pitch.
         highest: Highest playable sounding pitch.
         tube: Its acoustics.
         substitutes: Fingerings that a fourth valve takes the place of, as in 1-3 by 4.
