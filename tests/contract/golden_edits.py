@@ -207,7 +207,7 @@ def golden() -> dict[str, Any]:
     piece = score()
     times = time_map(piece)
     seconds = np.concatenate([np.arange(0, 61) * 0.25, times.to_seconds(bar_lines_beats(piece), "beats")])
-    seconds = np.unique(np.round(seconds, 9))
+    seconds = np.unique(np.round(seconds, 9)).astype(np.float64)
     before = Show.from_document(SHOW, REGISTRY)
     tempo_map = piece.tempo_map
     return {

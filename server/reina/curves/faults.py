@@ -1,7 +1,7 @@
 """What is said of a value that a model refuses: what was wrong with it, and what would be right."""
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
 
 from reina.curves.shown import shown
 from reina.curves.value_types import LARGEST
@@ -39,7 +39,7 @@ def _too_short(_: "ErrorDetails", context: Mapping[str, Any]) -> str:
 
 def _too_long(fault: "ErrorDetails", context: Mapping[str, Any]) -> str:
     given = fault["input"]
-    count = len(given) if isinstance(given, list | tuple) else "more"
+    count = len(cast("Sequence[object]", given)) if isinstance(given, list | tuple) else "more"
     return f"{count} numbers are given where {context['max_length']} are needed"
 
 

@@ -78,6 +78,12 @@ def numbers(length: int, minimum: float | None = None, maximum: float | None = N
     return Annotated[tuple[items, ...], Strict(strict=False), Field(min_length=length, max_length=length)]
 
 
+def one_of(words: tuple[str, ...]) -> Any:
+    """The type of one of several words."""
+    literal: Any = Literal
+    return literal[words]
+
+
 Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST), WithJsonSchema({"type": "number"})]
 """A finite number, as `number` without bounds."""
 Pair = Annotated[tuple[Number, ...], Strict(strict=False), Field(min_length=2, max_length=2)]
@@ -174,7 +180,7 @@ VALUE_TYPES: dict[TypeName, ValueType] = {
     ),
     "choice": ValueType(
         length=1,
-        annotation=lambda bounds: Literal.__getitem__(bounds.choices),
+        annotation=lambda bounds: one_of(bounds.choices),
         floats=lambda value, choices: np.array([float(choices.index(value))]),
         value=lambda floats, choices: choices[round(float(floats[0]))],
         interpolates=False,

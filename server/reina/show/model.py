@@ -12,7 +12,7 @@ from reina.curves.value_types import LARGEST, STRICT
 class ShowModel(BaseModel):
     """Immutable, and strict: no field that is not declared, no number in quotes."""
 
-    model_config = ConfigDict(**STRICT, frozen=True, use_attribute_docstrings=True)
+    model_config = STRICT | ConfigDict(frozen=True, use_attribute_docstrings=True)
     null_is_said: ClassVar[bool] = False
     """Whether null says something; else it is read as what is not given, and nobody needs to write it."""
 

@@ -124,7 +124,7 @@ def _adapter(kind: Any) -> TypeAdapter[Keyframe[Any]]:
 
 def _entries(document: object) -> Sequence[object]:
     """The keyframes of a track, as far as it has any."""
-    fields = cast("Json", document) if isinstance(document, Mapping) else {}
+    fields: Json = cast("Json", document) if isinstance(document, Mapping) else {}
     entries: object = fields.get("keyframes")
     return cast("Sequence[object]", entries) if isinstance(entries, list | tuple) else ()
 

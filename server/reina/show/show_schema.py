@@ -2,15 +2,18 @@
 
 import json
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pydantic.json_schema import GenerateJsonSchema, models_json_schema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode, models_json_schema
 
 from reina.curves.interpolation import BUILT_IN
 from reina.curves.keyframe import Keyframe
 from reina.curves.parameter import Parameter
 from reina.show.document import ShowHead
 from reina.show.track_models import track_model
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -39,7 +42,9 @@ def show_schema(
     """
     known = tuple(parameters)
     models = {parameter.path: track_model(parameter, interpolations) for parameter in known}
-    asked = [(model, "validation") for model in (ShowHead, *dict.fromkeys(models.values()))]
+    asked: list[tuple[type[BaseModel], JsonSchemaMode]] = [
+        (model, "validation") for model in (ShowHead, *dict.fromkeys(models.values()))
+    ]
     references, schema = models_json_schema(asked, schema_generator=_WithoutTitles)
     definitions: dict[str, Any] = schema["$defs"]
     head = definitions.pop(ShowHead.__name__)

@@ -163,8 +163,10 @@ class TrackDraft:
         slopes, and the lengths of the answer to events unless that is changed too, by the tempo where they
         stand.
         """
-        defaults = DEFAULTS | {"time": show_time}
-        given = {name: defaults[name] if value is None else value for name, value in changes.items()}
+        defaults: Json = {**DEFAULTS, "time": show_time}
+        given: dict[str, Any] = {
+            name: defaults[name] if value is None else value for name, value in changes.items()
+        }
         if given.get("events") is not None:
             given["events"] = fitted(given["events"], self.parameter)
         head = replace(self._head, keyframes=(), **given)

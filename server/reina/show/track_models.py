@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
-from typing import Annotated, Any, Literal, Union, cast
+from typing import Annotated, Any, Union, cast
 
 from pydantic import AfterValidator, ConfigDict, Discriminator, Strict, Tag, create_model
 
@@ -11,7 +11,7 @@ from reina.curves.interpolation import interpolations
 from reina.curves.keyframe import Keyframe
 from reina.curves.options import Option, options_of
 from reina.curves.parameter import Parameter
-from reina.curves.value_types import VALUE_TYPES, Bounds, Number, TypeName, numbers
+from reina.curves.value_types import VALUE_TYPES, Bounds, Number, TypeName, numbers, one_of
 from reina.show.document import ShowKeyframe, ShowTrack
 
 
@@ -51,13 +51,14 @@ def _models(kind: TypeName, bounds: Bounds, kinds: Kinds) -> tuple[Any, type[Sho
     """The type of a keyframe, and the model of a track."""
     name = _name(kind, bounds)
     interpolates = VALUE_TYPES[kind].interpolates
-    slope = (Number if kind == "number" else numbers(VALUE_TYPES[kind].length)) if interpolates else None
+    slope: Any = Number if kind == "number" else numbers(VALUE_TYPES[kind].length)
+    slope_or_none: Any = slope | None if interpolates else None
     values = create_model(
         f"keyframe_{name}",
         __base__=_Keyframe,
         value=(VALUE_TYPES[kind].annotation(bounds), ...),
-        in_tangent=(slope | None if slope is not None else None, None),
-        out_tangent=(slope | None if slope is not None else None, None),
+        in_tangent=(slope_or_none, None),
+        out_tangent=(slope_or_none, None),
     )
     default = "linear" if interpolates else "step"
     groups: dict[tuple[Option, ...], list[str]] = {}
@@ -74,22 +75,22 @@ def _models(kind: TypeName, bounds: Bounds, kinds: Kinds) -> tuple[Any, type[Sho
         return table[fields.pop("interpolation")](**fields)
 
     tags = {name: names[0] for names in groups.values() for name in names}
-    keyframe = _told_apart(
+    item: Any = _told_apart(
         {name: Annotated[model, AfterValidator(made)] for name, model in members.items()}, tags, default
     )
     track = create_model(
         f"track_{name}",
         __base__=ShowTrack,
-        keyframes=(Annotated[tuple[keyframe, ...], Strict(strict=False)], ()),
+        keyframes=(Annotated[tuple[item, ...], Strict(strict=False)], ()),
     )
-    return keyframe, track
+    return item, track
 
 
 def _keyframe_model(
     base: type[ShowKeyframe], options: Iterable[Option], names: list[str], default: str
 ) -> type[ShowKeyframe]:
     fields: dict[str, Any] = {option.name: (option.annotation, option.default) for option in options}
-    fields["interpolation"] = (Literal.__getitem__(tuple(names)), default if default in names else ...)
+    fields["interpolation"] = (one_of(tuple(names)), default if default in names else ...)
     return create_model(f"{base.__name__}_{names[0]}", __base__=base, **fields)
 
 

@@ -226,12 +226,13 @@ def test_what_is_not_there_cannot_be_edited() -> None:
     for path in ("camera/roll", "smoke/density"):
         with pytest.raises(KeyNotFoundError):
             show.track(path)
-    roll = {"edit": "change_keyframe", "parameter": "camera/roll", "key": "k1", "changes": {}}
-    for edit in (
+    roll: dict[str, Any] = {"edit": "change_keyframe", "parameter": "camera/roll", "key": "k1", "changes": {}}
+    edits: list[dict[str, Any]] = [
         {"edit": "remove_keyframe", "parameter": "camera/position", "key": "k9"},
         {"edit": "remove_track", "parameter": "camera/roll"},
         roll,
-    ):
+    ]
+    for edit in edits:
         with pytest.raises(KeyNotFoundError):
             _edited(show, **edit)
 
