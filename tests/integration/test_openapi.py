@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 from tests.integration.scores import scale, song
@@ -137,8 +137,26 @@ def test_conditions_are_described_and_hold(shown: Owned) -> None:
 
 def test_every_kind_of_edit_has_an_example_and_a_schema() -> None:
     content = DOCUMENT["paths"][f"{SESSION}/show/edits"]["post"]["requestBody"]["content"]["application/json"]
-    schemas = content["schema"]["items"]["oneOf"]
-    assert {schema["title"] for schema in schemas} == set(EDITS) == {e["edit"] for e in content["example"]}
+    components = DOCUMENT["components"]["schemas"]
+    assert content["schema"]["items"] == {"$ref": "#/components/schemas/Edit"}
+    references: dict[str, str] = components["Edit"]["discriminator"]["mapping"]
+    assert set(references) == set(EDITS) == {edit["edit"] for edit in content["example"]}
     for edit in content["example"]:
-        schema = next(schema for schema in schemas if schema["title"] == edit["edit"])
+        schema = components[references[edit["edit"]].rsplit("/", 1)[-1]]
         assert set(schema["required"]) <= set(edit) <= set(schema["properties"])
+
+
+def test_every_reference_leads_somewhere() -> None:
+    def references(value: Any) -> list[str]:
+        if isinstance(value, list):
+            return [found for item in cast("list[Any]", value) for found in references(item)]
+        if not isinstance(value, dict):
+            return []
+        fields = cast("dict[str, Any]", value)
+        own = [fields["$ref"]] if isinstance(fields.get("$ref"), str) else []
+        return own + [found for item in fields.values() for found in references(item)]
+
+    known = {f"#/components/schemas/{name}" for name in DOCUMENT["components"]["schemas"]}
+    found = set(references(DOCUMENT))
+    assert "#/components/schemas/ShowDocument" in found
+    assert found <= known

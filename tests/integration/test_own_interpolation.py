@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 import httpx
@@ -38,7 +39,8 @@ def test_a_package_brings_one_that_is_in_the_api_by_itself(
     (metadata / "entry_points.txt").write_text(
         "[reina.interpolations]\npower = power:Power\n", encoding="utf-8"
     )
-    monkeypatch.setenv("PYTHONPATH", str(package))
+    paths = [str(package), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(path for path in paths if path))
     with serve(tmp_path / "data") as running, httpx.Client(base_url=running.address, timeout=30) as client:
         described = client.get("/api/v1/parameters").json()
         [power] = [entry for entry in described["interpolations"] if entry["name"] == "power"]
@@ -47,7 +49,8 @@ def test_a_package_brings_one_that_is_in_the_api_by_itself(
         light = next(entry for entry in described["parameters"] if entry["path"] == LIGHT)
         assert "power" in light["interpolations"]
         schema = client.get("/api/v1/shows/schema").json()
-        assert "power" in schema["$defs"]["interpolation"]["enum"]
+        named = [kind.get("properties", {}).get("interpolation", {}) for kind in schema["$defs"].values()]
+        assert {"const": "power", "type": "string"} in named
         owned = upload(client, scale(), song=("song.wav", song()))
         ends = {"time": 2, "value": 8, "interpolation": "power", "exponent": 3}
         track = {"time": "seconds", "keyframes": [{"time": 0, "value": 0}, ends]}

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from pydantic import TypeAdapter
+
 from reina.api.http.conditions import IF_NONE_MATCH_TEXT
 from reina.api.http.problems import MEDIA_TYPE
+from reina.show.document import ShowDocument
+from reina.show.edits import Edit
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -25,6 +29,7 @@ def describe(app: FastAPI) -> None:
 
     def openapi() -> dict[str, Any]:
         document = generate()
+        document["components"]["schemas"] |= _show_schemas()
         for operations in document["paths"].values():
             for method, operation in operations.items():
                 responses: dict[str, Any] = operation["responses"]
@@ -39,6 +44,15 @@ def describe(app: FastAPI) -> None:
         return document
 
     app.openapi = openapi
+
+
+def _show_schemas() -> dict[str, Any]:
+    """What is read when it is known what it is for: shows, tracks, edits."""
+    described = TypeAdapter(Edit | ShowDocument).json_schema(ref_template="#/components/schemas/{model}")
+    definitions: dict[str, Any] = described["$defs"]
+    definitions["Edit"] = TypeAdapter(Edit).json_schema(ref_template="#/components/schemas/{model}")
+    del definitions["Edit"]["$defs"]
+    return definitions
 
 
 def _add_if_none_match(operation: dict[str, Any]) -> None:

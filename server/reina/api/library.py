@@ -9,6 +9,7 @@ from fastapi import APIRouter
 
 from reina.api.http.access import ServerSettings, Store
 from reina.curves import interpolations
+from reina.performance import any_player_pattern
 from reina.protocol.links import API
 from reina.protocol.resources import ShowLibrary, ShowSummary
 from reina.show.show_schema import show_schema
@@ -29,8 +30,8 @@ def list_shows(settings: ServerSettings) -> ShowLibrary:
 
 @router.get("/shows/schema")
 def get_schema(store: Store) -> dict[str, Any]:
-    """JSON Schema of shows, over the parameters and interpolations of this server."""
-    return show_schema(store.stage.largest_registry(), interpolations())
+    """JSON Schema of shows, over the parameters of any cast and the interpolations of this server."""
+    return show_schema(store.stage.schema_parameters(), interpolations(), any_player_pattern)
 
 
 @lru_cache(maxsize=256)

@@ -11,7 +11,8 @@ from reina.api.cast import cast_of_fields, refuse_twice
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
-from reina.api.upload import FILE_LIMITS, MEGABYTE, Upload, receive_upload
+from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
+from reina.api.upload import Upload, receive_upload
 from reina.instruments import HANDEDNESS
 from reina.protocol import resources
 from reina.protocol.links import session_links

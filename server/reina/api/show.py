@@ -11,6 +11,7 @@ from reina.api.http.conditions import IfMatch, IfNoneMatch, named, not_modified,
 from reina.api.show_change import ShowChange
 from reina.protocol.messages import ShowState
 from reina.protocol.resources import ShowWarnings
+from reina.show.document import ShowDocument
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -37,7 +38,7 @@ EXAMPLE: Document = {
 }
 
 
-@router.get("/sessions/{session_id}/show", response_model=Document)
+@router.get("/sessions/{session_id}/show", response_model=ShowDocument)
 async def get_show(
     session: Watched,
     if_none_match: IfNoneMatch = None,
@@ -49,16 +50,21 @@ async def get_show(
     text = session.show_revision.text
     if if_none_match is not None and named(if_none_match, text.etag, strongly=False):
         return not_modified(text.etag)
-    return validated(await asyncio.to_thread(lambda: text.of_tracks(parameter).encode()), text.etag)
+    return validated(await asyncio.to_thread(text.text, parameter), text.etag)
 
 
 @router.put(
     "/sessions/{session_id}/show",
-    response_model=Document,
+    response_model=ShowDocument,
     openapi_extra={
         "requestBody": {
             "required": True,
-            "content": {"application/json": {"schema": {"type": "object"}, "example": EXAMPLE}},
+            "content": {
+                "application/json": {
+                    "schema": {"$ref": "#/components/schemas/ShowDocument"},
+                    "example": EXAMPLE,
+                }
+            },
         }
     },
 )
@@ -66,7 +72,7 @@ async def put_show(session: Controlled, store: Store, request: Request, if_match
     """Another show in its place. Tracks of parameters that nobody knows are kept, without effect."""
     show = await store.reader.show(await request.body(), session.production.registry)
     kept = await ShowChange(session, store, if_match).edit(lambda _: show)
-    return validated(await asyncio.to_thread(lambda: kept.text.of_tracks().encode()), kept.text.etag)
+    return validated(await asyncio.to_thread(kept.text.text), kept.text.etag)
 
 
 @router.get("/sessions/{session_id}/show/history")

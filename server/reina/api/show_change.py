@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from reina.api.http.conditions import require_match
-from reina.show.show_writer import json_text
+from reina.system.json_text import Written, json_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,20 +61,21 @@ class ShowChange:
         return await self._store.change_show(self._session, conditional_step)
 
     def outcome(self, after: ShowRevision, *, briefly: bool) -> bytes:
-        """What the change came to: `ShowEdited` as JSON, put together of what is written already.
+        """What the change came to: `ShowEdited` as JSON, with the text of tracks that is written already.
 
         Args:
             after: What it came to.
             briefly: Whether to leave out the tracks themselves.
         """
         old, new = self.before.text.tracks, after.text.tracks
-        changed = (
-            written.text for path, written in new.items() if path not in old or old[path].etag != written.etag
+        changed = [
+            written for path, written in new.items() if path not in old or old[path].etag != written.etag
+        ]
+        return json_text(
+            {
+                **after.state.model_dump(),
+                "head": after.text.head,
+                "tracks": [] if briefly else [Written(written.text) for written in changed],
+                "removed": [path for path in old if path not in new],
+            }
         )
-        parts = {
-            "head": after.text.head,
-            "tracks": "[]" if briefly else f"[{', '.join(changed)}]",
-            "removed": json_text([path for path in old if path not in new]),
-        }
-        told = ", ".join(f'"{name}": {text}' for name, text in parts.items())
-        return f"{after.state.model_dump_json()[:-1]}, {told}}}".encode()

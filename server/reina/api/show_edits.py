@@ -12,8 +12,7 @@ from reina.api.http.problems import ProblemError
 from reina.api.show_change import ShowChange
 from reina.protocol.resources import ShowEdited
 from reina.sessions.show_revision import ShowRevision
-from reina.show import EDITS, KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
-from reina.show.time_map import TIME_UNITS
+from reina.show import KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -48,41 +47,6 @@ EXAMPLE: list[dict[str, Any]] = [
 ]
 
 
-_FIELDS: dict[str, Any] = {
-    "parameter": {"type": "string"},
-    "key": {"type": "string"},
-    "keyframe": {"type": "object"},
-    "replace": {"type": "boolean", "default": False},
-    "changes": {"type": "object"},
-    "keyframes": {
-        "type": "object",
-        "additionalProperties": {"type": "array", "items": {"type": "string"}},
-        "description": "Keys by their parameters.",
-    },
-    "by": {"type": "number", "default": 0},
-    "stretch": {
-        "type": "object",
-        "properties": {"about": {"type": "number"}, "factor": {"type": "number", "exclusiveMinimum": 0}},
-    },
-    "time": {"enum": list(TIME_UNITS), "description": "The unit of `by` and `about`; the show's by default."},
-    "value_by": {"description": "What is added to the values: a number, or three for vectors."},
-    "track": {"type": "object"},
-    "to": {"type": "string", "description": "The other parameter."},
-}
-"""Every field of an edit, as JSON Schema."""
-
-
-def _schema(name: str) -> dict[str, Any]:
-    fields = (*EDITS[name].fields, *EDITS[name].optional)
-    return {
-        "type": "object",
-        "title": name,
-        "required": ["edit", *EDITS[name].fields],
-        "properties": {"edit": {"const": name}, **{field: _FIELDS[field] for field in fields}},
-        "additionalProperties": False,
-    }
-
-
 @router.post(
     "/sessions/{session_id}/show/edits",
     response_model=ShowEdited,
@@ -91,7 +55,7 @@ def _schema(name: str) -> dict[str, Any]:
             "required": True,
             "content": {
                 "application/json": {
-                    "schema": {"type": "array", "items": {"oneOf": [_schema(name) for name in EDITS]}},
+                    "schema": {"type": "array", "items": {"$ref": "#/components/schemas/Edit"}},
                     "example": EXAMPLE,
                 }
             },

@@ -1,6 +1,6 @@
 """One track of a show, and its keyframes."""
 
-import json
+from collections.abc import Callable
 from typing import Annotated, Any
 from urllib.parse import quote
 
@@ -13,8 +13,23 @@ from reina.api.http.problems import ProblemError
 from reina.api.show_change import ShowChange
 from reina.curves import Keyframe, Parameter, ParameterRegistry
 from reina.protocol.links import session_links
+from reina.protocol.resources import KeyframeList
+from reina.sessions.session import Session
 from reina.show import KeyNotFoundError, Show, Track, keyframe_document
+from reina.show.document import ShowKeyframe, ShowTrack
+from reina.show.edits import (
+    AddKeyframe,
+    ChangeKeyframe,
+    Edit,
+    NewKeyframe,
+    RemoveKeyframe,
+    RemoveTrack,
+    with_edit,
+    with_track,
+)
+from reina.show.model import read_later
 from reina.show.show_writer import keyframe_text
+from reina.system.json_text import Written, json_text
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -23,8 +38,10 @@ TrackPath = Annotated[
     str, Path(description="The parameter's path, slashes and all.", examples=["lights/key/intensity"])
 ]
 Key = Annotated[str, Path(description="The keyframe's key in its track.", examples=["k3"])]
-NewKeyframe = Annotated[
-    Document, Body(examples=[{"key": "k3", "time": 1.5, "value": 0.8, "interpolation": "quad_in"}])
+KeyframeFields = Annotated[
+    Document,
+    read_later(NewKeyframe),
+    Body(examples=[{"key": "k3", "time": 1.5, "value": 0.8, "interpolation": "quad_in"}]),
 ]
 Changes = Annotated[Document, Body(examples=[{"time": 2.25, "value": 1.1}])]
 TRACK_EXAMPLE: Document = {
@@ -36,43 +53,51 @@ TRACK_EXAMPLE: Document = {
     ],
 }
 
+TRACK_SCHEMA: Document = {
+    "allOf": [{"$ref": "#/components/schemas/ShowTrack"}],
+    "description": "It may leave out its parameter.",
+}
+
 KEYFRAMES = "/sessions/{session_id}/show/tracks/{path:path}/keyframes"
 TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
 
 
-@router.get(KEYFRAMES, response_model=Document)
+@router.get(KEYFRAMES, response_model=KeyframeList)
 def list_keyframes(session: Watched, path: TrackPath) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
     known_parameter(session.production.registry, path)
     kept = session.show_revision
-    keyframes = ", ".join([keyframe_text(keyframe) for keyframe in _keyframes(kept.show, path)])
-    return validated(f'{{"keyframes": [{keyframes}]}}', kept.text.track_etag(path))
+    keyframes = [Written(keyframe_text(keyframe)) for keyframe in _keyframes(kept.show, path)]
+    return validated(json_text({"keyframes": keyframes}), kept.text.track_etag(path))
 
 
-@router.post(KEYFRAMES, status_code=201)
+@router.post(KEYFRAMES, status_code=201, response_model=ShowKeyframe, response_model_exclude_unset=True)
 async def add_keyframe(
     session: Controlled,
     path: TrackPath,
-    fields: NewKeyframe,
+    fields: KeyframeFields,
     store: Store,
     response: Response,
     if_match: IfMatch = None,
 ) -> Document:
     """One keyframe more; it is given the next free key unless it names its own."""
-    parameter = known_parameter(session.production.registry, path)
+    known_parameter(session.production.registry, path)
     added: list[Keyframe[Any]] = []
+    make = _edit(session, AddKeyframe(edit="add_keyframe", parameter=path, keyframe=fields))
 
     def edit(show: Show) -> Show:
-        keyframe = show.new_keyframe(parameter, fields)
-        if any(other.key == keyframe.key for other in _keyframes(show, path)):
+        there = {keyframe.key for keyframe in _keyframes(show, path)}
+        key = fields.get("key")
+        if isinstance(key, str) and key in there:
             raise ProblemError(
                 409,
                 "key-taken",
                 "There is such a keyframe already",
-                f"{path} has a keyframe {keyframe.key}; PATCH changes it",
+                f"{path} has a keyframe {key}; PATCH changes it",
             )
-        added.append(keyframe)
-        return show.with_keyframe(path, keyframe)
+        edited = make(show)
+        added.extend(keyframe for keyframe in _keyframes(edited, path) if keyframe.key not in there)
+        return edited
 
     kept = await ShowChange(session, store, if_match, path).edit(edit)
     key = quote(added[0].key)
@@ -81,16 +106,16 @@ async def add_keyframe(
     return keyframe_document(added[0])
 
 
-@router.get(f"{KEYFRAMES}/{{key}}", response_model=Document)
+@router.get(f"{KEYFRAMES}/{{key}}", response_model=ShowKeyframe)
 async def get_keyframe(session: Watched, path: TrackPath, key: Key) -> Response:
     """One keyframe, under its track's validator."""
     known_parameter(session.production.registry, path)
     kept = session.show_revision
     document = keyframe_document(kept.show.track(path).keyframe(key))
-    return validated(json.dumps(document), kept.text.track_etag(path))
+    return validated(json_text(document), kept.text.track_etag(path))
 
 
-@router.patch(f"{KEYFRAMES}/{{key}}")
+@router.patch(f"{KEYFRAMES}/{{key}}", response_model=ShowKeyframe, response_model_exclude_unset=True)
 async def change_keyframe(
     session: Controlled,
     path: TrackPath,
@@ -101,14 +126,13 @@ async def change_keyframe(
     if_match: IfMatch = None,
 ) -> Document:
     """Change some fields of a keyframe; null takes one back to its default."""
-    parameter = known_parameter(session.production.registry, path)
+    known_parameter(session.production.registry, path)
     if fields.get("key", key) != key:
         raise ProblemError(
             422, "key-fixed", "The show cannot be used", "a keyframe's key stays; add another and remove this"
         )
-    kept = await ShowChange(session, store, if_match, path).edit(
-        lambda show: show.with_changed(parameter, key, fields)
-    )
+    edit = ChangeKeyframe(edit="change_keyframe", parameter=path, key=key, changes=fields)
+    kept = await ShowChange(session, store, if_match, path).edit(_edit(session, edit))
     response.headers["ETag"] = kept.text.track_etag(path)
     return keyframe_document(kept.show.track(path).keyframe(key))
 
@@ -119,13 +143,12 @@ async def remove_keyframe(
 ) -> None:
     """One keyframe less; a track that loses its last and answers no events goes with it."""
     known_parameter(session.production.registry, path)
-    kept = await ShowChange(session, store, if_match, path).edit(
-        lambda show: show.without_keyframe(path, key)
-    )
+    edit = RemoveKeyframe(edit="remove_keyframe", parameter=path, key=key)
+    kept = await ShowChange(session, store, if_match, path).edit(_edit(session, edit))
     response.headers["ETag"] = kept.text.track_etag(path)
 
 
-@router.get(TRACK, response_model=Document)
+@router.get(TRACK, response_model=ShowTrack)
 async def get_track(session: Watched, path: TrackPath) -> Response:
     """A whole track: its keyframes, their unit, what comes before and after them, what it answers."""
     known_parameter(session.production.registry, path)
@@ -137,11 +160,11 @@ async def get_track(session: Watched, path: TrackPath) -> Response:
 
 @router.put(
     TRACK,
-    response_model=Document,
+    response_model=ShowTrack,
     openapi_extra={
         "requestBody": {
             "required": True,
-            "content": {"application/json": {"schema": {"type": "object"}, "example": TRACK_EXAMPLE}},
+            "content": {"application/json": {"schema": TRACK_SCHEMA, "example": TRACK_EXAMPLE}},
         }
     },
 )
@@ -151,7 +174,10 @@ async def put_track(
     """Another track of the parameter in the place of its present one, if there is any."""
     parameter = known_parameter(session.production.registry, path)
     track = await store.reader.track(await request.body(), parameter, session.show_revision.show.time)
-    kept = await ShowChange(session, store, if_match, path).edit(lambda show: show.with_new_track(track))
+    registry = session.production.registry
+    kept = await ShowChange(session, store, if_match, path).edit(
+        lambda show: with_track(show, track, registry)
+    )
     written = kept.text.tracks[path]
     return validated(written.text, written.etag)
 
@@ -161,7 +187,8 @@ async def remove_track(
     session: Controlled, path: TrackPath, store: Store, response: Response, if_match: IfMatch = None
 ) -> None:
     """The show no longer moves the parameter, which goes back to its default. Unknown tracks go too."""
-    kept = await ShowChange(session, store, if_match, path).edit(lambda show: show.without_track(path))
+    edit = RemoveTrack(edit="remove_track", parameter=path)
+    kept = await ShowChange(session, store, if_match, path).edit(_edit(session, edit))
     response.headers["ETag"] = kept.text.track_etag(path)
 
 
@@ -180,6 +207,12 @@ def known_parameter(registry: ParameterRegistry, path: str) -> Parameter:
             f"no parameter has the path {path!r}; GET /api/v1/parameters lists all",
         )
     return parameter
+
+
+def _edit(session: Session, edit: Edit) -> Callable[[Show], Show]:
+    """One edit of a session's show."""
+    production = session.production
+    return lambda show: with_edit(show, edit, production.registry, production.show_plan.time_map)
 
 
 def _keyframes(show: Show, path: str) -> tuple[Keyframe[Any], ...]:

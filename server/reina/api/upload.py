@@ -11,6 +11,7 @@ from python_multipart.multipart import MultipartParser, parse_options_header
 
 from reina.api.http.filename import filename_of
 from reina.api.http.problems import ProblemError
+from reina.api.http.upload_limits import FIELD_LIMITS, LIMITS, MEGABYTE
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -18,27 +19,6 @@ if TYPE_CHECKING:
     from python_multipart.multipart import MultipartCallbacks
     from starlette.requests import Request
 
-MEGABYTE = 1_000_000
-
-FILE_LIMITS = {"score": 20 * MEGABYTE, "song": 200 * MEGABYTE, "show": 20 * MEGABYTE}
-"""Bytes, by the part's name."""
-FIELD_LIMITS = {
-    "title": 1000,
-    "public": 5,
-    "part": 10,
-    "transposition": 10,
-    "written": 5,
-    "octave_fit": 5,
-    "joined_parts": 10_000,
-    "usual_fingerings": 5,
-    "sequence": 10,
-    "player": 200,
-    "handedness": 10,
-    "cast": 20_000,
-}
-LIMITS = FILE_LIMITS | FIELD_LIMITS
-MAX_BYTES = sum(LIMITS.values()) + MEGABYTE
-"""Of a whole form, with what stands between its parts."""
 AT_ONCE = MEGABYTE
 """Bytes of a form that are written at a time."""
 

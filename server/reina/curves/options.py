@@ -3,10 +3,13 @@
 import math
 from dataclasses import Field, dataclass, field, fields
 from functools import cache
-from typing import Any, cast
+from typing import Annotated, Any, cast
+
+from pydantic import AfterValidator
+from pydantic import Field as Described
 
 from reina.curves.keyframe import Keyframe
-from reina.curves.value_types import parse_number, parse_numbers
+from reina.curves.value_types import number, numbers
 
 _METADATA = "reina.option"
 
@@ -34,18 +37,22 @@ class Option:
         """How many numbers it is; None for a single number that stands without brackets."""
         return len(self.default) if isinstance(self.default, tuple) else None
 
-    def parse(self, value: object) -> float | tuple[float, ...]:
-        """Check a JSON value.
+    @property
+    def annotation(self) -> Any:
+        """The type that pydantic checks a JSON value against."""
+        described = Described(description=self.documentation)
+        if self.length is None:
+            return Annotated[
+                number(self.minimum[0], self.maximum[0]), Described(description=self.documentation)
+            ]
+        described = Described(description=self.documentation)
+        return Annotated[numbers(self.length), AfterValidator(self._within), described]
 
-        Raises:
-            ValueError: It has another shape or is out of range.
-        """
-        parsed = parse_number(value) if self.length is None else parse_numbers(value, self.length)
-        numbers = parsed if isinstance(parsed, tuple) else (parsed,)
-        for number, low, high in zip(numbers, self.minimum, self.maximum, strict=True):
-            if not low <= number <= high:
-                raise ValueError(f"{number:g} is out of range; it lies between {low:g} and {high:g}")
-        return parsed
+    def _within(self, value: tuple[float, ...]) -> tuple[float, ...]:
+        for given, low, high in zip(value, self.minimum, self.maximum, strict=True):
+            if not low <= given <= high:
+                raise ValueError(f"{given:g} is out of range; it lies between {low:g} and {high:g}")
+        return value
 
     def describe(self) -> dict[str, Any]:
         """The option as `GET /parameters` says it; infinite bounds are null."""

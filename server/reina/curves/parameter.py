@@ -3,12 +3,15 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from pydantic import TypeAdapter, ValidationError
 
 from reina.curves.arrays import FloatArray
-from reina.curves.value_types import VALUE_TYPES, TypeName, Value
+from reina.curves.faults import fault_words
+from reina.curves.value_types import STRICT, TRANSFORM_PARTS, VALUE_TYPES, Bounds, TypeName, Value
 
 _PATH = re.compile(r"[a-z0-9_]+(/[a-z0-9_]+)*")
 
@@ -60,21 +63,28 @@ class Parameter:
         """Whether there are values between two of its values; else its keys can only step."""
         return VALUE_TYPES[self.type].interpolates
 
+    @property
+    def bounds(self) -> Bounds:
+        """What its values are held to."""
+        return Bounds(self.minimum, self.maximum, self.choices)
+
+    @property
+    def annotation(self) -> Any:
+        """The type that pydantic checks a JSON value against."""
+        return VALUE_TYPES[self.type].annotation(self.bounds)
+
     def parse(self, value: object) -> Value:
         """Check a value as JSON gives it.
 
         Raises:
             ValueError: It is of another type or out of range; the message says what would be right.
         """
-        parsed = VALUE_TYPES[self.type].parse(value, self.choices)
-        floats = VALUE_TYPES[self.type].floats(parsed, self.choices)
-        too_low = self.minimum is not None and bool(np.any(floats < self.minimum))
-        too_high = self.maximum is not None and bool(np.any(floats > self.maximum))
-        if too_low or too_high:
-            unit = f" {self.unit}" if self.unit else ""
-            bound = f"at least {self.minimum:g}" if too_low else f"at most {self.maximum:g}"
-            raise ValueError(f"{value} is out of range; {self.path} is {bound}{unit}")
-        return parsed
+        try:
+            return _adapter(self.type, self.bounds).validate_python(value)
+        except ValidationError as error:
+            fault = error.errors(include_url=False)[0]
+            part = next((f"{name}: " for name in fault["loc"] if name in TRANSFORM_PARTS), "")
+            raise ValueError(part + fault_words(fault, self.unit)) from None
 
     def floats(self, value: Value) -> FloatArray:
         """A parsed value as the floats of a frame, ``(length,)``: colours linear, choices by index."""
@@ -90,11 +100,7 @@ class Parameter:
         """The value that floats of a frame ``(length,)`` stand for."""
         return VALUE_TYPES[self.type].value(floats, self.choices)
 
-    def json_schema(self) -> dict[str, Any]:
-        """JSON Schema of a value in a show."""
-        schema = VALUE_TYPES[self.type].json_schema(self.choices)
-        target = schema["items"] if schema.get("type") == "array" else schema
-        if self.type in ("number", "vector"):
-            target |= {"minimum": self.minimum} if self.minimum is not None else {}
-            target |= {"maximum": self.maximum} if self.maximum is not None else {}
-        return schema
+
+@lru_cache(maxsize=1024)
+def _adapter(kind: TypeName, bounds: Bounds) -> TypeAdapter[Any]:
+    return TypeAdapter(VALUE_TYPES[kind].annotation(bounds), config=None if kind == "transform" else STRICT)

@@ -1,6 +1,6 @@
 """Show and performers put together: what is on screen at any frame."""
 
-from reina.performance.cast_parameters import show_parameters
+from reina.performance.cast_parameters import any_player_pattern, schema_parameters, show_parameters
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
 from reina.performance.performance import TAIL_S, Performance
 
@@ -10,5 +10,7 @@ __all__ = [
     "FrameBlock",
     "FrameLayout",
     "Performance",
+    "any_player_pattern",
+    "schema_parameters",
     "show_parameters",
 ]

@@ -3,8 +3,9 @@
     python -m reina.protocol.generate [--check]
 
 Writes the page's types and frame reader (web/src/generated/protocol.ts), those of the laboratory
-(web/src/generated/lab.ts), the description of the stream (docs/protocol.md) and the JSON Schema of shows
-(docs/show.schema.json). The description of the HTTP interface is `python -m reina.api.openapi`'s.
+(web/src/generated/lab.ts) and of shows (web/src/generated/show.ts), the description of the stream
+(docs/protocol.md) and the JSON Schema of shows (docs/show.schema.json). The description of the HTTP interface
+is `python -m reina.api.openapi`'s.
 """
 
 from __future__ import annotations
@@ -15,14 +16,17 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reina.instruments import INSTRUMENTS
+from reina.performance import any_player_pattern, schema_parameters
 from reina.protocol import resources, timeline, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
 from reina.protocol.reader import frame_reader
 from reina.protocol.typescript import interfaces
 from reina.protocol.written_part import WrittenPart
+from reina.show import EDITS
+from reina.show.document import ShowDocument
 from reina.show.show_schema import show_schema_text
-from reina.stage import stage_registry
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -40,7 +44,6 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.Cast,
     resources.InstrumentList,
     WrittenPart,
-    resources.ShowEdited,
     resources.ShowWarnings,
     timeline.ShowCurves,
     timeline.MusicTime,
@@ -67,7 +70,6 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *COMMANDS,
     resources.SessionChange,
     resources.CastFields,
-    timeline.CurvePreview,
 )
 """What the server is sent: fields with a default may be left out."""
 
@@ -87,6 +89,15 @@ def typescript() -> str:
         }.items()
     )
     return "\n".join([_HEAD, frame_reader(), interfaces(SENT, RECEIVED), unions])
+
+
+def show_typescript() -> str:
+    """The show's document, its edits, and what comes of them."""
+    edits = "export type Edit =\n" + "\n".join(f"  | {model.__name__}" for model in EDITS.values()) + "\n"
+    models = interfaces(
+        (resources.ShowEdited,), (ShowDocument, timeline.CurvePreview, *EDITS.values()), readonly=True
+    )
+    return "\n".join([_HEAD, models, edits])
 
 
 def lab_typescript() -> str:
@@ -126,9 +137,12 @@ def main() -> int:
     arguments = parser.parse_args()
     files = {
         ROOT / "web/src/generated/protocol.ts": typescript(),
+        ROOT / "web/src/generated/show.ts": show_typescript(),
         ROOT / "web/src/generated/lab.ts": lab_typescript(),
         ROOT / "docs/protocol.md": documentation(),
-        ROOT / "docs/show.schema.json": show_schema_text(stage_registry()),
+        ROOT / "docs/show.schema.json": show_schema_text(
+            schema_parameters(INSTRUMENTS.values()), any_player_pattern
+        ),
     }
     return write_or_check(files, check=arguments.check)
 

@@ -9,6 +9,7 @@ from reina.instruments import MAX_PLAYERS
 from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
+from reina.show.document import ShowHead, ShowKeyframe, ShowTrack
 
 Title = Annotated[str, Field(min_length=1, max_length=200)]
 PlayerName = Annotated[str, Field(min_length=1, max_length=200)]
@@ -420,12 +421,18 @@ class Score(WireModel):
 class ShowEdited(ShowState):
     """What came of an edit, an undo or a redo."""
 
-    head: dict[str, Any]
+    head: ShowHead
     """The show as it is now, but for its tracks: title, time, markers."""
-    tracks: list[dict[str, Any]]
+    tracks: list[ShowTrack]
     """The tracks that changed, as the show holds them now; none with `Prefer: return=minimal`."""
     removed: list[str]
     """Parameters whose tracks are gone."""
+
+
+class KeyframeList(WireModel):
+    """The keyframes of one track, in their order."""
+
+    keyframes: list[ShowKeyframe]
 
 
 class ShowWarnings(WireModel):

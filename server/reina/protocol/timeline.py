@@ -1,8 +1,10 @@
 """What a timeline editor reads and need not work out: curves, the music's time, the sound's shape."""
 
-from typing import Any
+from typing import Annotated, Any
 
 from reina.protocol.model import WireModel
+from reina.show.document import ShowTrack
+from reina.show.model import read_later
 
 
 class CurveLine(WireModel):
@@ -39,7 +41,7 @@ class ShowCurves(WireModel):
 class CurvePreview(WireModel):
     """A track whose curve is asked for; it is not kept."""
 
-    track: dict[str, Any]
+    track: Annotated[dict[str, Any], read_later(ShowTrack)]
     """As a show has it, with its `parameter`; times without a unit of their own are in the show's."""
 
 

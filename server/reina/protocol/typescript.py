@@ -25,12 +25,15 @@ _PRIMITIVES = {
 }
 
 
-def interfaces(sent: Sequence[type[BaseModel]], received: Sequence[type[BaseModel]] = ()) -> str:
+def interfaces(
+    sent: Sequence[type[BaseModel]], received: Sequence[type[BaseModel]] = (), *, readonly: bool = False
+) -> str:
     """One exported interface (or type) for each model and everything that it refers to.
 
     Args:
         sent: Models that the server sends; all their fields are there.
         received: Models that it is sent; fields with a default are optional.
+        readonly: Whether nothing of them may be assigned to.
     """
     modes: list[tuple[type[BaseModel], JsonSchemaMode]] = []
     modes.extend((base, "serialization") for model in sent if (base := _base(model)))
@@ -44,7 +47,7 @@ def interfaces(sent: Sequence[type[BaseModel]], received: Sequence[type[BaseMode
     for name in order:
         base = bases.get(name)
         inherited: Schema = definitions[base]["properties"] if base else {}
-        texts.append(_definition(name, definitions[name], base, inherited))
+        texts.append(_definition(name, definitions[name], base, inherited, readonly=readonly))
     return "\n\n".join(texts) + "\n"
 
 
@@ -63,18 +66,22 @@ def _base(model: type[BaseModel]) -> type[BaseModel] | None:
     return base if base and issubclass(base, WireModel) and base is not WireModel else None
 
 
-def _definition(name: str, schema: Schema, base: str | None, inherited: Schema) -> str:
+def _definition(name: str, schema: Schema, base: str | None, inherited: Schema, *, readonly: bool) -> str:
     documentation = _comment(schema.get("description"), "")
     if schema.get("type") != "object" or "properties" not in schema:
-        return f"{documentation}export type {name} = {type_of(schema)}"
+        return f"{documentation}export type {name} = {type_of(schema, readonly=readonly)}"
     required = set(schema.get("required", ()))
     extends = f" extends {base}" if base else ""
     lines = [f"{documentation}export interface {name}{extends} {{"]
+    prefix = "readonly " if readonly else ""
     for field, value in schema["properties"].items():
         if field in inherited:
             continue
         optional = "" if field in required else "?"
-        lines.append(f"{_comment(value.get('description'), '  ')}  {_key(field)}{optional}: {type_of(value)}")
+        kind = type_of(value, readonly=readonly)
+        lines.append(f"{_comment(value.get('description'), '  ')}  {prefix}{_key(field)}{optional}: {kind}")
+    if schema.get("additionalProperties") is True:
+        lines.append(f"  {prefix}[other: string]: unknown")
     return "\n".join([*lines, "}"])
 
 
@@ -93,12 +100,13 @@ def _key(field: str) -> str:
     return field if field.isidentifier() else json.dumps(field)
 
 
-def type_of(schema: Schema) -> str:
+def type_of(schema: Schema, *, readonly: bool = False) -> str:
     """The TypeScript type of a JSON schema, as far as pydantic writes such schemas.
 
     Raises:
         TypeError: For a schema that this does not know; silence would let the page drift from the server.
     """
+    prefix = "readonly " if readonly else ""
     if "$ref" in schema:
         return str(schema["$ref"]).rsplit("/", 1)[-1]
     if "const" in schema:
@@ -106,17 +114,19 @@ def type_of(schema: Schema) -> str:
     if "enum" in schema:
         return " | ".join(json.dumps(value) for value in schema["enum"])
     alternatives = schema.get("oneOf") or schema.get("anyOf")
-    if alternatives:
-        return " | ".join(dict.fromkeys(type_of(alternative) for alternative in alternatives))
+    if alternatives and "properties" not in schema:
+        return " | ".join(dict.fromkeys(type_of(each, readonly=readonly) for each in alternatives))
     match schema.get("type"):
         case "array" if "prefixItems" in schema:
-            return f"[{', '.join(type_of(item) for item in schema['prefixItems'])}]"
+            items = (type_of(item, readonly=readonly) for item in schema["prefixItems"])
+            return f"{prefix}[{', '.join(items)}]"
         case "array":
-            item = type_of(schema.get("items", {}))
-            return f"({item})[]" if " " in item else f"{item}[]"
+            item = type_of(schema.get("items", {}), readonly=readonly)
+            return f"{prefix}({item})[]" if " " in item else f"{prefix}{item}[]"
         case "object":
             values = schema.get("additionalProperties")
-            return f"Record<string, {'unknown' if values in (None, True) else type_of(values)}>"
+            kind = "unknown" if values in (None, True) else type_of(values, readonly=readonly)
+            return f"Readonly<Record<string, {kind}>>" if readonly else f"Record<string, {kind}>"
         case None:
             return "unknown"
         case name if name in _PRIMITIVES:

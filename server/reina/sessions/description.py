@@ -12,6 +12,7 @@ from reina.protocol.messages import Transport
 from reina.protocol.notes import WireNote
 from reina.protocol.transport import Loop, TransportState
 from reina.sessions.written_part import music_keys
+from reina.system.json_text import Written, json_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -237,7 +238,5 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
         notes=[],
         warnings=warned(production.warnings),
     )
-    notes = [table.note(int(index)).model_dump_json().encode() for index in indices]
-    # No text within the head can hold this: quotation marks are escaped there.
-    before, after = head.model_dump_json().encode().split(b'"notes":[]')
-    return b"".join([before, b'"notes":[', b",".join(notes), b"]", after])
+    notes = [Written(table.note(int(index)).model_dump_json().encode()) for index in indices]
+    return json_text({**head.model_dump(mode="json"), "notes": notes})

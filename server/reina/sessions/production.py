@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,6 +15,7 @@ from reina.sessions.music_arrays import music_form, time_map, triggers, tune_for
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
 from reina.sound.plan import PlayedParts
 from reina.stage import CastForm, Place, write_default_show
+from reina.system.json_text import read_json
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -42,8 +42,8 @@ def read_show(data: bytes, registry: ParameterRegistry) -> Show:
         ShowError: It is no show.
     """
     try:
-        document: object = json.loads(data)
-    except (ValueError, RecursionError) as error:
+        document: object = read_json(data)
+    except ValueError as error:
         raise ShowError(f"the show is no JSON: {error}") from error
     return Show.from_document(document, registry)
 

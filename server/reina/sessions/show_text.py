@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from reina.show import Show, Track
-from reina.show.show_writer import json_text, json_value, track_text
+from reina.show.show_writer import track_text
+from reina.system.json_text import Written, json_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -24,12 +25,12 @@ class TrackText:
 
     Attributes:
         track: The track.
-        text: Its JSON.
+        text: Its JSON, UTF-8.
         etag: Its validator, in quotes (RFC 9110, 8.8.3).
     """
 
     track: Track | UnknownTrack
-    text: str
+    text: bytes
     etag: str
 
 
@@ -39,13 +40,13 @@ class ShowText:
 
     Attributes:
         show: The show.
-        head: The JSON of everything but its tracks.
+        head: Everything but its tracks.
         tracks: Each track, by its parameter's path.
         etag: The whole show's validator, in quotes.
     """
 
     show: Show
-    head: str
+    head: dict[str, Any]
     tracks: dict[str, TrackText]
     etag: str
 
@@ -56,22 +57,16 @@ class ShowText:
         if earlier is not None and earlier.show.time == show.time:
             known = {id(written.track): written for written in earlier.tracks.values()}
         tracks = {track.parameter: known.get(id(track)) or _written(track, show) for track in show.tracks}
-        document = replace(show, tracks=()).to_document()
-        del document["tracks"]
-        head = json_text(document)
-        etag = _etag(head, *(written.etag for written in tracks.values()))
+        head = replace(show, tracks=()).to_document()
+        del head["tracks"]
+        etag = _etag(json_text(head), *(written.etag.encode() for written in tracks.values()))
         return cls(show=show, head=head, tracks=tracks, etag=etag)
 
-    @property
-    def text(self) -> str:
-        """The whole show as JSON, a line a track."""
-        return self.of_tracks()
-
-    def of_tracks(self, parameters: Iterable[str] | None = None) -> str:
+    def text(self, parameters: Iterable[str] | None = None) -> bytes:
         """The show as JSON with the tracks of some parameters alone; with all of them when None."""
         paths = self.tracks if parameters is None else dict.fromkeys(parameters)
-        tracks = ",\n".join([self.tracks[path].text for path in paths if path in self.tracks])
-        return f'{self.head[:-1]}, "tracks": [\n{tracks}\n]}}\n'
+        tracks = [Written(self.tracks[path].text) for path in paths if path in self.tracks]
+        return json_text({**self.head, "tracks": tracks})
 
     def track_etag(self, path: str) -> str:
         """The validator of a parameter's track; `NO_TRACK_ETAG` where there is none."""
@@ -80,11 +75,10 @@ class ShowText:
 
 
 def _written(track: Track | UnknownTrack, show: Show) -> TrackText:
-    known = isinstance(track, Track)
-    text = track_text(track, show.time) if known else json_text(json_value(track.document))
+    text = track_text(track, show.time) if isinstance(track, Track) else json_text(track.document)
     return TrackText(track, text, _etag(text))
 
 
-def _etag(*texts: str) -> str:
-    digest = hashlib.sha256("\n".join(texts).encode()).hexdigest()
+def _etag(*texts: bytes) -> str:
+    digest = hashlib.sha256(b"\n".join(texts)).hexdigest()
     return f'"{digest[:24]}"'

@@ -17,7 +17,7 @@ from reina.instruments import (
     streamed_parameters,
 )
 from reina.instruments.player import Engagement
-from reina.performance import show_parameters
+from reina.performance import schema_parameters, show_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
 
@@ -101,6 +101,10 @@ class Stage:
     def largest_registry(self) -> ParameterRegistry:
         """Everything that a show of the largest cast can move, whatever its players play."""
         return ParameterRegistry(show_parameters(self.kinds.values(), MAX_PLAYERS, self.parameters))
+
+    def schema_parameters(self) -> tuple[Parameter, ...]:
+        """What the schema of shows names."""
+        return schema_parameters(self.kinds.values(), self.parameters)
 
     def streamed(self) -> tuple[Parameter, ...]:
         """All that the largest cast can give to a frame beside the show, whoever plays what."""

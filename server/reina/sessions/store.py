@@ -407,7 +407,7 @@ class SessionStore:
 
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:
-    write_atomically(folder / SHOW, kept.text.text.encode())
+    write_atomically(folder / SHOW, kept.text.text())
 
 
 def _role_of_file(path: Path) -> Role | None:

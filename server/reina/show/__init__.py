@@ -1,9 +1,10 @@
 """The show: its document, tracks and edits, its answers to the music. Knows neither music nor skeletons."""
 
+from reina.show.document import Marker
 from reina.show.edits import EDITS, with_edits
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.show.event_response import EventResponse, NoteFilter
-from reina.show.show import Marker, Show
+from reina.show.show import Show
 from reina.show.show_history import ShowHistory
 from reina.show.show_plan import ShowPlan
 from reina.show.show_writer import keyframe_document, track_document

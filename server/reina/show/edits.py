@@ -1,19 +1,239 @@
-"""Edits of a show as JSON: several at once, all or none."""
+"""Edits of a show as JSON: several at once, all or none. The one way to change a show."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, cast
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, cast, get_args
 
+from pydantic import Field, Strict, ValidationError
+
+from reina.curves.extrapolation import Extrapolation
 from reina.curves.parameter import Parameter
 from reina.curves.parameter_registry import ParameterRegistry
 from reina.curves.shown import shown
-from reina.curves.value_types import parse_number, parse_numbers
-from reina.show.errors import ShowError
-from reina.show.location import Json, Location
+from reina.curves.spaces import ColorSpace
+from reina.curves.value_types import Number
+from reina.show.document import Marker, ShowKeyframe, ShowTrack
+from reina.show.errors import MAX_FAULTS, ShowError, together
+from reina.show.event_response import EventResponse
+from reina.show.faults import show_error
+from reina.show.model import ShowModel, Text, read_later
 from reina.show.show import Show
 from reina.show.show_draft import ShowDraft
-from reina.show.time_map import TIME_UNITS, TimeMap
-from reina.show.track_draft import TrackDraft
+from reina.show.time_map import TimeMap, TimeUnit
+from reina.show.track import Track
+
+MIN_FACTOR = 1e-6
+"""Nothing is stretched further than so far, or than its inverse."""
+
+
+class TrackChanges(ShowModel):
+    """Fields of a track to change; null takes one back to its default."""
+
+    null_is_said: ClassVar[bool] = True
+
+    time: TimeUnit | None = None
+    """With another unit the keyframes stay where they are in the music, and get other numbers."""
+    before: Extrapolation | None = None
+    after: Extrapolation | None = None
+    color_space: ColorSpace | None = None
+    muted: bool | None = None
+    solo: bool | None = None
+    events: EventResponse | None = None
+
+
+class ShowChanges(ShowModel):
+    """Fields of a show to change; null takes one back to its default."""
+
+    null_is_said: ClassVar[bool] = True
+
+    title: Text | None = None
+    description: Text | None = None
+    markers: Annotated[tuple[Marker, ...], Strict(strict=False)] | None = None
+
+
+class Stretch(ShowModel):
+    """How far times are stretched, and about which."""
+
+    about: Number = 0.0
+    """What stays where it is."""
+    factor: Annotated[float, Field(ge=MIN_FACTOR, le=1.0 / MIN_FACTOR)] = 1.0
+    """Greater than 0; slopes become so much flatter."""
+
+
+class NewKeyframe(ShowKeyframe):
+    """A keyframe to add: without a value it gets the one that the others have at its time."""
+
+    value: Any = None
+
+
+class AddKeyframe(ShowModel):
+    """One keyframe more; a track is made where there is none."""
+
+    edit: Literal["add_keyframe"]
+    parameter: str
+    keyframe: Annotated[dict[str, Any], read_later(NewKeyframe)]
+    """Without a key it gets the next free one."""
+    replace: bool = False
+    """Whether one that stands at its time gives way, and leaves it its key."""
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        track = draft.track_or_new(_parameter(self.parameter, draft.registry))
+        track.add(self.keyframe, replaces=self.replace, time_map=draft.time_map)
+
+
+class ChangeKeyframe(ShowModel):
+    """Some fields of a keyframe changed; null takes one back to its default."""
+
+    edit: Literal["change_keyframe"]
+    parameter: str
+    key: str
+    changes: dict[str, Any]
+    """Another interpolation drops the old one's options."""
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        draft.track(_parameter(self.parameter, draft.registry)).change(self.key, self.changes)
+
+
+class RemoveKeyframe(ShowModel):
+    """One keyframe less; a track that loses its last and answers no events goes with it."""
+
+    edit: Literal["remove_keyframe"]
+    parameter: str
+    key: str
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        draft.track(_parameter(self.parameter, draft.registry)).remove(self.key)
+
+
+class MoveKeyframes(ShowModel):
+    """Keyframes of several tracks moved to about + factor · (time - about) + by.
+
+    What stands there gives way.
+    """
+
+    edit: Literal["move_keyframes"]
+    keyframes: dict[str, list[str]]
+    """Keys by their parameters."""
+    by: Number = 0.0
+    stretch: Stretch = Stretch()
+    time: TimeUnit | None = None
+    """The unit of `by` and `about`; the show's where it is not given."""
+    value_by: Any = None
+    """What is added to the values, held within their range: a number, or three for vectors."""
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        for path, keys in self.keyframes.items():
+            parameter = _parameter(path, draft.registry, "keyframes")
+            draft.track(parameter).move(
+                keys,
+                by=self.by,
+                about=self.stretch.about,
+                factor=self.stretch.factor,
+                unit=self.time or draft.show.time,
+                time_map=draft.time_map,
+                value_by=None if self.value_by is None else _value_by(self.value_by, parameter),
+            )
+
+
+class PutTrack(ShowModel):
+    """A track in the place of its parameter's own, if there is any."""
+
+    edit: Literal["put_track"]
+    track: Annotated[dict[str, Any], read_later(ShowTrack)]
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        parameter = _parameter(self.track.get("parameter"), draft.registry, "track/parameter")
+        draft.put_track(self.track, parameter)
+
+
+class ChangeTrack(ShowModel):
+    """What a track has beside its keyframes, changed."""
+
+    edit: Literal["change_track"]
+    parameter: str
+    changes: TrackChanges
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        track = draft.track(_parameter(self.parameter, draft.registry))
+        track.change_head(_given(self.changes), draft.show.time, draft.time_map)
+
+
+class CopyTrack(ShowModel):
+    """A track for another parameter of the same type as well; values are held within its range."""
+
+    edit: Literal["copy_track"]
+    parameter: str
+    to: str
+    """The other parameter."""
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        track = draft.track(_parameter(self.parameter, draft.registry))
+        draft.replace(track.copied_to(_parameter(self.to, draft.registry, "to")))
+
+
+class RemoveTrack(ShowModel):
+    """A track less, of an unknown parameter too."""
+
+    edit: Literal["remove_track"]
+    parameter: str
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        draft.remove_track(self.parameter)
+
+
+class ChangeShow(ShowModel):
+    """What a show has beside its tracks, changed."""
+
+    edit: Literal["change_show"]
+    changes: ShowChanges
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        draft.change_head(_given(self.changes))
+
+
+Edit = Annotated[
+    AddKeyframe
+    | ChangeKeyframe
+    | RemoveKeyframe
+    | MoveKeyframes
+    | PutTrack
+    | ChangeTrack
+    | CopyTrack
+    | RemoveTrack
+    | ChangeShow,
+    Field(discriminator="edit"),
+]
+EDITS: dict[str, type[ShowModel]] = {
+    get_args(model.model_fields["edit"].annotation)[0]: model for model in get_args(get_args(Edit)[0])
+}
+"""Every edit by its name."""
+
+
+def _read_edits(document: object) -> list[Edit]:
+    """Read a list of edits from JSON; an error knows of what else is wrong."""
+    if not isinstance(document, list | tuple):
+        raise ShowError(f"{shown(document)} is no list; a list of edits is needed here", field="edits")
+    edits: list[Edit] = []
+    errors: list[ShowError] = []
+    # One by one: as a whole, many thousands would be read without a turn for another thread.
+    for index, entry in enumerate(cast("Sequence[object]", document)):
+        try:
+            edits.append(_read_edit(entry))
+        except ShowError as error:
+            errors.append(error.within(f"edits/{index}"))
+            if len(errors) == MAX_FAULTS:
+                break
+    if errors:
+        raise together(errors)
+    return edits
 
 
 def with_edits(
@@ -21,12 +241,11 @@ def with_edits(
 ) -> Show:
     """The show with a list of edits made, one after another; only their outcome has to be a show.
 
-    So two keyframes may change places. Each edit is a JSON object with ``edit``, a name of `EDITS`, and that
-    edit's fields; docs/shows.md says what each does.
+    So two keyframes may change places. docs/shows.md says what each does.
 
     Args:
         show: As it is.
-        edits: The list.
+        edits: The list, as JSON.
         registry: The parameters.
         time_map: How the music's time runs, for edits in another unit than a track's; 120 beats a minute in
             4/4 where it is not given.
@@ -35,24 +254,47 @@ def with_edits(
         ShowError: An edit, or what comes of them, is not as it should be.
         KeyNotFoundError: A track or keyframe is not there.
     """
-    location = Location()
     draft = ShowDraft(show, registry, time_map or TimeMap.steady())
-    for index, entry in enumerate(location.items(edits, "edits")):
-        given: Json = cast("Json", entry) if isinstance(entry, Mapping) else {}
-        name: object = given.get("edit")
-        kind = EDITS.get(name) if isinstance(name, str) else None
-        if kind is None:
-            raise location.error(f"{shown(name)} is none of {', '.join(EDITS)}", f"edits/{index}/edit")
+    for index, edit in enumerate(_read_edits(edits)):
         try:
-            edit = location.fields(given, ("edit", *kind.fields, *kind.optional), what=f"the edit {name}")
-            for field in kind.fields:
-                if field not in edit:
-                    raise location.error("it is missing", field)
-            kind.make(draft, edit)
+            edit.make(draft)
         except ShowError as error:
-            field = "/".join(part for part in (f"edits/{index}", error.field) if part)
-            raise type(error)(error.detail, track=error.track, key=error.key, field=field) from None
+            raise error.within(f"edits/{index}") from None
     return draft.finished()
+
+
+def with_edit(show: Show, edit: Edit, registry: ParameterRegistry, time_map: TimeMap | None = None) -> Show:
+    """The show with one edit made; an error names its fields alone. See `with_edits`."""
+    draft = ShowDraft(show, registry, time_map or TimeMap.steady())
+    edit.make(draft)
+    return draft.finished()
+
+
+def with_track(show: Show, track: Track, registry: ParameterRegistry) -> Show:
+    """The show with a track that is read already in the place of its parameter's own: `put_track`.
+
+    Raises:
+        ShowError: The show would be too large.
+    """
+    draft = ShowDraft(show, registry, TimeMap.steady())
+    draft.put(track)
+    return draft.finished()
+
+
+def _read_edit(document: object) -> Edit:
+    name = cast("Mapping[str, object]", document).get("edit") if isinstance(document, Mapping) else document
+    model = EDITS.get(name) if isinstance(name, str) else None
+    if model is None:
+        raise ShowError(f"{shown(name)} is none of {', '.join(EDITS)}", field="edit")
+    try:
+        return cast("Edit", model.model_validate(document))
+    except ValidationError as error:
+        raise show_error(error, model) from None
+
+
+def _given(changes: ShowModel) -> dict[str, Any]:
+    """What is to be changed: the fields that were given, null among them."""
+    return {name: getattr(changes, name) for name in changes.model_fields_set}
 
 
 def _parameter(path: object, registry: ParameterRegistry, field: str = "parameter") -> Parameter:
@@ -62,141 +304,19 @@ def _parameter(path: object, registry: ParameterRegistry, field: str = "paramete
     return parameter
 
 
-def _track(draft: ShowDraft, edit: Json) -> TrackDraft:
-    return draft.track(_parameter(edit["parameter"], draft.registry))
+_STEPS = {
+    "number": Parameter("value_by", "number", 0.0),
+    "vector": Parameter("value_by", "vector", (0.0, 0.0, 0.0)),
+}
 
 
-def _changes(edit: Json, location: Location) -> Json:
-    if not isinstance(edit["changes"], Mapping):
-        raise location.error("a JSON object of the fields to change is needed here", "changes")
-    return cast("Json", edit["changes"])
-
-
-def _add_keyframe(draft: ShowDraft, edit: Json) -> None:
-    parameter = _parameter(edit["parameter"], draft.registry)
-    location = Location(parameter.path)
-    replaces = location.flag(edit, "replace")
-    if not isinstance(edit["keyframe"], Mapping):
-        raise location.error("a keyframe is a JSON object", "keyframe")
-    track = draft.track_or_new(parameter)
-    track.add(cast("Json", edit["keyframe"]), replaces=replaces, time_map=draft.time_map)
-
-
-def _change_keyframe(draft: ShowDraft, edit: Json) -> None:
-    track = _track(draft, edit)
-    track.change(edit["key"], _changes(edit, Location(track.parameter.path, str(edit["key"]))))
-
-
-def _remove_keyframe(draft: ShowDraft, edit: Json) -> None:
-    _track(draft, edit).remove(edit["key"])
-
-
-def _move_keyframes(draft: ShowDraft, edit: Json) -> None:
-    location = Location()
-    if not isinstance(edit["keyframes"], Mapping):
-        raise location.error("an object is needed here: parameters, and for each a list of keys", "keyframes")
-    unit = location.choice(edit, "time", TIME_UNITS, draft.show.time)
-    by = _number(edit.get("by", 0.0), "by")
-    stretch = location.fields(edit.get("stretch", {}), ("about", "factor"), what="stretch")
-    about = _number(stretch.get("about", 0.0), "stretch/about")
-    factor = _number(stretch.get("factor", 1.0), "stretch/factor")
-    if not MIN_FACTOR <= factor <= 1.0 / MIN_FACTOR:
-        lies = f"it is greater than 0, and lies within {MIN_FACTOR:g} and {1.0 / MIN_FACTOR:g}"
-        raise location.error(f"{factor:g} is no factor; {lies}", "stretch/factor")
-    for path, keys in cast("Json", edit["keyframes"]).items():
-        parameter = _parameter(path, draft.registry, "keyframes")
-        draft.track(parameter).move(
-            location.items(keys, f"keyframes/{path}"),
-            by=by,
-            about=about,
-            factor=factor,
-            unit=unit,
-            time_map=draft.time_map,
-            value_by=_value_by(edit["value_by"], parameter) if "value_by" in edit else None,
-        )
-
-
-def _number(value: object, field: str) -> float:
+def _value_by(value: object, parameter: Parameter) -> Any:
+    step = _STEPS.get(parameter.type)
     try:
-        return parse_number(value)
-    except ValueError as error:
-        raise ShowError(str(error), field=field) from None
-
-
-def _value_by(value: object, parameter: Parameter) -> float | tuple[float, ...]:
-    if parameter.type not in ("number", "vector"):
-        raise ShowError(
-            f"a {parameter.type} has nothing that could be added to it; only numbers and vectors have",
-            track=parameter.path,
-            field="value_by",
-        )
-    try:
-        return parse_number(value) if parameter.type == "number" else parse_numbers(value, 3)
+        if step is None:
+            raise ValueError(  # noqa: TRY301
+                f"a {parameter.type} has nothing that could be added to it; only numbers and vectors have"
+            )
+        return step.parse(value)
     except ValueError as error:
         raise ShowError(str(error), track=parameter.path, field="value_by") from None
-
-
-def _put_track(draft: ShowDraft, edit: Json) -> None:
-    if not isinstance(edit["track"], Mapping):
-        raise Location().error("a track is a JSON object", "track")
-    fields = cast("Json", edit["track"])
-    draft.put_track(fields, _parameter(fields.get("parameter"), draft.registry, "track/parameter"))
-
-
-def _change_track(draft: ShowDraft, edit: Json) -> None:
-    track = _track(draft, edit)
-    location = Location(track.parameter.path)
-    changes = location.fields(
-        _changes(edit, location), CHANGED_OF_TRACK, what="what can be changed of a track"
-    )
-    track.change_head(changes, draft.show.time, draft.time_map)
-
-
-def _copy_track(draft: ShowDraft, edit: Json) -> None:
-    track = _track(draft, edit)
-    draft.replace(track.copied_to(_parameter(edit["to"], draft.registry, "to")))
-
-
-def _remove_track(draft: ShowDraft, edit: Json) -> None:
-    draft.remove_track(str(edit["parameter"]))
-
-
-def _change_show(draft: ShowDraft, edit: Json) -> None:
-    draft.change_head(
-        Location().fields(_changes(edit, Location()), CHANGED_OF_SHOW, what="what can be changed")
-    )
-
-
-MIN_FACTOR = 1e-6
-"""Nothing is stretched further than so far, or than its inverse."""
-CHANGED_OF_TRACK = ("time", "before", "after", "color_space", "muted", "solo", "events")
-CHANGED_OF_SHOW = ("title", "description", "markers")
-
-
-@dataclass(frozen=True)
-class EditKind:
-    """One kind of edit.
-
-    Attributes:
-        make: Does it to a draft; its second argument has all of `fields`.
-        fields: What it needs.
-        optional: What it may have besides.
-    """
-
-    make: Callable[[ShowDraft, Json], Any]
-    fields: tuple[str, ...]
-    optional: tuple[str, ...] = ()
-
-
-EDITS: dict[str, EditKind] = {
-    "add_keyframe": EditKind(_add_keyframe, ("parameter", "keyframe"), ("replace",)),
-    "change_keyframe": EditKind(_change_keyframe, ("parameter", "key", "changes")),
-    "remove_keyframe": EditKind(_remove_keyframe, ("parameter", "key")),
-    "move_keyframes": EditKind(_move_keyframes, ("keyframes",), ("by", "stretch", "time", "value_by")),
-    "put_track": EditKind(_put_track, ("track",)),
-    "change_track": EditKind(_change_track, ("parameter", "changes")),
-    "copy_track": EditKind(_copy_track, ("parameter", "to")),
-    "remove_track": EditKind(_remove_track, ("parameter",)),
-    "change_show": EditKind(_change_show, ("changes",)),
-}
-"""Every edit by its name."""

@@ -1,7 +1,12 @@
 """What is said when a show cannot be used."""
 
+from collections.abc import Sequence
+
 from reina.curves.shown import shortened
 from reina.errors import InputError
+
+MAX_FAULTS = 20
+"""So many are told of one document."""
 
 
 class ShowError(InputError):
@@ -11,6 +16,7 @@ class ShowError(InputError):
         track: Path of the parameter whose track is meant, or None for the show itself.
         key: The keyframe's key, or None.
         field: The field that is wrong, or None.
+        others: What else is wrong in the same document.
     """
 
     def __init__(
@@ -22,7 +28,23 @@ class ShowError(InputError):
         self.track = track
         self.key = key
         self.field = field
+        self.others: tuple[ShowError, ...] = ()
+
+    def within(self, place: str) -> "ShowError":
+        """The same of what is itself a part: its fields, and those of the others, begin with a place."""
+        field = "/".join(part for part in (place, self.field) if part)
+        error = type(self)(self.detail, track=self.track, key=self.key, field=field)
+        error.others = tuple(other.within(place) for other in self.others)
+        return error
 
 
 class KeyNotFoundError(ShowError):
     """A track or a keyframe was asked for that the show does not hold."""
+
+
+def together(errors: Sequence[ShowError]) -> ShowError:
+    """One error of several, one at least: the first, which knows of the others, `MAX_FAULTS` at most."""
+    found = [known for error in errors for known in (error, *error.others)]
+    first = found[0]
+    first.others = tuple(found[1:MAX_FAULTS])
+    return first

@@ -1,33 +1,43 @@
 """How a track answers events: a swell at each of them, or another value from each of them on."""
 
-from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    Field,
+    Strict,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from reina.curves.arrays import BoolArray, FloatArray
+from reina.curves.value_types import LARGEST, Pair
+from reina.show.model import Count, Index, ShowModel
 from reina.show.time_map import TimeMap, TimeUnit
 from reina.show.triggers import Occasion, Triggers
 
 Blend = Literal["replace", "add", "multiply", "max"]
-BLENDS: tuple[Blend, ...] = get_args(Blend)
+Length = Annotated[float, Field(ge=0.0, le=LARGEST)]
 
 
-@dataclass(frozen=True)
-class NoteFilter:
-    """Which notes count; what is None lets all of them through.
+def _in_order(valves: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(sorted(valves))
 
-    Attributes:
-        part: Index of the part; notes of a part that is joined to it count too.
-        pitch: Lowest and highest MIDI number, both counted in.
-        velocity: Least and greatest velocity, 0..1.
-        valves: Numbers of valves, from 1; those notes count that press exactly these, none for open notes.
-    """
 
-    part: int | None = None
-    pitch: tuple[float, float] | None = None
-    velocity: tuple[float, float] | None = None
-    valves: tuple[int, ...] | None = None
+class NoteFilter(ShowModel):
+    """Which notes count; what is not given lets all of them through."""
+
+    part: Index | None = None
+    """Index of the part; notes of a part that is joined to it count too."""
+    pitch: Pair | None = None
+    """Lowest and highest MIDI number, both counted in."""
+    velocity: Pair | None = None
+    """Least and greatest velocity, 0..1."""
+    valves: Annotated[tuple[Count, ...], Strict(strict=False), AfterValidator(_in_order)] | None = None
+    """Numbers of valves, from 1; those notes count that press exactly these, none for open notes."""
 
     def passes(self, triggers: Triggers) -> BoolArray:
         """Which of the notes count, ``(N,)``."""
@@ -46,36 +56,53 @@ class NoteFilter:
         return passed
 
 
-@dataclass(frozen=True)
-class EventResponse:
-    """What a track does at events, on top of its keyframes. Times are in the track's unit.
+class EventResponse(ShowModel):
+    """What a track does at events, on top of its keyframes: a swell (`amount`) or values in turn (`cycle`).
 
-    Attributes:
-        on: What it answers.
-        where: Which notes count.
-        every: Only each such event, from the first: 2 takes every other one.
-        attack: From the event until the swell is whole, straight.
-        hold: How long it stays whole.
-        decay: From then until it is gone, fast at first: (1 - x)².
-        amount: The swell's value at its height. None where `cycle` is given.
-        by_velocity: Whether a note's velocity scales its swell.
-        blend: How the swell e, 0..1, is put on the keyframes' value v: ``replace`` goes from v to the
-            amount, ``add`` is v + e · amount, ``multiply`` is v · (1 + e · (amount - 1)), ``max`` the greater
-            of v and e · amount.
-        cycle: Values that take turns: the first from the first event on, the second from the second on. Empty
-            where `amount` is given.
+    Times are in the track's unit.
     """
 
+    model_config = ConfigDict(
+        json_schema_extra={"oneOf": [{"required": ["amount"]}, {"required": ["cycle"]}]}
+    )
+
     on: Occasion
+    """What it answers."""
     where: NoteFilter = NoteFilter()
-    every: int = 1
-    attack: float = 0.0
-    hold: float = 0.0
-    decay: float = 0.0
+    """Which notes count."""
+    every: Count = 1
+    """Only each such event, from the first: 2 takes every other one."""
+    attack: Length = 0.0
+    """From the event until the swell is whole, straight."""
+    hold: Length = 0.0
+    """How long it stays whole."""
+    decay: Length = 0.0
+    """From then until it is gone, fast at first: (1 - x)²."""
     amount: Any = None
+    """The swell's value at its height."""
     by_velocity: bool = False
+    """Whether a note's velocity scales its swell."""
     blend: Blend = "replace"
-    cycle: tuple[Any, ...] = ()
+    """How the swell e, 0..1, is put on the keyframes' value v: `replace` goes from v to the amount, `add` is
+    v + e · amount, `multiply` is v · (1 + e · (amount - 1)), `max` the greater of v and e · amount."""
+    cycle: Annotated[tuple[Any, ...], Strict(strict=False), Field(min_length=1)] = ()
+    """Values that take turns: the first from the first event on, the second from the second on."""
+
+    @field_validator("where", "by_velocity")
+    @classmethod
+    def _notes_alone(cls, value: Any, info: ValidationInfo) -> Any:
+        on = info.data.get("on", "notes")
+        if on != "notes":
+            raise ValueError(f"only notes are told apart; {on} have neither where nor by_velocity")
+        return value
+
+    @model_validator(mode="after")
+    def _either(self) -> Self:
+        if (self.amount is None) == (not self.cycle):
+            raise ValueError("it has either an amount, for a swell, or a cycle of values")
+        if self.amount is not None and not self.attack + self.hold + self.decay > 0.0:
+            raise ValueError("a swell lasts longer than 0; give it a hold or a decay")
+        return self
 
     def events(self, triggers: Triggers, time_map: TimeMap, unit: TimeUnit) -> tuple[FloatArray, FloatArray]:
         """When the events are, in the track's unit, and how strong; two ``(E,)``, no two at one time."""

@@ -1,17 +1,19 @@
 """A show while it is being edited."""
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import fields, replace
 from typing import Any
 
 from reina.curves.parameter import Parameter
 from reina.curves.parameter_registry import ParameterRegistry
 from reina.show.errors import KeyNotFoundError
-from reina.show.location import Json
 from reina.show.show import Show, check_size
 from reina.show.show_reader import read_track
 from reina.show.time_map import TimeMap
 from reina.show.track import Track, UnknownTrack
 from reina.show.track_draft import TrackDraft
+
+DEFAULTS: Mapping[str, Any] = {field.name: field.default for field in fields(Show)}
 
 
 class ShowDraft:
@@ -40,12 +42,12 @@ class ShowDraft:
         before = {track.parameter: track for track in self.show.tracks}
         tracks: list[Track | UnknownTrack] = []
         for path, track in self._tracks.items():
-            if not isinstance(track, TrackDraft):
-                tracks.append(track)
-            elif not track.is_empty:
-                finished = track.finished()
-                # What came out the same stays the same object, and need not be planned anew.
-                tracks.append(before[path] if before.get(path) == finished else finished)
+            if isinstance(track, TrackDraft):
+                if track.is_empty:
+                    continue
+                track = track.finished()
+            # What came out the same stays the same object, and need not be planned anew.
+            tracks.append(before[path] if before.get(path) == track else track)
         show = replace(self.show, tracks=tuple(tracks))
         check_size(show)
         return show
@@ -69,10 +71,14 @@ class ShowDraft:
             self.replace(TrackDraft(Track(parameter.path, (), time=self.show.time), parameter))
         return self.track(parameter)
 
-    def put_track(self, document: Json, parameter: Parameter) -> None:
+    def put_track(self, document: Mapping[str, Any], parameter: Parameter) -> None:
         """A track from JSON in the place of the parameter's own."""
         track = read_track(document, parameter, self.show.time, may_be_empty=True)
         self.replace(TrackDraft(track, parameter))
+
+    def put(self, track: Track) -> None:
+        """A track in the place of its parameter's own."""
+        self._tracks[track.parameter] = track
 
     def replace(self, draft: TrackDraft) -> None:
         """A track in the place of its parameter's own, or after all others."""
@@ -87,9 +93,9 @@ class ShowDraft:
         if self._tracks.pop(path, None) is None:
             raise KeyNotFoundError("the show has no such track", track=path)
 
-    def change_head(self, changes: Json) -> None:
-        """Change what a show has beside its tracks; null takes a field back to its default."""
-        document: dict[str, Any] = replace(self.show, tracks=()).to_document() | dict(changes)
-        document = {name: value for name, value in document.items() if value is not None}
-        read = Show.from_document(document, self.registry)
-        self.show = replace(read, tracks=self.show.tracks)
+    def change_head(self, changes: Mapping[str, Any]) -> None:
+        """Change what a show has beside its tracks; None takes a field back to its default."""
+        given = {name: DEFAULTS[name] if value is None else value for name, value in changes.items()}
+        if "markers" in given:
+            given["markers"] = tuple(sorted(given["markers"], key=lambda marker: marker.time))
+        self.show = replace(self.show, **given)

@@ -1,6 +1,6 @@
 """A show made ready: values of all parameters at many times, a pure function of the times."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -11,12 +11,9 @@ from reina.curves.parameter_registry import ParameterRegistry
 from reina.curves.spaces import ORIENTATION
 from reina.show.event_plan import EventPlan
 from reina.show.time_map import TIME_UNITS, TimeMap
-from reina.show.track import Track
+from reina.show.track import Track, UnknownTrack
 from reina.show.track_plan import TrackPlan
 from reina.show.triggers import Triggers
-
-if TYPE_CHECKING:
-    from reina.show.show import Show
 
 
 class ShowPlan:
@@ -93,7 +90,7 @@ class ShowPlan:
     @classmethod
     def make(
         cls,
-        show: "Show",
+        tracks: Iterable[Track | UnknownTrack],
         registry: ParameterRegistry,
         time_map: TimeMap,
         *,
@@ -101,9 +98,9 @@ class ShowPlan:
         fps: float = 60.0,
         earlier: "ShowPlan | None" = None,
     ) -> "ShowPlan":
-        """Plan a show; see `Show.plan`."""
+        """Plan a show's tracks; see `Show.plan`."""
         plans: list[TrackPlan] = []
-        for track in tracks_in_effect(show):
+        for track in tracks_in_effect(tracks):
             parameter = registry.get(track.parameter)
             if parameter is None:
                 continue
@@ -165,9 +162,9 @@ class ShowPlan:
         return np.where(on_grid, (frame - 1.0) / self.fps, times - 1.0 / self.fps)
 
 
-def tracks_in_effect(show: "Show") -> list[Track]:
+def tracks_in_effect(tracks: Iterable[Track | UnknownTrack]) -> list[Track]:
     """The tracks that are not muted; where some are solo, those of them that are not muted."""
-    known = [track for track in show.tracks if isinstance(track, Track)]
+    known = [track for track in tracks if isinstance(track, Track)]
     any_solo = any(track.solo for track in known)
     return [track for track in known if not track.muted and (track.solo or not any_solo)]
 

@@ -1,29 +1,31 @@
 """Reads tracks and keyframes from JSON, and says exactly what is wrong with them."""
 
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from itertools import count
 from typing import Any, cast
 
-from reina.curves.extrapolation import EXTRAPOLATIONS
-from reina.curves.interpolation import interpolations, interpolations_for
-from reina.curves.keyframe import Keyframe
-from reina.curves.options import options_of
-from reina.curves.parameter import Parameter
-from reina.curves.spaces import COLOR_SPACES
-from reina.curves.value_types import parse_number, parse_numbers
-from reina.show.event_reader import read_events
-from reina.show.location import Json, Location
-from reina.show.time_map import TIME_UNITS, TimeUnit
-from reina.show.track import Track
+from pydantic import TypeAdapter, ValidationError
 
-TRACK_FIELDS = ("parameter", "time", "before", "after", "color_space", "muted", "solo", "events", "keyframes")
-KEYFRAME_FIELDS = ("key", "time", "value", "interpolation", "in_tangent", "out_tangent")
+from reina.curves.keyframe import Keyframe
+from reina.curves.parameter import Parameter
+from reina.show.errors import ShowError
+from reina.show.event_response import EventResponse
+from reina.show.faults import Location, field_name, show_error
+from reina.show.time_map import TimeUnit
+from reina.show.track import Track
+from reina.show.track_models import keyframe_type, track_model
+
+Json = Mapping[str, Any]
 LONGEST_TRACK = 100_000
-_KEY = re.compile(r"[A-Za-z0-9_-]{1,64}")
+_NUMBERS = Parameter("amount", "vector", (0.0, 0.0, 0.0))
+_FREE = {"number": Parameter("amount", "number", 0.0), "vector": _NUMBERS, "color": _NUMBERS}
+"""What is added or multiplied may lie outside of a parameter's range."""
 
 
 def read_track(
-    document: Json, parameter: Parameter, default_time: TimeUnit, *, may_be_empty: bool = False
+    document: object, parameter: Parameter, default_time: TimeUnit, *, may_be_empty: bool = False
 ) -> Track:
     """Read a track of a parameter.
 
@@ -34,81 +36,112 @@ def read_track(
         may_be_empty: Whether it may have neither keyframes nor an answer to events, since it will yet.
 
     Raises:
-        ShowError: A field or a keyframe is not as it should be.
+        ShowError: A field or a keyframe is not as it should be; it knows of the other faults too.
     """
-    location = Location(parameter.path)
-    location.fields(document, TRACK_FIELDS, what="a track")
-    events = read_events(document["events"], parameter) if "events" in document else None
-    entries = location.items(
-        document.get("keyframes", () if may_be_empty or events is not None else None), "keyframes"
-    )
-    if not entries and events is None and not may_be_empty:
-        raise location.error("a track has one keyframe at least, or answers events", "keyframes")
+    entries = _entries(document)
     if len(entries) > LONGEST_TRACK:
-        raise location.error(
-            f"{len(entries)} keyframes are more than a track may have, {LONGEST_TRACK}", "keyframes"
+        raise ShowError(
+            f"{len(entries)} keyframes are more than a track may have, {LONGEST_TRACK}",
+            track=parameter.path,
+            field="keyframes",
         )
-    taken: set[str] = set()
-    for entry in entries:
-        key: object = cast("Json", entry).get("key") if isinstance(entry, Mapping) else None
-        if isinstance(key, str):
-            taken.add(key)
-    free = (f"k{number}" for number in range(1, 2 * len(entries) + 1) if f"k{number}" not in taken)
+    model = track_model(parameter)
+    try:
+        read = model.model_validate(document)
+    except ValidationError as error:
+        keys = _keys(entries)
+        raise show_error(
+            error, model, unit=parameter.unit, at=lambda location: _place(location, parameter, keys)
+        ) from None
+    if not read.keyframes and read.events is None and not may_be_empty:
+        detail = "a track has a list of one keyframe at least, or answers events"
+        raise ShowError(detail, track=parameter.path, field="keyframes")
+    keyframes = cast("tuple[Keyframe[Any], ...]", read.keyframes)
+    free = _free_keys({keyframe.key for keyframe in keyframes})
     return Track(
         parameter=parameter.path,
-        keyframes=tuple(read_keyframe(entry, parameter, free) for entry in entries),
-        time=location.choice(document, "time", TIME_UNITS, default_time),
-        before=location.choice(document, "before", EXTRAPOLATIONS, "hold"),
-        after=location.choice(document, "after", EXTRAPOLATIONS, "hold"),
-        color_space=location.choice(document, "color_space", COLOR_SPACES, "oklab"),
-        muted=location.flag(document, "muted"),
-        solo=location.flag(document, "solo"),
-        events=events,
+        keyframes=tuple([k if k.key else replace(k, key=next(free)) for k in keyframes]),
+        time=read.time or default_time,
+        before=read.before,
+        after=read.after,
+        color_space=read.color_space,
+        muted=read.muted,
+        solo=read.solo,
+        events=None if read.events is None else fitted(read.events, parameter),
     )
 
 
-def read_keyframe(document: object, parameter: Parameter, free_keys: Iterable[str]) -> Keyframe[Any]:
-    """Read a keyframe of a parameter; one that names no key takes the next of the free ones.
+def read_keyframe(document: object, parameter: Parameter, free_key: str) -> Keyframe[Any]:
+    """Read a keyframe of a parameter; one that names no key takes the free one.
 
     Raises:
         ShowError: A field is not as it should be.
     """
-    if not isinstance(document, Mapping):
-        raise Location(parameter.path).error(
-            f"a keyframe is a JSON object, not {type(document).__name__}", "keyframes"
-        )
-    fields = cast("Json", document)
-    given_key = Location(parameter.path).text(fields, "key")
-    key = given_key or next(iter(free_keys), "")
-    location = Location(parameter.path, key)
-    if _KEY.fullmatch(key) is None:
-        raise location.error("a key has 1 to 64 letters, digits, - and _", "key")
-    names = interpolations_for(interpolates=parameter.interpolates)
-    name = location.choice(fields, "interpolation", names, "linear" if parameter.interpolates else "step")
-    interpolation = interpolations()[name]
-    options = options_of(interpolation)
-    location.fields(
-        fields, (*KEYFRAME_FIELDS, *(declared.name for declared in options)), what=f"a {name} keyframe"
-    )
-    values: dict[str, Any] = {"time": location.number(fields, "time"), "key": key}
-    if "value" not in fields:
-        raise location.error(f"it is missing; a {parameter.type} is needed", "value")
-    field = "value"
+    kind = keyframe_type(parameter)
     try:
-        values[field] = parameter.parse(fields[field])
-        for field in ("in_tangent", "out_tangent"):
-            if fields.get(field) is not None:
-                values[field] = _read_tangent(fields[field], parameter)
-        for declared in options:
-            field = declared.name
-            if field in fields:
-                values[field] = declared.parse(fields[field])
+        read = _adapter(kind).validate_python(document)
+    except ValidationError as error:
+        keys = [free_key if key == "k1" else key for key in _keys([document])]
+        raise show_error(
+            error,
+            kind,
+            unit=parameter.unit,
+            at=lambda location: _place(("keyframes", 0, *location), parameter, keys),
+        ) from None
+    return read if read.key else replace(read, key=free_key)
+
+
+def fitted(events: EventResponse, parameter: Parameter) -> EventResponse:
+    """An answer to events with its values checked: they are those of a parameter.
+
+    Raises:
+        ShowError: They are not.
+    """
+    field = "blend"
+    try:
+        if events.blend != "replace" and parameter.type not in ("number", "vector", "color"):
+            raise ValueError(f"a {parameter.type} can only be replaced")  # noqa: TRY301
+        field = "amount"
+        amount = events.amount
+        if amount is not None:
+            amount = (parameter if events.blend == "replace" else _FREE[parameter.type]).parse(amount)
+        field = "cycle"
+        cycle = tuple(parameter.parse(value) for value in events.cycle)
     except ValueError as error:
-        raise location.error(str(error), field) from None
-    return interpolation(**values)
+        raise ShowError(str(error), track=parameter.path, field=f"events/{field}") from None
+    return events.model_copy(update={"amount": amount, "cycle": cycle})
 
 
-def _read_tangent(value: object, parameter: Parameter) -> float | tuple[float, ...]:
-    if not parameter.interpolates:
-        raise ValueError(f"a {parameter.type} only steps, so it has no slopes; leave them out")
-    return parse_number(value) if parameter.type == "number" else parse_numbers(value, parameter.length)
+def _free_keys(taken: set[str]) -> Iterator[str]:
+    """k1, k2 and so on, without those that are taken."""
+    return (key for number in count(1) if (key := f"k{number}") not in taken)
+
+
+@lru_cache(maxsize=1024)
+def _adapter(kind: Any) -> TypeAdapter[Keyframe[Any]]:
+    return TypeAdapter(kind)
+
+
+def _entries(document: object) -> Sequence[object]:
+    """The keyframes of a track, as far as it has any."""
+    fields: Json = cast("Json", document) if isinstance(document, Mapping) else {}
+    entries: object = fields.get("keyframes")
+    return cast("Sequence[object]", entries) if isinstance(entries, list | tuple) else ()
+
+
+def _keys(entries: Sequence[object]) -> list[str | None]:
+    """What each keyframe of a track is called in an error; None where its key is no text."""
+    given: list[object] = [
+        cast("Json", entry).get("key", "") if isinstance(entry, Mapping) else None for entry in entries
+    ]
+    free = _free_keys({key for key in given if isinstance(key, str)})
+    return [(key or next(free)) if isinstance(key, str) else None for key in given]
+
+
+def _place(
+    location: Location, parameter: Parameter, keys: Sequence[str | None]
+) -> tuple[str | None, str | None, str | None]:
+    """Track, key and field of a location in a track."""
+    if location[:1] != ("keyframes",) or len(location) < 3:
+        return parameter.path, None, field_name(location[:1] if location[:1] == ("keyframes",) else location)
+    return parameter.path, keys[cast("int", location[1])], field_name(location[2:])

@@ -1,6 +1,5 @@
 """Writes shows as JSON: what `show_reader` reads, without what is so anyway."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, cast
@@ -8,9 +7,9 @@ from typing import Any, cast
 from reina.curves.interpolation import interpolation_name
 from reina.curves.keyframe import Keyframe
 from reina.curves.options import options_of
-from reina.show.event_reader import events_document
 from reina.show.time_map import TimeUnit
 from reina.show.track import Track
+from reina.system.json_text import Written, json_text
 
 _TEXT = "_json_text"
 """Where a keyframe keeps its text."""
@@ -18,41 +17,39 @@ _TEXT = "_json_text"
 
 def keyframe_document(keyframe: Keyframe[Any]) -> dict[str, Any]:
     """A keyframe as JSON."""
+    return json_value(_fields(keyframe))
+
+
+def _fields(keyframe: Keyframe[Any]) -> dict[str, Any]:
     document: dict[str, Any] = {
         "key": keyframe.key,
         "time": keyframe.time,
-        "value": json_value(keyframe.value),
+        "value": keyframe.value,
         "interpolation": interpolation_name(keyframe),
     }
     for tangent in ("in_tangent", "out_tangent"):
         if getattr(keyframe, tangent) is not None:
-            document[tangent] = json_value(getattr(keyframe, tangent))
+            document[tangent] = getattr(keyframe, tangent)
     for declared in options_of(type(keyframe)):
         if getattr(keyframe, declared.name) != declared.default:
-            document[declared.name] = json_value(getattr(keyframe, declared.name))
+            document[declared.name] = getattr(keyframe, declared.name)
     return document
 
 
-def keyframe_text(keyframe: Keyframe[Any]) -> str:
+def keyframe_text(keyframe: Keyframe[Any]) -> bytes:
     """A keyframe as JSON text. Kept with it: of a large show an edit writes what it changed alone."""
-    kept: str | None = keyframe.__dict__.get(_TEXT)
+    kept: bytes | None = keyframe.__dict__.get(_TEXT)
     if kept is None:
-        kept = json_text(keyframe_document(keyframe))
+        kept = json_text(_fields(keyframe))
         object.__setattr__(keyframe, _TEXT, kept)
     return kept
 
 
-def track_text(track: Track, default_time: TimeUnit) -> str:
+def track_text(track: Track, default_time: TimeUnit) -> bytes:
     """`track_document` as JSON text."""
-    head = json_text(track_document(replace(track, keyframes=()), default_time))
-    keyframes = ", ".join([keyframe_text(keyframe) for keyframe in track.keyframes])
-    # An empty list of keyframes ends the head.
-    return f"{head[:-2]}{keyframes}]}}"
-
-
-def json_text(document: Any) -> str:
-    """JSON as shows are written."""
-    return json.dumps(document, ensure_ascii=False, allow_nan=False)
+    document = track_document(replace(track, keyframes=()), default_time)
+    document["keyframes"] = [Written(keyframe_text(keyframe)) for keyframe in track.keyframes]
+    return json_text(document)
 
 
 def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:
@@ -71,7 +68,7 @@ def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:
     if track.solo:
         document["solo"] = True
     if track.events is not None:
-        document["events"] = json_value(events_document(track.events))
+        document["events"] = track.events.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
     document["keyframes"] = [keyframe_document(keyframe) for keyframe in track.keyframes]
     return document
 

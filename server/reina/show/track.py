@@ -2,7 +2,7 @@
 
 import pickle
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from reina.curves.extrapolation import Extrapolation
@@ -93,25 +93,6 @@ class Track:
             if keyframe.key == key:
                 return keyframe
         raise KeyNotFoundError("there is no such keyframe", track=self.parameter, key=key)
-
-    def next_key(self) -> str:
-        """A key that no keyframe has yet: ``k`` and the number after the greatest."""
-        numbers = [int(k.key[1:]) for k in self.keyframes if k.key[:1] == "k" and k.key[1:].isdecimal()]
-        return f"k{max(numbers, default=0) + 1}"
-
-    def with_keyframe(self, keyframe: Keyframe[Any]) -> "Track":
-        """The track with one more keyframe, or with another in the place of the one with its key."""
-        others = tuple(other for other in self.keyframes if other.key != keyframe.key)
-        return replace(self, keyframes=(*others, keyframe))
-
-    def without_keyframe(self, key: str) -> "Track":
-        """The track with one keyframe less.
-
-        Raises:
-            KeyNotFoundError: The track has no keyframe of that key.
-        """
-        gone = self.keyframe(key)
-        return replace(self, keyframes=tuple(other for other in self.keyframes if other is not gone))
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,8 @@
 """A track while it is being edited: of its keyframes only those that change are read again."""
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
+from dataclasses import fields, replace
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,10 @@ from reina.curves.arrays import FloatArray
 from reina.curves.keyframe import Keyframe
 from reina.curves.parameter import Parameter
 from reina.curves.value_types import LARGEST
+from reina.show.document import ShowKeyframe
 from reina.show.errors import KeyNotFoundError, ShowError
-from reina.show.location import Json, Location
-from reina.show.show_reader import KEYFRAME_FIELDS, read_keyframe, read_track
-from reina.show.show_writer import json_value, keyframe_document, track_document
+from reina.show.show_reader import Json, fitted, read_keyframe
+from reina.show.show_writer import json_value, keyframe_document
 from reina.show.time_map import TimeMap, TimeUnit
 from reina.show.track import Track
 from reina.show.track_plan import TrackPlan
@@ -22,6 +23,7 @@ from reina.show.triggers import Triggers
 
 SAME_TIME = 1e-6
 """Keys that are nearer than this, in their track's unit, stand at one time for a person."""
+DEFAULTS: Mapping[str, Any] = {field.name: field.default for field in fields(Track)}
 RATE_STEP = 1e-4
 """Of a unit: over so much of the time the tempo at a keyframe is measured."""
 DIGITS = 9
@@ -40,6 +42,7 @@ class TrackDraft:
         self._head = track
         self.parameter = parameter
         self._keyframes = {keyframe.key: keyframe for keyframe in track.keyframes}
+        self._numbers = count(1)
 
     @property
     def is_empty(self) -> bool:
@@ -69,10 +72,10 @@ class TrackDraft:
             time_map: How the music's time runs.
         """
         if "time" in document and "value" not in document:
-            time = Location(self.parameter.path).number(document, "time")
-            document = {**document, "value": self._value_at(time, time_map)}
-        free = (f"k{n}" for n in range(1, len(self._keyframes) + 2) if f"k{n}" not in self._keyframes)
-        added = read_keyframe(document, self.parameter, free)
+            document = {**document, "value": json_value(self.parameter.default)}
+            time = read_keyframe(document, self.parameter, "k1").time
+            document["value"] = self._value_at(time, time_map)
+        added = read_keyframe(document, self.parameter, "" if document.get("key") else self._next_key())
         if replaces:
             for key in self._standing_at([added.time]):
                 if key != added.key:
@@ -153,16 +156,20 @@ class TrackDraft:
                 changes["value"] = self._value_moved(keyframe.value, value_by)
             self._keyframes[keyframe.key] = replace(keyframe, **changes)
 
-    def change_head(self, changes: Json, show_time: TimeUnit, time_map: TimeMap) -> None:
-        """Change what a track has beside its keyframes; null takes a field back to its default.
+    def change_head(self, changes: Mapping[str, Any], show_time: TimeUnit, time_map: TimeMap) -> None:
+        """Change what a track has beside its keyframes; None takes a field back to its default.
 
         With another unit the keyframes stay where they are in the music, and get other numbers. So do their
         slopes, and the lengths of the answer to events unless that is changed too, by the tempo where they
         stand.
         """
-        document = track_document(replace(self._head, keyframes=()), show_time) | dict(changes)
-        document = {name: value for name, value in document.items() if value is not None}
-        head = read_track(document, self.parameter, show_time, may_be_empty=True)
+        defaults: Json = {**DEFAULTS, "time": show_time}
+        given: dict[str, Any] = {
+            name: defaults[name] if value is None else value for name, value in changes.items()
+        }
+        if given.get("events") is not None:
+            given["events"] = fitted(given["events"], self.parameter)
+        head = replace(self._head, keyframes=(), **given)
         before, self._head = self._head, head
         if head.time == before.time:
             return
@@ -185,7 +192,7 @@ class TrackDraft:
             scaled = {
                 field: round(getattr(events, field) * rate, DIGITS) for field in ("attack", "hold", "decay")
             }
-            self._head = replace(head, events=replace(events, **scaled))
+            self._head = replace(head, events=events.model_copy(update=scaled))
 
     def copied_to(self, parameter: Parameter) -> "TrackDraft":
         """The same for another parameter of the same type; values are held within its range.
@@ -205,6 +212,10 @@ class TrackDraft:
             replace(keyframe, value=_held(keyframe.value, parameter)) for keyframe in self._keyframes.values()
         )
         return TrackDraft(replace(self._head, parameter=parameter.path, keyframes=keyframes), parameter)
+
+    def _next_key(self) -> str:
+        """The next of k1, k2 and so on that no keyframe has."""
+        return next(key for n in self._numbers if (key := f"k{n}") not in self._keyframes)
 
     def _value_at(self, time: float, time_map: TimeMap) -> Any:
         """What the keyframes say at a time of the track, as JSON has it."""
@@ -252,9 +263,9 @@ def changed_keyframe(keyframe: Keyframe[Any], changes: Json, parameter: Paramete
     """
     document = keyframe_document(keyframe)
     if changes.get("interpolation", document["interpolation"]) != document["interpolation"]:
-        document = {name: value for name, value in document.items() if name in KEYFRAME_FIELDS}
+        document = {name: value for name, value in document.items() if name in ShowKeyframe.model_fields}
     document = {name: value for name, value in {**document, **changes}.items() if value is not None}
-    return read_keyframe(document, parameter, ())
+    return read_keyframe(document, parameter, "")
 
 
 def _in_unit(times: FloatArray, unit: TimeUnit, wanted: TimeUnit, time_map: TimeMap) -> FloatArray:

@@ -10,7 +10,8 @@ from typing import Any
 
 from reina.curves.interpolation import BUILT_IN
 from reina.curves.keyframe import Keyframe
-from reina.show.show import Marker, Show
+from reina.show.document import Marker
+from reina.show.show import Show
 from reina.show.track import Track
 from reina.stage.cast_form import CastForm, leads_of
 from reina.stage.cast_lights import SideSpot, side_spots
@@ -129,7 +130,7 @@ def write_default_show(form: MusicForm, *, title: str = "", cast: CastForm | Non
         shots = [cast_shot(name, lead, cast.places) for (name, _), lead in zip(chosen, leads, strict=True)]
         spots = _spots(found, side_spots(leads, cast.places))
     tracks = [*_camera(found, shots), *_colors(found), *_lights(found, piece), *spots]
-    markers = tuple(Marker(float(p.start_bar), name) for p, (_, name) in zip(found, chosen, strict=True))
+    markers = tuple(Marker(time=p.start_bar, name=name) for p, (_, name) in zip(found, chosen, strict=True))
     return Show(tuple(tracks), title=title, time="bars", markers=markers)
 
 

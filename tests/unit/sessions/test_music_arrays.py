@@ -20,7 +20,9 @@ def played(
 
 
 def onsets(score: Score, line: PlayedPart, where: NoteFilter) -> list[float]:
-    times, _ = EventResponse("notes", where).events(triggers(score, [line]), time_map(score), "seconds")
+    times, _ = EventResponse(on="notes", where=where, amount=1.0, hold=1.0).events(
+        triggers(score, [line]), time_map(score), "seconds"
+    )
     return times.tolist()
 
 

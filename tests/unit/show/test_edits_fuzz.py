@@ -110,10 +110,11 @@ FIELDS: dict[str, st.SearchStrategy[Any]] = {
 
 
 def edit_of(name: str) -> st.SearchStrategy[dict[str, Any]]:
-    kind = EDITS[name]
+    declared = EDITS[name].model_fields
+    needed = {field: FIELDS[field] for field in declared if field != "edit" and declared[field].is_required()}
     return st.fixed_dictionaries(
-        {"edit": st.just(name), **{field: FIELDS[field] for field in kind.fields}},
-        optional={field: FIELDS[field] for field in kind.optional},
+        {"edit": st.just(name), **needed},
+        optional={field: FIELDS[field] for field in declared if not declared[field].is_required()},
     )
 
 

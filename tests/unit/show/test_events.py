@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from reina.show import Show, ShowError, ShowPlan, TimeMap, Triggers
+from reina.show import Show, ShowError, ShowPlan, TimeMap, Triggers, with_edits
 from reina.stage import stage_registry
 
 REGISTRY = stage_registry()
@@ -224,6 +224,9 @@ def test_what_a_track_does_at_events_comes_back_from_json() -> None:
         assert show.to_document()["tracks"][0]["events"] == document["tracks"][0]["events"]
 
 
+SWELL: dict[str, Any] = {"on": "notes", "amount": 1, "hold": 1}
+
+
 @pytest.mark.parametrize(
     ("events", "field", "message"),
     [
@@ -231,15 +234,27 @@ def test_what_a_track_does_at_events_comes_back_from_json() -> None:
         ({"on": "notes"}, "events", "an amount"),
         ({"on": "notes", "amount": 1, "cycle": [1], "hold": 1}, "events", "an amount"),
         ({"on": "notes", "amount": 1}, "events", "longer than 0"),
-        ({"on": "chords", "amount": 1}, "on", "notes, beats, bars"),
-        ({"on": "beats", "where": {"part": 0}, "amount": 1, "hold": 1}, "on", "only notes"),
+        ({"on": "chords", "amount": 1}, "events/on", "notes, beats, bars"),
+        ({"on": "beats", "where": {"part": 0}, "amount": 1, "hold": 1}, "events/where", "only notes"),
         ({"on": "notes", "amount": 99, "hold": 1}, "events/amount", "at most"),
-        ({"on": "notes", "amount": 1, "hold": -1}, "events/hold", "0 or more"),
-        ({"on": "notes", "amount": 1, "hold": 1, "every": 0}, "events/every", "1, 2, 3"),
-        ({"on": "notes", "amount": 1, "hold": 1, "where": {"pitch": [60]}}, "events/where", "2 are needed"),
-        ({"on": "notes", "amount": 1, "hold": 1, "where": {"valves": 1}}, "events/where", "list"),
-        ({"on": "notes", "amount": 1, "hold": 1, "where": {"colour": 1}}, "colour", "no such field"),
-        ({"on": "notes", "amount": 1, "hold": 1, "blend": "screen"}, "blend", "replace, add, multiply, max"),
+        ({"on": "notes", "amount": 1, "hold": -1}, "events/hold", "at least 0"),
+        ({"on": "notes", "amount": 1, "hold": 1, "every": 0}, "events/every", "at least 1"),
+        (
+            {"on": "notes", "amount": 1, "hold": 1, "where": {"pitch": [60]}},
+            "events/where/pitch",
+            "2 are needed",
+        ),
+        (SWELL | {"where": {"valves": 1}}, "events/where/valves", "list"),
+        (
+            {"on": "notes", "amount": 1, "hold": 1, "where": {"colour": 1}},
+            "events/where/colour",
+            "no such field",
+        ),
+        (
+            {"on": "notes", "amount": 1, "hold": 1, "blend": "screen"},
+            "events/blend",
+            "replace, add, multiply, max",
+        ),
         ({"on": "notes", "cycle": []}, "events/cycle", "one value"),
         ({"on": "notes", "cycle": ["loud"]}, "events/cycle", "no number"),
     ],
@@ -271,5 +286,6 @@ def test_a_plan_of_an_edited_show_keeps_the_triggers() -> None:
     document = _document("lights/key/intensity", {"on": "notes", "amount": 4.0, "hold": 0.1}, DARK)
     show = Show.from_document(document, REGISTRY)
     plan = show.plan(REGISTRY, TIME_MAP, triggers=TRIGGERS)
-    again = show.without_keyframe("lights/key/intensity", "k1").plan(REGISTRY, TIME_MAP, earlier=plan)
+    edit = {"edit": "remove_keyframe", "parameter": "lights/key/intensity", "key": "k1"}
+    again = with_edits(show, [edit], REGISTRY).plan(REGISTRY, TIME_MAP, earlier=plan)
     assert _values(again, "lights/key/intensity", 0.05)[0, 0] == 4.0

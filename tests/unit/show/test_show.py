@@ -10,7 +10,8 @@ import pytest
 from reina.curves import EasedKeyframe, Parameter, ParameterRegistry, interpolations
 from reina.curves.interpolation import InterpolationError, discover_interpolations
 from reina.errors import InputError
-from reina.show import KeyNotFoundError, Show, ShowError, TimeMap, Track, UnknownTrack
+from reina.show import KeyNotFoundError, Show, ShowError, TimeMap, Track, UnknownTrack, with_edits
+from reina.show.errors import MAX_FAULTS
 from reina.stage import stage_registry
 
 REGISTRY = stage_registry()
@@ -108,7 +109,7 @@ def _with_track(path: str = "camera/fov", **fields: Any) -> dict[str, Any]:
 
 FAULTS: list[tuple[Any, str | None, str | None, str | None, str]] = [
     # the document, track, key and field that the error names, and what it says
-    (3, None, None, None, "a show is a JSON object"),
+    (3, None, None, None, "JSON object"),
     ({"tracks": []}, None, None, "version", "version 1 is read here"),
     (_document(version=2), None, None, "version", "version 2"),
     (_document(trakcs=[]), None, None, "trakcs", "its fields are"),
@@ -117,8 +118,8 @@ FAULTS: list[tuple[Any, str | None, str | None, str | None, str]] = [
     (_document(tracks=[5]), None, None, "tracks/0", "a JSON object"),
     (_document(tracks=[{}]), None, None, "tracks/0/parameter", "a parameter's path"),
     (_document(title=3), None, None, "title", "a text"),
-    (_document(markers=[{"time": 0}]), None, None, "markers/0/name", "has a name"),
-    (_document(markers=[{"name": "A"}]), None, None, "time", "missing"),
+    (_document(markers=[{"time": 0}]), None, None, "markers/0/name", "missing"),
+    (_document(markers=[{"name": "A"}]), None, None, "markers/0/time", "missing"),
     (_with_track(), "camera/fov", None, "keyframes", "a list"),
     (_with_track(keyframes=[]), "camera/fov", None, "keyframes", "one keyframe"),
     (_with_track(keyframes=[3]), "camera/fov", None, "keyframes", "JSON object"),
@@ -181,56 +182,92 @@ def test_two_tracks_of_one_parameter_are_refused() -> None:
         Show.from_document(_document(tracks=[track, track]), REGISTRY)
 
 
+def _edited(show: Show, **edit: Any) -> Show:
+    return with_edits(show, [edit], REGISTRY)
+
+
 def test_edits_give_new_shows_and_share_what_they_do_not_touch() -> None:
     show = _show()
-    position = REGISTRY["camera/position"]
-    keyframe = show.new_keyframe(position, {"time": 1.0, "value": [0, 2, 2], "interpolation": "sine_in"})
-    edited = show.with_keyframe("camera/position", keyframe)
-    assert edited.track("camera/position").keyframes[1] == keyframe
-    assert keyframe.key == "k1"
+    keyframe = {"time": 1.0, "value": [0, 2, 2], "interpolation": "sine_in"}
+    edited = _edited(show, edit="add_keyframe", parameter="camera/position", keyframe=keyframe)
+    added = edited.track("camera/position").keyframes[1]
+    assert (added.key, added.time, added.value) == ("k1", 1.0, (0.0, 2.0, 2.0))
     assert edited.track("blocks/color") is show.track("blocks/color")
     assert len(show.track("camera/position").keyframes) == 2
-    assert edited.without_keyframe("camera/position", "k1") == show
+    assert _edited(edited, edit="remove_keyframe", parameter="camera/position", key="k1") == show
 
 
 def test_an_edit_of_a_keyframe_keeps_its_key() -> None:
-    show = _show()
-    moved = show.with_changed(REGISTRY["blocks/color"], "dusk", {"time": 20.0})
-    assert moved.track("blocks/color").keyframe("dusk").time == 20.0
-    assert moved.to_document()["tracks"][0]["keyframes"][2]["handles"] == [0.4, 0.0, 0.2, 1.0]
-    eased = show.with_changed(REGISTRY["blocks/color"], "dusk", {"interpolation": "sine_out"})
-    assert "handles" not in eased.to_document()["tracks"][0]["keyframes"][2]
-    plain = show.with_changed(REGISTRY["blocks/color"], "dusk", {"handles": None})
-    assert "handles" not in plain.to_document()["tracks"][0]["keyframes"][2]
+    def changed(**changes: Any) -> dict[str, Any]:
+        edit = {"edit": "change_keyframe", "parameter": "blocks/color", "key": "dusk", "changes": changes}
+        return _edited(_show(), **edit).to_document()["tracks"][0]["keyframes"][2]
+
+    moved = changed(time=20.0)
+    assert (moved["key"], moved["time"], moved["handles"]) == ("dusk", 20.0, [0.4, 0.0, 0.2, 1.0])
+    assert "handles" not in changed(interpolation="sine_out")
+    assert "handles" not in changed(handles=None)
     with pytest.raises(ShowError, match="no such field"):
-        show.with_changed(REGISTRY["blocks/color"], "dusk", {"colour": "#000000"})
+        changed(colour="#000000")
     with pytest.raises(ShowError) as caught:
-        show.with_changed(REGISTRY["blocks/color"], "dusk", {"time": 8.0})
+        changed(time=8.0)
     assert caught.value.field == "time"
 
 
 def test_a_track_comes_with_its_first_keyframe_and_goes_with_its_last() -> None:
-    show = Show(time="bars").with_keyframe("camera/fov", EasedKeyframe(1.0, 0.4))
+    keyframe = {"time": 1.0, "value": 0.4}
+    show = _edited(Show(time="bars"), edit="add_keyframe", parameter="camera/fov", keyframe=keyframe)
     assert show.track("camera/fov").time == "bars"
     assert show.track("camera/fov").keyframes[0].key == "k1"
-    assert show.without_keyframe("camera/fov", "k1") == Show(time="bars")
+    assert _edited(show, edit="remove_keyframe", parameter="camera/fov", key="k1") == Show(time="bars")
 
 
 def test_what_is_not_there_cannot_be_edited() -> None:
     show = _show()
-    for call in (
-        lambda: show.track("camera/roll"),
-        lambda: show.track("smoke/density"),
-        lambda: show.without_keyframe("camera/position", "k9"),
-        lambda: show.without_track("camera/roll"),
-        lambda: show.with_changed(REGISTRY["camera/roll"], "k1", {}),
-    ):
+    for path in ("camera/roll", "smoke/density"):
         with pytest.raises(KeyNotFoundError):
-            call()
+            show.track(path)
+    roll: dict[str, Any] = {"edit": "change_keyframe", "parameter": "camera/roll", "key": "k1", "changes": {}}
+    edits: list[dict[str, Any]] = [
+        {"edit": "remove_keyframe", "parameter": "camera/position", "key": "k9"},
+        {"edit": "remove_track", "parameter": "camera/roll"},
+        roll,
+    ]
+    for edit in edits:
+        with pytest.raises(KeyNotFoundError):
+            _edited(show, **edit)
 
 
 def test_an_unknown_track_can_be_dropped_by_hand() -> None:
-    assert _show().without_track("smoke/density").unknown_parameters == ()
+    dropped = _edited(_show(), edit="remove_track", parameter="smoke/density")
+    assert dropped.unknown_parameters == ()
+
+
+FAULTY: dict[str, Any] = {
+    "version": 1,
+    "tracks": [
+        {"parameter": "camera/fov", "keyframes": [{"time": 0, "value": 9}, {"key": "b", "time": "x"}]},
+        {"parameter": "camera/roll", "keyframes": [{"time": 0, "value": 0}], "muted": 1},
+    ],
+}
+
+
+def test_all_faults_of_a_show_are_told_at_once() -> None:
+    with pytest.raises(ShowError) as caught:
+        Show.from_document(FAULTY, REGISTRY)
+    told = [(error.track, error.key, error.field) for error in (caught.value, *caught.value.others)]
+    assert told == [
+        ("camera/fov", "k1", "value"),
+        ("camera/fov", "b", "time"),
+        ("camera/fov", "b", "value"),
+        ("camera/roll", None, "muted"),
+    ]
+
+
+def test_of_many_faults_twenty_are_told() -> None:
+    keyframes = [{"time": n, "value": "loud"} for n in range(1000)]
+    with pytest.raises(ShowError) as caught:
+        Show.from_document(_with_track(keyframes=keyframes), REGISTRY)
+    assert 1 + len(caught.value.others) == MAX_FAULTS == 20
 
 
 def test_a_muted_track_has_no_effect() -> None:
@@ -311,8 +348,8 @@ def test_beats_and_bars_follow_the_time_map() -> None:
     np.testing.assert_allclose(time_map.from_seconds(seconds, "bars"), [0, 0.5, 1, 2, 2.5, 3, 4])
     for unit in ("seconds", "beats", "bars"):
         np.testing.assert_allclose(time_map.to_seconds(time_map.from_seconds(seconds, unit), unit), seconds)
-    show = Show(time="bars").with_keyframe("camera/fov", EasedKeyframe(0.0, 0.2))
-    show = show.with_keyframe("camera/fov", EasedKeyframe(2.0, 0.6))
+    keyframes = (EasedKeyframe(0.0, 0.2, "k1"), EasedKeyframe(2.0, 0.6, "k2"))
+    show = Show((Track("camera/fov", keyframes, time="bars"),), time="bars")
     values, _ = show.plan(REGISTRY, time_map).evaluate(np.array([1.0, 2.0, 4.0, 6.0]))
     offset = REGISTRY.layout()["camera/fov"][0]
     np.testing.assert_allclose(values[:, offset], [0.3, 0.4, 0.5, 0.6])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from reina.curves import Parameter, ParameterRegistry, PerformanceEventEmitter
 from reina.curves.extrapolation import EXTRAPOLATIONS
 from reina.curves.interpolation import interpolations
-from reina.show import Show, TimeMap
+from reina.show import Show, TimeMap, with_edits
 from reina.show.show_plan import ShowPlan
 
 FPS = 60.0
@@ -107,10 +107,10 @@ def test_tracks_do_not_touch_each_other(seed: int) -> None:
 def test_an_edit_plans_its_own_track_alone(seed: int) -> None:
     show = random_show(seed)
     plan = show.plan(REGISTRY)
-    keyframe = show.new_keyframe(
-        REGISTRY["number"], {"time": 100.0, "value": 3.0, "interpolation": "expo_out"}
+    keyframe = {"time": 100.0, "value": 3.0, "interpolation": "expo_out"}
+    edited = with_edits(
+        show, [{"edit": "add_keyframe", "parameter": "number", "keyframe": keyframe}], REGISTRY
     )
-    edited = show.with_keyframe("number", keyframe)
     again = edited.plan(REGISTRY, earlier=plan)
     assert {path for path in plan.tracks if plan.tracks[path] is again.tracks[path]} == set(plan.tracks) - {
         "number"

@@ -10,7 +10,7 @@ from reina.curves.extrapolation import EXTRAPOLATIONS
 from reina.curves.interpolation import BUILT_IN
 from reina.curves.value_types import VALUE_TYPES
 from reina.show import Show
-from reina.show.event_reader import EVENT_FIELDS, FILTER_FIELDS
+from reina.show.event_response import EventResponse, NoteFilter
 from reina.stage import stage_registry
 
 ROOT = Path(__file__).parents[3]
@@ -39,5 +39,5 @@ def test_every_word_of_a_show_is_explained() -> None:
     families = {name.rsplit("_in_out", 1)[0].removesuffix("_in").removesuffix("_out") for name in BUILT_IN}
     plain = {"step", "linear", "cubic_bezier", "cubic_spline", "automatic", "clamped"}
     assert plain | (families - {"cubic_bezier"}) <= quoted | {"quad"}
-    assert set(EXTRAPOLATIONS) | set(EVENT_FIELDS) | set(FILTER_FIELDS) <= quoted
+    assert set(EXTRAPOLATIONS) | set(EventResponse.model_fields) | set(NoteFilter.model_fields) <= quoted
     assert all(re.search(rf"^\|.*\b{name}\b", TEXT, flags=re.MULTILINE) for name in VALUE_TYPES)

@@ -137,7 +137,7 @@ def test_a_choice_is_the_index_of_its_word() -> None:
         ("color", 3, "#RRGGBB"),
         ("orientation", [0, 0, 0, 2], "unit quaternion"),
         ("boolean", 1, "neither true nor false"),
-        ("transform", {"position": [0, 0, 0]}, "position, orientation, scale"),
+        ("transform", {"position": [0, 0, 0]}, "orientation: it is missing"),
     ],
 )
 def test_a_wrong_value_is_refused_with_what_would_be_right(kind: TypeName, value: Any, message: str) -> None:

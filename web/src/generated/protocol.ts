@@ -409,16 +409,6 @@ export interface WrittenPart {
   measures: PartMeasure[]
 }
 
-/** What came of an edit, an undo or a redo. */
-export interface ShowEdited extends ShowState {
-  /** The show as it is now, but for its tracks: title, time, markers. */
-  head: Record<string, unknown>
-  /** The tracks that changed, as the show holds them now; none with Prefer: return=minimal. */
-  tracks: (Record<string, unknown>)[]
-  /** Parameters whose tracks are gone. */
-  removed: string[]
-}
-
 /** What of a show has no effect in the piece that it is put on, and why. Nothing of it is dropped. */
 export interface ShowWarnings {
   /** Each with the parameter, or markers, as its place. */
@@ -573,12 +563,6 @@ export interface CastFields {
   castings: CastingFields[]
   /** Which sequence of a MIDI file of format 2; null leaves it as it is. */
   sequence?: number | null
-}
-
-/** A track whose curve is asked for; it is not kept. */
-export interface CurvePreview {
-  /** As a show has it, with its parameter; times without a unit of their own are in the show's. */
-  track: Record<string, unknown>
 }
 
 /** Who plays what, in the order of the players, and why nobody plays the rest. */

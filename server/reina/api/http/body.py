@@ -13,7 +13,7 @@ from starlette.routing import compile_path
 
 from reina.api.http.access import admit
 from reina.api.http.problems import ProblemError
-from reina.api.upload import FILE_LIMITS, MAX_BYTES, MEGABYTE
+from reina.api.http.upload_limits import FILE_LIMITS, MAX_BYTES, MEGABYTE
 from reina.protocol.links import API
 
 if TYPE_CHECKING:

@@ -107,6 +107,8 @@ def problem_of_input(error: InputError) -> ProblemError:
     faults: list[Fault] = []
     if isinstance(error, ScoreError) and len(error.problems) > 1:
         faults = [Fault(detail=what, location=place) for place, what in error.problems]
+    if isinstance(error, ShowError) and error.others:
+        faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     return ProblemError(status, kind, title, str(error), errors=faults)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 from typing import cast as typed
@@ -18,6 +17,7 @@ from reina.sessions.workers.pool import WorkerPool
 from reina.show import Show, ShowError
 from reina.show.show_reader import read_track
 from reina.show.show_writer import keyframe_text
+from reina.system.json_text import read_json
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -136,8 +136,8 @@ def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:
 def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Track:
     """What `Reader.track` does."""
     try:
-        document: object = json.loads(data)
-    except (ValueError, RecursionError) as error:
+        document: object = read_json(data)
+    except ValueError as error:
         raise ShowError(f"the track is no JSON: {error}", track=parameter.path) from error
     if not isinstance(document, Mapping):
         raise ShowError(f"a track is a JSON object, not {type(document).__name__}", track=parameter.path)
@@ -148,7 +148,7 @@ def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Tra
     if not fields.get("keyframes") and "events" not in fields:
         detail = "a track has one keyframe at least, or answers events; DELETE removes it"
         raise ShowError(detail, track=parameter.path)
-    track = read_track(fields, parameter, unit)
+    track = read_track({"parameter": parameter.path, **fields}, parameter, unit)
     _write(track)
     return track
 

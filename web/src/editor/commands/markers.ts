@@ -1,6 +1,6 @@
 import type { Editor } from "../state/editor.svelte";
+import type { Marker } from "../../generated/show";
 import type { Edit } from "../state/edits";
-import type { ShowMarker } from "../state/show-document";
 
 /** A marker at the playhead. */
 export function addMarker(editor: Editor): void {
@@ -32,11 +32,11 @@ export function removeMarker(editor: Editor, index: number): void {
   editor.remove(`Marker removed: ${marker.name}`, [without(markers, marker)]);
 }
 
-function without(markers: readonly ShowMarker[], marker: ShowMarker): Edit {
+function without(markers: readonly Marker[], marker: Marker): Edit {
   return { edit: "change_show", changes: { markers: markers.filter((each) => each !== marker) } };
 }
 
-function change(editor: Editor, says: string, index: number, changes: Partial<ShowMarker>): void {
+function change(editor: Editor, says: string, index: number, changes: Partial<Marker>): void {
   const markers = editor.store.document?.markers ?? [];
   const changed = markers.map((marker, place) => (place === index ? { ...marker, ...changes } : marker));
   const kept = changed[index];
@@ -44,6 +44,6 @@ function change(editor: Editor, says: string, index: number, changes: Partial<Sh
   editor.marker = kept === undefined ? null : (editor.store.document?.markers ?? []).indexOf(kept);
 }
 
-function put(editor: Editor, says: string, markers: readonly ShowMarker[]): void {
+function put(editor: Editor, says: string, markers: readonly Marker[]): void {
   editor.edit(says, [{ edit: "change_show", changes: { markers: [...markers].sort((a, b) => a.time - b.time) } }]);
 }

@@ -1,30 +1,21 @@
-import { retimedKeyframes } from "./retime";
-import type { ShowDocument, ShowKeyframe, ShowMarker, ShowTrack } from "./show-document";
-import type { TimeAxis } from "./time-axis";
+import type * as wire from "../../generated/show";
+import { inOtherUnit, rateOf, retimedKeyframes } from "./retime";
+import type { ShowDocument, ShowKeyframe, ShowTrack } from "./show-document";
+import { round, type TimeAxis } from "./time-axis";
+
+/** What the page sends of what `POST show/edits` takes: keyframes are named, and move in beats. */
+export type Edit =
+  | Exclude<wire.Edit, wire.AddKeyframe | wire.MoveKeyframes | wire.PutTrack | wire.CopyTrack>
+  | (Omit<wire.AddKeyframe, "replace"> & { readonly keyframe: ShowKeyframe })
+  | (Omit<wire.MoveKeyframes, "value_by"> & {
+      readonly time: "beats";
+      readonly by: number;
+      readonly stretch: Required<wire.Stretch>;
+    })
+  | (wire.PutTrack & { readonly track: ShowTrack });
 
 /** Fields of something that change; null takes one back to its default. */
 export type Changes = Readonly<Record<string, unknown>>;
-
-/** One edit of a show, as `POST show/edits` takes it. */
-export type Edit =
-  | { readonly edit: "add_keyframe"; readonly parameter: string; readonly keyframe: ShowKeyframe }
-  | { readonly edit: "change_keyframe"; readonly parameter: string; readonly key: string; readonly changes: Changes }
-  | { readonly edit: "remove_keyframe"; readonly parameter: string; readonly key: string }
-  | {
-      readonly edit: "move_keyframes";
-      /** Keys of each parameter's track. */
-      readonly keyframes: Readonly<Record<string, readonly string[]>>;
-      readonly time: "beats";
-      readonly by: number;
-      readonly stretch: { readonly about: number; readonly factor: number };
-    }
-  | { readonly edit: "put_track"; readonly track: ShowTrack }
-  | { readonly edit: "change_track"; readonly parameter: string; readonly changes: Changes }
-  | { readonly edit: "remove_track"; readonly parameter: string }
-  | {
-      readonly edit: "change_show";
-      readonly changes: { readonly title?: string; readonly markers?: readonly ShowMarker[] };
-    };
 
 /** What every keyframe has, whatever its interpolation: all else are options of the one it has. */
 const KEYFRAME_FIELDS = ["key", "time", "value", "interpolation", "in_tangent", "out_tangent"];
@@ -96,7 +87,7 @@ class Draft {
         this.#keyed.delete(edit.parameter);
         break;
       case "change_show":
-        this.#head = { ...this.#head, ...edit.changes };
+        this.#head = { title: "", ...withoutNull({ ...this.#head, ...edit.changes }) } as ShowDocument;
         break;
     }
   }
@@ -125,8 +116,8 @@ class Draft {
     return keys;
   }
 
-  /** With another unit the keyframes stay where they are in the music, and get other numbers. */
-  #changeTrack(path: string, changes: Changes): void {
+  /** With another unit the keyframes stay where they are in the music, and all that is told in it gets other numbers. */
+  #changeTrack(path: string, changes: wire.TrackChanges): void {
     const track = this.#tracks.get(path);
     if (track === undefined) return;
     const before = this.#unitOf(path);
@@ -134,10 +125,16 @@ class Draft {
     this.#tracks.set(path, changed);
     const unit = this.#unitOf(path);
     if (unit === before) return;
-    for (const [key, keyframe] of this.#keysOf(path)) {
-      const time = this.#axis.toTrackTime(unit, this.#axis.toSongTime(before, keyframe.time));
-      this.#keysOf(path).set(key, { ...keyframe, time });
-    }
+    const keys = this.#keysOf(path);
+    const first = Math.min(...[...keys.values()].map(({ time }) => time));
+    for (const [key, keyframe] of keys) keys.set(key, inOtherUnit(this.#axis, before, unit, keyframe));
+    if (changed.events === undefined || changes.events !== undefined) return;
+    const rate = rateOf(this.#axis, before, unit, Number.isFinite(first) ? first : 0, 1);
+    const { attack, hold, decay } = changed.events;
+    const lengths = Object.entries({ attack, hold, decay })
+      .filter(([, length]) => length !== undefined)
+      .map(([name, length]) => [name, round((length ?? 0) * rate)] as const);
+    this.#tracks.set(path, { ...changed, events: { ...changed.events, ...Object.fromEntries(lengths) } });
   }
 }
 

@@ -4,7 +4,7 @@ import { groupOf, nameInGroup, rowsOf } from "./rows";
 it("rows are groups by the first word, with the tracks of open ones", () => {
   const track = (parameter: string) => ({ parameter, keyframes: [] });
   const document = {
-    version: 1,
+    version: 1 as const,
     title: "",
     time: "bars" as const,
     tracks: ["camera/fov", "blocks/color", "camera/roll"].map(track),

@@ -1,5 +1,6 @@
 import { ProblemError, type ReinaApi } from "../../connection";
-import type { ShowEdited, ShowState } from "../../generated/protocol";
+import type { ShowState } from "../../generated/protocol";
+import type { ShowEdited } from "../../generated/show";
 import { withEdits, withTracks, type Edit } from "./edits";
 import type { ShowDocument, ShowTrack } from "./show-document";
 import type { TimeAxis } from "./time-axis";
@@ -221,9 +222,9 @@ export class ShowStore {
     const response = await api.request("POST", api.sessionPath(session, `show/${step.kind}`), { ...options, ...edits });
     const edited = (await response.json()) as ShowEdited;
     if (this.#held === null) return;
-    const changed = edited.tracks as unknown as ShowTrack[];
+    const changed = edited.tracks as readonly ShowTrack[];
     const { tracks } = withTracks(this.#held, changed, edited.removed);
-    this.#hold({ ...(edited.head as unknown as ShowDocument), tracks }, edited.etag, this.#waiting.slice(1));
+    this.#hold({ ...(edited.head as ShowDocument), tracks }, edited.etag, this.#waiting.slice(1));
     this.#count(edited);
   }
 

@@ -31,14 +31,19 @@ export class TimeAxis {
     return tempo === undefined ? beats / 2 : tempo.onset_s + ((beats - tempo.onset_beats) * 60) / tempo.bpm;
   }
 
-  /** A song time, seconds, in a track's unit. */
+  /** A song time, seconds, in a track's unit, as it is written. */
   toTrackTime(unit: TimeUnit, songTime: number): number {
-    if (unit === "seconds") return round(songTime);
+    return round(this.inUnit(unit, songTime));
+  }
+
+  /** A song time, seconds, in a unit. */
+  inUnit(unit: TimeUnit, songTime: number): number {
+    if (unit === "seconds") return songTime;
     const beats = this.beatsAt(songTime);
-    if (unit === "beats") return round(beats);
+    if (unit === "beats") return beats;
     const index = this.#barOf(lastAtMost(this.#bars, beats, itself));
     const [from, to] = this.#bar(index);
-    return round(index + (beats - from) / (to - from));
+    return index + (beats - from) / (to - from);
   }
 
   /** A time in a track's unit as song time, seconds. */
@@ -83,6 +88,6 @@ const itself = (place: number): number => place;
 const onsetSeconds = (tempo: { onset_s: number }): number => tempo.onset_s;
 const onsetBeats = (tempo: { onset_beats: number }): number => tempo.onset_beats;
 
-function round(time: number): number {
+export function round(time: number): number {
   return Number(time.toFixed(DECIMALS));
 }

@@ -1,0 +1,34 @@
+"""JSON text, read and written by orjson."""
+
+import json
+from typing import Any
+
+import orjson
+
+Written = orjson.Fragment
+"""A part of a document that is written already; it stands in what `json_text` writes as it is."""
+
+
+def json_text(document: Any) -> bytes:
+    """A document as JSON text, UTF-8; tuples become lists.
+
+    Raises:
+        TypeError: It holds something that JSON has not.
+    """
+    return orjson.dumps(document)
+
+
+def read_json(text: bytes) -> Any:
+    """Read JSON text, in UTF-8 or in what else JSON may come in.
+
+    Raises:
+        ValueError: It is none; the message says where it ends to be.
+    """
+    try:
+        return orjson.loads(text)
+    except orjson.JSONDecodeError:
+        # Byte order marks, UTF-16, numbers beyond all bounds: the standard library takes them, or says more.
+        try:
+            return json.loads(text)
+        except RecursionError:
+            raise ValueError("lists and objects stand within one another too deep") from None
