@@ -49,8 +49,8 @@ export class ReinaApi {
     return this.#json("PATCH", this.#sessionPath(id), { json: change, token });
   }
 
-  async deleteSession(id: string, token: string): Promise<void> {
-    await this.request("DELETE", this.#sessionPath(id), { token });
+  async deleteSession(id: string, token: string, options: { keepalive?: boolean } = {}): Promise<void> {
+    await this.request("DELETE", this.#sessionPath(id), { ...options, token });
   }
 
   score(id: string): Promise<Score> {
@@ -89,7 +89,14 @@ export class ReinaApi {
   async request(
     method: string,
     path: string,
-    options: { json?: unknown; body?: BodyInit; token?: string; ifMatch?: string; signal?: AbortSignal } = {},
+    options: {
+      json?: unknown;
+      body?: BodyInit;
+      token?: string;
+      ifMatch?: string;
+      signal?: AbortSignal;
+      keepalive?: boolean;
+    } = {},
   ): Promise<Response> {
     const headers: Record<string, string> = { Accept: "application/json, */*" };
     if (options.token !== undefined) headers["Authorization"] = `Bearer ${options.token}`;
@@ -98,6 +105,7 @@ export class ReinaApi {
     const body = options.json === undefined ? options.body : JSON.stringify(options.json);
     const init: RequestInit = { method, headers };
     if (body !== undefined) init.body = body;
+    if (options.keepalive !== undefined) init.keepalive = options.keepalive;
     if (options.signal !== undefined) init.signal = options.signal;
     let response: Response;
     try {

@@ -35,6 +35,7 @@ export class Deck {
   pieceOpen = $state(remembered().pieceOpen);
   showOpen = $state(remembered().showOpen);
   noteNames = $state(remembered().noteNames);
+  piecesOpen = $state(false);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** The window has room for one panel at a time. */
@@ -68,6 +69,7 @@ export class Deck {
     further: () => this.hands.dollyCamera?.(1 / DOLLY_STEP),
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
+    pieces: () => this.togglePieces(),
     show: () => this.toggleShow(),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     open: () => this.hands.openFilePicker?.(),
@@ -83,6 +85,7 @@ export class Deck {
     const { view } = this.reina;
     if (view !== null) this.#actions[action](view);
     else if (action === "open") this.hands.openFilePicker?.();
+    else if (action === "pieces") this.togglePieces();
     else if (action === "help") this.helpOpen = !this.helpOpen;
   }
 
@@ -106,12 +109,24 @@ export class Deck {
 
   togglePiece(open = !this.pieceOpen): void {
     if (open && this.narrow) this.toggleShow(false);
+    if (open) this.piecesOpen = false;
     this.pieceOpen = open;
     remember({ pieceOpen: open });
   }
 
+  togglePieces(open = !this.piecesOpen): void {
+    if (open) {
+      if (this.narrow) this.toggleShow(false);
+      this.togglePiece(false);
+    }
+    this.piecesOpen = open;
+  }
+
   toggleShow(open = !this.showOpen): void {
-    if (open && this.narrow) this.togglePiece(false);
+    if (open && this.narrow) {
+      this.togglePiece(false);
+      this.togglePieces(false);
+    }
     this.showOpen = open;
     remember({ showOpen: open });
   }
@@ -124,6 +139,7 @@ export class Deck {
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
     else if (this.showOpen) this.toggleShow(false);
+    else if (this.piecesOpen) this.togglePieces(false);
     else if (this.pieceOpen) this.togglePiece(false);
     else return false;
     return true;

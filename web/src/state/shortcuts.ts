@@ -24,6 +24,7 @@ export type Action =
   | "further"
   | "fullscreen"
   | "piece"
+  | "pieces"
   | "show"
   | "names"
   | "open"
@@ -63,6 +64,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "camera", keys: ["c"], shown: "C", says: "Give the camera back to the show" },
   { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
+  { action: "pieces", keys: ["g"], shown: "G", says: "My pieces, and sharing" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },
   { action: "names", keys: ["n"], shown: "N", says: "Name notes as written, or as they sound" },
   { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },

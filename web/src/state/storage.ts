@@ -1,9 +1,18 @@
 export type NoteNames = "written" | "sounding";
 
+/** A session that this browser made, as the list of pieces names it. */
+export interface KeptPiece {
+  readonly title: string;
+  /** When it was opened last, milliseconds since 1970. */
+  readonly opened: number;
+}
+
 /** What this browser remembers: the sessions that it may change, and how the person likes the page. */
 export interface Remembered {
   /** Session id to the token that changes it. */
   readonly tokens: Readonly<Record<string, string>>;
+  /** What is known of the sessions among them that were opened here. */
+  readonly pieces: Readonly<Record<string, KeptPiece>>;
   /** The session that `/` opens. */
   readonly home: string | null;
   readonly volume: number;
@@ -28,6 +37,7 @@ const MAX_TOKENS = 200;
 
 const NOTHING: Remembered = {
   tokens: {},
+  pieces: {},
   home: null,
   volume: 0.9,
   muted: false,
