@@ -23,6 +23,18 @@ MIDI = ("scale.mid", "audio/midi", scale(8))
 WAV = ("scale.wav", "audio/wav", song(4.0))
 
 
+BRIGHTNESS = """(images) => images.map((image) => {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 1;
+  const context = canvas.getContext("2d");
+  context.imageSmoothingQuality = "high";
+  context.drawImage(image, 0, 0, 1, 1);
+  const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
+  return (red + green + blue) / 3;
+})"""
+"""How bright pictures are on the whole, 0 to 255."""
+
+
 def pieces(opened: Opened) -> Locator:
     """The panel, opened."""
     panel = opened.page.get_by_role("region", name="my pieces")
@@ -45,6 +57,7 @@ def test_pieces_are_listed_with_pictures_deleted_and_brought_back(visit: Visit, 
     assert panel.locator("img").count() == 2
     widths = panel.locator("img").evaluate_all("(images) => images.map((image) => image.naturalWidth)")
     assert widths == [240, 240]
+    assert all(brightness > 20 for brightness in panel.locator("img").evaluate_all(BRIGHTNESS))
 
     # What is open and deleted is left for the other; Undo brings it back, and the server has it still.
     title = client.get(f"/api/v1/sessions/{own}").json()["title"]

@@ -194,6 +194,11 @@ export class Stage {
     if (this.#render()) this.#drawnIndex = frame.index;
   }
 
+  /** Draw the last frame once more, at once. */
+  drawAgain(): void {
+    this.#render();
+  }
+
   /** @returns false while the drawing context is lost. */
   #render(): boolean {
     if (this.#renderer.getContext().isContextLost()) return false;
