@@ -1,4 +1,4 @@
-"""What the server has for everybody: the show's parameters, and its health."""
+"""What the server has for everybody: the show's parameters, lights to choose, and its health."""
 
 from typing import TYPE_CHECKING
 
@@ -7,7 +7,8 @@ from fastapi import APIRouter, Request
 import reina
 from reina.api.http.access import Store
 from reina.protocol import SUBPROTOCOL
-from reina.protocol.resources import Health, ShowParameterList
+from reina.protocol.resources import Health, LightMood, LightMoodList, ShowParameterList
+from reina.stage import LIGHT_MOODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,6 +20,14 @@ router = APIRouter(tags=["server"])
 async def list_parameters(store: Store) -> ShowParameterList:
     """Every show parameter in the frame's order, and every interpolation that a keyframe may name."""
     return ShowParameterList.model_validate(store.stage.registry().describe())
+
+
+@router.get("/moods")
+async def list_moods() -> LightMoodList:
+    """Lights for a whole piece, in the order in which they are offered."""
+    return LightMoodList(
+        moods=[LightMood(name=mood.name, title=mood.title, values=dict(mood.values)) for mood in LIGHT_MOODS]
+    )
 
 
 @router.get("/health")

@@ -45,6 +45,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.RigList,
     resources.ShowParameterList,
     resources.ExampleList,
+    resources.LightMoodList,
     resources.Health,
     resources.Problem,
 )

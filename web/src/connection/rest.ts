@@ -2,6 +2,8 @@ import type {
   CreatedSession,
   Example,
   ExampleList,
+  LightMood,
+  LightMoodList,
   Score,
   Session,
   SessionChange,
@@ -67,6 +69,10 @@ export class ReinaApi {
 
   async parameters(): Promise<ShowParameter[]> {
     return (await this.#json<ShowParameterList>("GET", `${this.#base}/parameters`)).parameters;
+  }
+
+  async moods(): Promise<LightMood[]> {
+    return (await this.#json<LightMoodList>("GET", `${this.#base}/moods`)).moods;
   }
 
   async examples(): Promise<Example[]> {

@@ -414,6 +414,11 @@ export interface ExampleList {
   examples: Example[]
 }
 
+/** Lights to choose without programming. */
+export interface LightMoodList {
+  moods: LightMood[]
+}
+
 /** Liveness and readiness. */
 export interface Health {
   /** ok once it can play. */
@@ -534,6 +539,14 @@ export interface InterpolationOption {
   minimum: (number | null)[]
   maximum: (number | null)[]
   documentation: string
+}
+
+/** A light for a whole piece; to choose one is to give each of its parameters a track of one keyframe. */
+export interface LightMood {
+  name: string
+  title: string
+  /** Parameters, each with the value that it has throughout; the other lights are as they are at rest. */
+  values: Record<string, number | string | number[]>
 }
 
 /** The span of song time that is played over and over. */

@@ -37,21 +37,21 @@ export class KeptPieces {
   /** Ask the server which pieces there still are, and what they are called now. */
   async refresh(): Promise<void> {
     const ids = Object.keys(remembered().tokens).reverse();
-    const known = new Map(Object.entries(remembered().pieces));
+    let known: Readonly<Record<string, KeptPiece>> = remembered().pieces;
     for (let begin = 0; begin < ids.length; begin += AT_ONCE) {
       const some = ids.slice(begin, begin + AT_ONCE);
       const answers = await Promise.allSettled(some.map((id) => this.#api.session(id)));
       answers.forEach((answer, index) => {
         const id = some[index] ?? "";
         if (answer.status === "fulfilled") {
-          known.set(id, { title: answer.value.title, opened: known.get(id)?.opened ?? 0 });
+          known = { ...known, [id]: { title: answer.value.title, opened: known[id]?.opened ?? 0 } };
         } else if (answer.reason instanceof ProblemError && answer.reason.isUnknown) {
-          known.delete(id);
+          known = without(known, id);
           forget(id);
         }
       });
     }
-    remember({ pieces: Object.fromEntries(known) });
+    remember({ pieces: known });
     this.all = this.#shown();
   }
 

@@ -4,8 +4,8 @@ import type { Reina } from "./reina.svelte";
 import { neighbouringBarLine } from "./score-time";
 import { keepsKey, shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
-import { remember, remembered, type NoteNames } from "./storage";
-import type { CameraView } from "../scene";
+import { remember, remembered, type NoteNames, type Quality } from "./storage";
+import { CAMERA_PRESETS, type CameraView } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -21,6 +21,8 @@ export interface DeckHands {
   orbitCamera(azimuth: number, elevation: number): void;
   /** To so many times the camera's distance. */
   dollyCamera(factor: number): void;
+  /** To a view by its name. */
+  viewPreset(name: string): void;
   toggleFullscreen(): void;
   openFilePicker(): void;
   /** The view that is seen, as a show's camera keys hold it. */
@@ -36,6 +38,9 @@ export class Deck {
   showOpen = $state(remembered().showOpen);
   noteNames = $state(remembered().noteNames);
   piecesOpen = $state(false);
+  viewsOpen = $state(false);
+  quality = $state(remembered().quality);
+  valvesInset = $state(remembered().valvesInset);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** The window has room for one panel at a time. */
@@ -67,6 +72,14 @@ export class Deck {
     orbitDown: () => this.hands.orbitCamera?.(0, -ORBIT_STEP),
     closer: () => this.hands.dollyCamera?.(DOLLY_STEP),
     further: () => this.hands.dollyCamera?.(1 / DOLLY_STEP),
+    views: () => this.toggleViews(),
+    view1: () => this.viewPreset(0),
+    view2: () => this.viewPreset(1),
+    view3: () => this.viewPreset(2),
+    view4: () => this.viewPreset(3),
+    view5: () => this.viewPreset(4),
+    view6: () => this.viewPreset(5),
+    inset: () => this.showValvesInset(!this.valvesInset),
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.togglePiece(),
     pieces: () => this.togglePieces(),
@@ -114,6 +127,31 @@ export class Deck {
     remember({ pieceOpen: open });
   }
 
+  toggleViews(open = !this.viewsOpen): void {
+    if (open && this.narrow) {
+      this.togglePiece(false);
+      this.togglePieces(false);
+      this.toggleShow(false);
+    }
+    this.viewsOpen = open;
+  }
+
+  /** @param index of a view, in the order in which they are offered. */
+  viewPreset(index: number): void {
+    const preset = CAMERA_PRESETS[index];
+    if (preset !== undefined) this.hands.viewPreset?.(preset.name);
+  }
+
+  showValvesInset(shown: boolean): void {
+    this.valvesInset = shown;
+    remember({ valvesInset: shown });
+  }
+
+  chooseQuality(quality: Quality): void {
+    this.quality = quality;
+    remember({ quality });
+  }
+
   togglePieces(open = !this.piecesOpen): void {
     if (open) {
       if (this.narrow) this.toggleShow(false);
@@ -139,6 +177,7 @@ export class Deck {
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
     else if (this.showOpen) this.toggleShow(false);
+    else if (this.viewsOpen) this.toggleViews(false);
     else if (this.piecesOpen) this.togglePieces(false);
     else if (this.pieceOpen) this.togglePiece(false);
     else return false;

@@ -22,6 +22,14 @@ export type Action =
   | "orbitDown"
   | "closer"
   | "further"
+  | "views"
+  | "view1"
+  | "view2"
+  | "view3"
+  | "view4"
+  | "view5"
+  | "view6"
+  | "inset"
   | "fullscreen"
   | "piece"
   | "pieces"
@@ -62,6 +70,14 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "quieter", keys: ["ArrowDown"], shown: "↓", says: "Quieter", repeats: true },
   { action: "mute", keys: ["m"], shown: "M", says: "Sound off or on" },
   { action: "camera", keys: ["c"], shown: "C", says: "Give the camera back to the show" },
+  { action: "views", keys: ["v"], shown: "V", says: "Views, light and quality" },
+  { action: "view1", keys: ["1"], shown: "1", says: "The whole figure" },
+  { action: "view2", keys: ["2"], shown: "2", says: "Three-quarter" },
+  { action: "view3", keys: ["3"], shown: "3", says: "The valves" },
+  { action: "view4", keys: ["4"], shown: "4", says: "The face" },
+  { action: "view5", keys: ["5"], shown: "5", says: "As the player sees it" },
+  { action: "view6", keys: ["6"], shown: "6", says: "From the hall" },
+  { action: "inset", keys: ["i"], shown: "I", says: "The valves in a small picture" },
   { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
   { action: "pieces", keys: ["g"], shown: "G", says: "My pieces, and sharing" },

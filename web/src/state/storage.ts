@@ -1,4 +1,5 @@
 export type NoteNames = "written" | "sounding";
+export type Quality = "automatic" | "full" | "medium" | "low";
 
 /** A session that this browser made, as the list of pieces names it. */
 export interface KeptPiece {
@@ -28,6 +29,10 @@ export interface Remembered {
   readonly snaps: readonly ("bars" | "beats" | "keys" | "markers" | "frames")[];
   /** Notes are called as written for the trumpet, or as they sound. */
   readonly noteNames: NoteNames;
+  /** How much the stage draws; "automatic" lets the page measure. */
+  readonly quality: Quality;
+  /** Whether the valves are seen in a picture of their own. */
+  readonly valvesInset: boolean;
   /** Somebody has pressed Play here before: the welcome has done its work. */
   readonly hasPlayed: boolean;
 }
@@ -48,6 +53,8 @@ const NOTHING: Remembered = {
   snapping: true,
   snaps: ["bars", "beats", "keys", "markers"],
   noteNames: "written",
+  quality: "automatic",
+  valvesInset: false,
   hasPlayed: false,
 };
 
