@@ -64,6 +64,21 @@ def test_four_ways_are_drawn_and_measured(visit: Visit) -> None:
     assert "end/axis" in page.get_by_role("alert").inner_text()
 
 
+def test_rotations_play_there_and_back(visit: Visit) -> None:
+    opened = open_lab(visit, "Rotations")
+    way = "document.querySelector('input[type=range]').valueAsNumber"
+    opened.page.get_by_role("button", name="Play").click()
+    opened.until(f"{way} > 100")
+    opened.until(f"{way} < 20")
+    opened.page.get_by_role("button", name="Pause").click()
+    opened.until("window.lab.drawn > 0")
+    stands = opened.page.evaluate(way)
+    opened.page.wait_for_function(
+        "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
+    )
+    assert opened.page.evaluate(way) == stands
+
+
 def test_a_dragged_target_is_followed_by_the_finger(visit: Visit) -> None:
     opened = open_lab(visit, "Kinematics")
     posed(opened)

@@ -1,4 +1,4 @@
-"""What the server has for everybody: the show's parameters, and its health."""
+"""What the server has for everybody: the show's parameters, lights to choose, and its health."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -9,7 +9,8 @@ import reina
 from reina.api.http.access import Store, Watched
 from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
-from reina.protocol.resources import Health, ShowParameterList
+from reina.protocol.resources import Health, LightMood, LightMoodList, ShowParameterList
+from reina.stage import LIGHT_MOODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,6 +40,14 @@ def _listed(registry: ParameterRegistry, streamed: Sequence[Parameter]) -> ShowP
     described = registry.describe()
     others = ParameterRegistry(streamed).describe()["parameters"]
     return ShowParameterList.model_validate({**described, "streamed": others})
+
+
+@router.get("/moods")
+async def list_moods() -> LightMoodList:
+    """Lights for a whole piece, in the order in which they are offered."""
+    return LightMoodList(
+        moods=[LightMood(name=mood.name, title=mood.title, values=dict(mood.values)) for mood in LIGHT_MOODS]
+    )
 
 
 @router.get("/health")

@@ -53,6 +53,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.ShowParameterList,
     resources.ExampleList,
     resources.FileRole,
+    resources.LightMoodList,
     resources.Health,
     resources.Problem,
 )

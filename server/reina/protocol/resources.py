@@ -518,6 +518,21 @@ class ShowParameterList(WireModel):
     interpolations: list[Interpolation]
 
 
+class LightMood(WireModel):
+    """A light for a whole piece; to choose one is to give each of its parameters a track of one keyframe."""
+
+    name: str
+    title: str
+    values: dict[str, float | str | list[float]]
+    """Parameters, each with the value that it has throughout; the other lights are as they are at rest."""
+
+
+class LightMoodList(WireModel):
+    """Lights to choose without programming."""
+
+    moods: list[LightMood]
+
+
 class Example(WireModel):
     """A bundled piece: its files, to be posted as a session of one's own."""
 

@@ -7,6 +7,8 @@ import type {
   ExampleList,
   FileRole,
   InstrumentList,
+  LightMood,
+  LightMoodList,
   Score,
   Session,
   SessionChange,
@@ -62,8 +64,8 @@ export class ReinaApi {
     return this.#json("PATCH", this.#sessionPath(id), { json: change, token });
   }
 
-  async deleteSession(id: string, token: string): Promise<void> {
-    await this.request("DELETE", this.#sessionPath(id), { token });
+  async deleteSession(id: string, token: string, options: { keepalive?: boolean } = {}): Promise<void> {
+    await this.request("DELETE", this.#sessionPath(id), { ...options, token });
   }
 
   score(id: string): Promise<Score> {
@@ -107,6 +109,10 @@ export class ReinaApi {
     return (await this.#json<ShowParameterList>("GET", `${this.#base}/parameters`)).parameters;
   }
 
+  async moods(): Promise<LightMood[]> {
+    return (await this.#json<LightMoodList>("GET", `${this.#base}/moods`)).moods;
+  }
+
   async examples(): Promise<Example[]> {
     return (await this.#json<ExampleList>("GET", `${this.#base}/examples`)).examples;
   }
@@ -127,7 +133,14 @@ export class ReinaApi {
   async request(
     method: string,
     path: string,
-    options: { json?: unknown; body?: BodyInit; token?: string; ifMatch?: string; signal?: AbortSignal } = {},
+    options: {
+      json?: unknown;
+      body?: BodyInit;
+      token?: string;
+      ifMatch?: string;
+      signal?: AbortSignal;
+      keepalive?: boolean;
+    } = {},
   ): Promise<Response> {
     const headers: Record<string, string> = { Accept: "application/json, */*" };
     if (options.token !== undefined) headers["Authorization"] = `Bearer ${options.token}`;
@@ -136,6 +149,7 @@ export class ReinaApi {
     const body = options.json === undefined ? options.body : JSON.stringify(options.json);
     const init: RequestInit = { method, headers };
     if (body !== undefined) init.body = body;
+    if (options.keepalive !== undefined) init.keepalive = options.keepalive;
     if (options.signal !== undefined) init.signal = options.signal;
     let response: Response;
     try {

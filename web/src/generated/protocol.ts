@@ -480,6 +480,11 @@ export interface FileRole {
   advice: string
 }
 
+/** Lights to choose without programming. */
+export interface LightMoodList {
+  moods: LightMood[]
+}
+
 /** Liveness and readiness. */
 export interface Health {
   /** ok once it can play. */
@@ -725,6 +730,14 @@ export interface KeysFingering {
   type: "keys"
   /** The keys that are down, or the holes that are shut, by name. */
   keys: string[]
+}
+
+/** A light for a whole piece; to choose one is to give each of its parameters a track of one keyframe. */
+export interface LightMood {
+  name: string
+  title: string
+  /** Parameters, each with the value that it has throughout; the other lights are as they are at rest. */
+  values: Record<string, number | string | number[]>
 }
 
 /** The span of song time that is played over and over. */

@@ -1,7 +1,8 @@
-export type { CameraPreset, CameraView } from "./camera-presets";
+export { CAMERA_PRESETS, type CameraPreset, type CameraView } from "./camera-presets";
 export { StageUnavailableError } from "./errors";
 export { LayoutError, type DrawnFrame } from "./frame";
 export type { Insets } from "./framing";
+export { insetSide, type InsetPlace } from "./inset";
 export { measureTier } from "./measure-tier";
 export { playedScore, type ScoreNote, type ScoreView } from "./score";
 export { Stage, type StageOptions } from "./stage";

@@ -11,6 +11,7 @@ import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "
 import { castView, playerView } from "./cast-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
+import { type InsetPlace, ValvesInset } from "./inset";
 import { StageLights } from "./lights";
 import { PlayerLook } from "./look";
 import { Picture } from "./picture";
@@ -51,6 +52,7 @@ export class Stage {
   readonly #reflections: RoomReflections;
   readonly #blocks: NoteBlocks;
   readonly #picture: Picture;
+  readonly #inset = new ValvesInset();
   readonly #look = new PlayerLook();
   readonly #show: ShowBinding;
   /** Where less motion is wanted. */
@@ -219,6 +221,11 @@ export class Stage {
     if (this.#render()) this.#drawnIndex = frame.index;
   }
 
+  /** Draw the last frame once more, at once. */
+  drawAgain(): void {
+    this.#render();
+  }
+
   /** @returns false while the drawing context is lost. */
   #render(): boolean {
     if (this.#renderer.getContext().isContextLost()) return false;
@@ -246,6 +253,7 @@ export class Stage {
     this.#renderer.setRenderTarget(this.#picture.target);
     this.#renderer.render(scene, camera);
     this.#picture.finish(camera, this.#camera.targetDistance);
+    this.#inset.render(this.#renderer, scene);
     this.#drawnFrom.copy(camera.position);
     this.#changed = false;
     this.#pictures += 1;
@@ -284,6 +292,13 @@ export class Stage {
   /** Keep the show's 16:9 frame clear of what lies over the canvas's edges, CSS pixels from each. */
   setSafeArea(insets: Insets): void {
     this.#camera.setSafeArea(insets);
+    this.#drawSoon();
+  }
+
+  /** Show the valves in a small picture of their own; null for none. */
+  setValvesInset(place: InsetPlace | null): void {
+    this.#inset.show(place !== null);
+    if (place !== null) this.#inset.setPlace(place);
     this.#drawSoon();
   }
 

@@ -7,8 +7,8 @@ import { focusOrigin } from "./page-focus";
 import { keyTargetOf, ownsKey } from "./key-owner";
 import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
-import { remember, remembered, type NoteNames } from "./storage";
-import type { CameraView } from "../scene";
+import { remember, remembered, type NoteNames, type Quality } from "./storage";
+import { CAMERA_PRESETS, type CameraView } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -27,6 +27,8 @@ export interface DeckHands {
   /** To where everybody is seen, or one player, a place in the cast. */
   viewCast(): void;
   viewPlayer(player: number): void;
+  /** To a view by its name. */
+  viewPreset(name: string): void;
   toggleFullscreen(): void;
   openFilePicker(): void;
   /** The view that is seen, as a show's camera keys hold it. */
@@ -40,6 +42,8 @@ export class Deck {
   readonly reina: Reina;
   readonly panels = new Panels();
   noteNames = $state(remembered().noteNames);
+  quality = $state(remembered().quality);
+  valvesInset = $state(remembered().valvesInset);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** Files are held over the page. */
@@ -76,8 +80,17 @@ export class Deck {
     everybody: () => this.viewCast(),
     onePlayer: (view) => this.viewPlayer(view.cast.followed),
     nextPlayer: (view) => this.follow((view.cast.followed + 1) % view.cast.castings.length),
+    views: () => this.panels.toggle("views"),
+    view1: () => this.viewPreset(0),
+    view2: () => this.viewPreset(1),
+    view3: () => this.viewPreset(2),
+    view4: () => this.viewPreset(3),
+    view5: () => this.viewPreset(4),
+    view6: () => this.viewPreset(5),
+    inset: () => this.showValvesInset(!this.valvesInset),
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.panels.toggle("piece"),
+    pieces: () => this.panels.toggle("pieces"),
     show: () => this.panels.toggle("show"),
     film: () => this.panels.toggle("film"),
     paper: () => this.panels.toggle("paper"),
@@ -95,6 +108,7 @@ export class Deck {
     const { view } = this.reina;
     if (view !== null) this.#actions[action](view);
     else if (action === "open") this.hands.openFilePicker?.();
+    else if (action === "pieces") this.panels.toggle("pieces");
     else if (action === "help") this.helpOpen = !this.helpOpen;
   }
 
@@ -136,6 +150,22 @@ export class Deck {
   takeCamera(taken: boolean): void {
     this.cameraTaken = taken;
     if (!taken) this.cameraFollows = false;
+  }
+
+  /** @param index of a view, in the order in which they are offered. */
+  viewPreset(index: number): void {
+    const preset = CAMERA_PRESETS[index];
+    if (preset !== undefined) this.hands.viewPreset?.(preset.name);
+  }
+
+  showValvesInset(shown: boolean): void {
+    this.valvesInset = shown;
+    remember({ valvesInset: shown });
+  }
+
+  chooseQuality(quality: Quality): void {
+    this.quality = quality;
+    remember({ quality });
   }
 
   nameNotes(noteNames: NoteNames): void {

@@ -1,5 +1,6 @@
 import { ProblemError, ReinaApi, type SessionFiles } from "../connection";
 import type { Example, InstrumentList, ShowParameter } from "../generated/protocol";
+import { controlToken } from "../pieces/links";
 import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
 import { Notices, type NoticeOptions } from "./notices.svelte";
@@ -44,6 +45,7 @@ export class Reina {
   /** Open what the address says; `/` opens this browser's own session of the bundled piece. */
   async start(): Promise<void> {
     void this.#readLists();
+    this.#takeControl();
     await this.openAddress(location.pathname);
   }
 
@@ -51,6 +53,18 @@ export class Reina {
     const id = SESSION_PATH.exec(path)?.[1];
     if (id !== undefined) await this.open(decodeURIComponent(id));
     else await this.#openHome();
+  }
+
+  /** Go to a session as a link does. */
+  async goTo(id: string): Promise<void> {
+    if (await this.open(id)) history.pushState(null, "", addressOf(id));
+  }
+
+  /** Go to this browser's own session of the bundled piece. */
+  async goHome(): Promise<void> {
+    remember({ home: null });
+    history.pushState(null, "", `/${location.search}`);
+    await this.#openHome();
   }
 
   /** Open a session that the server has, in place of the one that is open. */
@@ -293,12 +307,25 @@ export class Reina {
     return (await this.api.request("GET", this.api.sessionPath(id, "show"))).json();
   }
 
+  /** Keep the token of a link that gives control, and take it out of sight. */
+  #takeControl(): void {
+    const id = SESSION_PATH.exec(location.pathname)?.[1];
+    const token = controlToken(location.hash);
+    if (id === undefined || token === null) return;
+    rememberToken(decodeURIComponent(id), token);
+    history.replaceState(null, "", location.pathname + location.search);
+  }
+
   #enter(view: SessionView): void {
     void this.view?.close();
     this.view = view;
     this.phase = "open";
     view.setVolume(this.volume, this.muted);
     document.title = `${view.session.title} · Reina`;
+    const { pieces } = remembered();
+    if (view.canControl) {
+      remember({ pieces: { ...pieces, [view.id]: { title: view.session.title, opened: Date.now() } } });
+    }
   }
 
   #lose(phase: "unknown" | "failed"): void {

@@ -25,8 +25,17 @@ export type Action =
   | "everybody"
   | "onePlayer"
   | "nextPlayer"
+  | "views"
+  | "view1"
+  | "view2"
+  | "view3"
+  | "view4"
+  | "view5"
+  | "view6"
+  | "inset"
   | "fullscreen"
   | "piece"
+  | "pieces"
   | "show"
   | "film"
   | "paper"
@@ -69,8 +78,17 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "everybody", keys: ["a"], shown: "A", says: "Look at all players" },
   { action: "onePlayer", keys: ["w"], shown: "W", says: "Look at the player whom the strips follow" },
   { action: "nextPlayer", keys: ["j"], shown: "J", says: "Follow the next player" },
+  { action: "views", keys: ["v"], shown: "V", says: "Views, light and quality" },
+  { action: "view1", keys: ["1"], shown: "1", says: "The whole figure" },
+  { action: "view2", keys: ["2"], shown: "2", says: "Three-quarter" },
+  { action: "view3", keys: ["3"], shown: "3", says: "The valves" },
+  { action: "view4", keys: ["4"], shown: "4", says: "The face" },
+  { action: "view5", keys: ["5"], shown: "5", says: "As the player sees it" },
+  { action: "view6", keys: ["6"], shown: "6", says: "From the hall" },
+  { action: "inset", keys: ["i"], shown: "I", says: "The valves in a small picture" },
   { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
   { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
+  { action: "pieces", keys: ["g"], shown: "G", says: "My pieces, and sharing" },
   { action: "show", keys: ["s"], shown: "S", says: "The show" },
   { action: "film", keys: ["r"], shown: "R", says: "Film: record a video, or a still" },
   { action: "paper", keys: ["t"], shown: "T", says: "The part on paper" },

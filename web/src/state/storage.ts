@@ -1,10 +1,20 @@
 export type NoteNames = "written" | "sounding";
 export type Paper = "A4" | "letter";
+export type Quality = "automatic" | "full" | "medium" | "low";
+
+/** A session that this browser made, as the list of pieces names it. */
+export interface KeptPiece {
+  readonly title: string;
+  /** When it was opened last, milliseconds since 1970. */
+  readonly opened: number;
+}
 
 /** What this browser remembers: the sessions that it may change, and how the person likes the page. */
 export interface Remembered {
   /** Session id to the token that changes it. */
   readonly tokens: Readonly<Record<string, string>>;
+  /** What is known of the sessions among them that were opened here. */
+  readonly pieces: Readonly<Record<string, KeptPiece>>;
   /** The session that `/` opens. */
   readonly home: string | null;
   readonly volume: number;
@@ -22,6 +32,10 @@ export interface Remembered {
   readonly noteNames: NoteNames;
   /** What parts are printed on; null for what is usual where the person is. */
   readonly paper: Paper | null;
+  /** How much the stage draws; "automatic" lets the page measure. */
+  readonly quality: Quality;
+  /** Whether the valves are seen in a picture of their own. */
+  readonly valvesInset: boolean;
   /** Somebody has pressed Play here before: the welcome has done its work. */
   readonly hasPlayed: boolean;
 }
@@ -31,6 +45,7 @@ const MAX_TOKENS = 200;
 
 const NOTHING: Remembered = {
   tokens: {},
+  pieces: {},
   home: null,
   volume: 0.9,
   muted: false,
@@ -41,6 +56,8 @@ const NOTHING: Remembered = {
   snaps: ["bars", "beats", "keys", "markers"],
   noteNames: "written",
   paper: null,
+  quality: "automatic",
+  valvesInset: false,
   hasPlayed: false,
 };
 

@@ -14,6 +14,8 @@ export const EULER_ORDERS: readonly EulerOrder[] = [
 ];
 export const TIPS = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] } as const;
 export const SAMPLES = 121;
+/** How long the way from one end to the other lasts when it plays, seconds. */
+const WAY_S = 3;
 
 /** An orientation as it is being set: by three angles, or by an axis and an angle. */
 export interface OrientationDraft {
@@ -44,6 +46,7 @@ export class Rotations {
   answer = $state.raw<InterpolationComparison | null>(null);
   problem = $state<string | null>(null);
   sample = $state(44);
+  playing = $state(false);
   readonly shown = $state<Record<WayName, boolean>>({ slerp: true, matrix: true, euler: true, rotation_vector: true });
   readonly #asking: Latest<InterpolationRequest, InterpolationComparison>;
 
@@ -64,6 +67,17 @@ export class Rotations {
 
   get fraction(): number {
     return this.answer?.fractions[this.sample] ?? 0;
+  }
+
+  /** Go to where the way is after some seconds of going there and back, from its start. */
+  playAt(seconds: number): void {
+    const lap = (seconds / WAY_S) % 2;
+    this.sample = Math.round((lap < 1 ? lap : 2 - lap) * (SAMPLES - 1));
+  }
+
+  /** The second of the going there at which the way is where it stands. */
+  get playedSeconds(): number {
+    return (this.sample / (SAMPLES - 1)) * WAY_S;
   }
 
   ask(): void {

@@ -1,0 +1,114 @@
+import { ProblemError, type ReinaApi } from "../connection";
+import { remember, remembered, type KeptPiece } from "../state/storage";
+import { forgetPicture, pictureOf } from "./pictures";
+
+/** How long a deleted piece can be brought back, milliseconds. */
+const UNDO_MS = 8000;
+/** Pieces whose names are asked for at once. */
+const AT_ONCE = 6;
+
+/** A piece as the list shows it. */
+export interface Piece extends KeptPiece {
+  readonly id: string;
+  /** A small picture as a data URL; null where none was taken yet. */
+  readonly picture: string | null;
+}
+
+/** The sessions that this browser made and the server still has, the one opened last first. */
+export class KeptPieces {
+  all = $state.raw<readonly Piece[]>([]);
+  /** What was deleted and can still be brought back. */
+  deleted = $state.raw<Piece | null>(null);
+
+  readonly #api: ReinaApi;
+  readonly #tell: (error: unknown) => void;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /**
+   * @param api where the pieces are
+   * @param tell shows what went wrong
+   */
+  constructor(api: ReinaApi, tell: (error: unknown) => void) {
+    this.#api = api;
+    this.#tell = tell;
+    this.all = listed();
+  }
+
+  /** Ask the server which pieces there still are, and what they are called now. */
+  async refresh(): Promise<void> {
+    const ids = Object.keys(remembered().tokens).reverse();
+    let known: Readonly<Record<string, KeptPiece>> = remembered().pieces;
+    for (let begin = 0; begin < ids.length; begin += AT_ONCE) {
+      const some = ids.slice(begin, begin + AT_ONCE);
+      const answers = await Promise.allSettled(some.map((id) => this.#api.session(id)));
+      answers.forEach((answer, index) => {
+        const id = some[index] ?? "";
+        if (answer.status === "fulfilled") {
+          known = { ...known, [id]: { title: answer.value.title, opened: known[id]?.opened ?? 0 } };
+        } else if (answer.reason instanceof ProblemError && answer.reason.isUnknown) {
+          known = without(known, id);
+          forget(id);
+        }
+      });
+    }
+    remember({ pieces: known });
+    this.all = this.#shown();
+  }
+
+  /** Take a piece out of the list; the server ends it when the time for Undo is over, or the page is left. */
+  delete(piece: Piece): void {
+    this.finish();
+    this.deleted = piece;
+    this.all = this.#shown();
+    this.#timer = setTimeout(() => this.finish(), UNDO_MS);
+  }
+
+  /** Bring back what was deleted last. */
+  undo(): void {
+    clearTimeout(this.#timer);
+    this.deleted = null;
+    this.all = this.#shown();
+  }
+
+  /** End what was deleted; it cannot be brought back then. */
+  finish(): void {
+    const piece = this.deleted;
+    if (piece === null) return;
+    clearTimeout(this.#timer);
+    this.deleted = null;
+    const token = remembered().tokens[piece.id];
+    forget(piece.id);
+    if (token === undefined) return;
+    // It has to arrive even where the page is being left.
+    this.#api.deleteSession(piece.id, token, { keepalive: true }).catch((error: unknown) => {
+      if (!(error instanceof ProblemError && error.isUnknown)) this.#tell(error);
+    });
+  }
+
+  #shown(): readonly Piece[] {
+    return listed().filter(({ id }) => id !== this.deleted?.id);
+  }
+}
+
+function listed(): readonly Piece[] {
+  const { tokens, pieces } = remembered();
+  return Object.entries(pieces)
+    .filter(([id]) => tokens[id] !== undefined)
+    .map(([id, piece]) => ({ ...piece, id, picture: pictureOf(id) }))
+    .sort((a, b) => b.opened - a.opened);
+}
+
+/** Forget a session that is no more. */
+function forget(id: string): void {
+  const { tokens, pieces, home } = remembered();
+  remember({
+    tokens: without(tokens, id),
+    pieces: without(pieces, id),
+    home: home === id ? null : home,
+  });
+  forgetPicture(id);
+}
+
+function without<T>(record: Readonly<Record<string, T>>, key: string): Record<string, T> {
+  return Object.fromEntries(Object.entries(record).filter(([name]) => name !== key));
+}
