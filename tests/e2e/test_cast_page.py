@@ -69,11 +69,9 @@ def test_each_player_has_a_lane_and_strips_and_camera_follow_whom_one_chooses(
         shown = page.evaluate(SHOWN_VALVES)
         assert len(shown) >= 3
         assert shown == [note["valves"] for note in lines[player][: len(shown)]]
-        assert (
-            page.locator(".notes")
-            .get_attribute("aria-label")
-            .startswith(f"The next notes of player {player + 1} ")
-        )
+        label = page.locator(".notes").get_attribute("aria-label")
+        assert label is not None
+        assert label.startswith(f"The next notes of player {player + 1} ")
 
     follows(0)
     assert [note["valves"] for note in lines[0][:4]] != [note["valves"] for note in lines[1][:4]]

@@ -163,7 +163,8 @@ def test_players_look_at_each_other_as_somebody_enters(client: httpx.Client) -> 
             looking.local[f"{prefix}player"][before_s]
         )
         joints = looking.poses[f"{prefix}player"].rig["joints"]
-        turned = {joint["name"]: angle for joint, angle in zip(joints, moved.magnitude(), strict=True)}
+        angles = np.linalg.norm(moved.as_rotvec(), axis=-1).tolist()
+        turned = {joint["name"]: angle for joint, angle in zip(joints, angles, strict=True)}
         assert turned["leftEye"] > 0.2, prefix
         assert turned["head"] > 0.02, prefix
     # Between entries each keeps to the part.

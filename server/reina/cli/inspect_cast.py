@@ -32,6 +32,7 @@ def asked_cast(text: str, sequence: int | None = None) -> Cast:
     """
     if text == "auto":
         return Cast(sequence=sequence, auto=True)
+    data = b""
     try:
         data = text.encode() if text.lstrip().startswith("{") else Path(text).read_bytes()
         return cast_of(_FIELDS.validate_python(json.loads(data)), sequence)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,7 +30,7 @@ def score_as_played(score: Score, played: Sequence[PlayedPart]) -> Score:
         A score with those notes; parts that are left without a note are gone, the others are counted anew.
     """
     notes = score.notes
-    columns = {name: column.copy() for name, column in vars(notes).items()}
+    columns: dict[str, Any] = {name: column.copy() for name, column in vars(notes).items()}
     kept = np.ones(len(notes), dtype=np.bool_)
     for one in played:
         kept[np.isin(notes.part, one.parts)] = False
@@ -47,9 +47,10 @@ def score_as_played(score: Score, played: Sequence[PlayedPart]) -> Score:
         columns["duration_beats"][index] = score.tempo_map.beats(end_s) - onset_beats
     left = {name: column[kept] for name, column in columns.items()}
     parts = [part for part in score.parts if part.index in left["part"]]
-    places = np.searchsorted([part.index for part in parts], left["part"])
+    of_parts = np.array([part.index for part in parts], dtype=np.int64)
+    left["part"] = np.searchsorted(of_parts, left["part"])
     return replace(
         score,
         parts=tuple(replace(part, index=index) for index, part in enumerate(parts)),
-        notes=Notes.from_columns(**{**left, "part": places}),
+        notes=Notes.from_columns(**left),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reina.instruments.played import Line, PlayedPart
-from reina.music.arrays import FloatArray
+from reina.music.arrays import FloatArray, IntArray
 
 PER_OCTAVE, PER_NOTE, PER_VELOCITY = 1.0, 0.12, 1.0
 """What an octave more, a note a second more, and full velocity count for; sounding itself counts for 2."""
@@ -63,9 +63,10 @@ def who_has_tune(
 def _heard(line: Line, edges_s: FloatArray) -> FloatArray:
     """How much a line is heard in each stretch between (B + 1,) edges, (B,)."""
     bars = len(edges_s) - 1
-    bar = np.clip(np.searchsorted(edges_s, line.onset_s, side="right") - 1, 0, bars - 1)
+    begun = np.searchsorted(edges_s, line.onset_s, side="right").astype(np.int64)
+    bar = np.clip(begun - 1, 0, bars - 1)
     for_s = np.diff(edges_s)
-    count = np.bincount(bar, minlength=bars)
+    count: IntArray = np.bincount(bar, minlength=bars).astype(np.int64)
     # How much of each bar sounds: the time that has sounded by its end, less that by its beginning.
     edges = np.column_stack([line.onset_s, line.end_s]).ravel()
     sounded = np.cumsum(line.end_s - line.onset_s)
@@ -78,7 +79,7 @@ def _heard(line: Line, edges_s: FloatArray) -> FloatArray:
     return np.minimum(share, 1.0) * np.maximum(worth + PER_NOTE * lively, 0.0)
 
 
-def _means(bar: FloatArray, count: FloatArray, values: FloatArray) -> FloatArray:
+def _means(bar: IntArray, count: IntArray, values: FloatArray | IntArray) -> FloatArray:
     """The mean of notes' values in each bar, (B,); that of the bar before where none begins."""
     if not len(values):
         return np.zeros(len(count))
@@ -89,17 +90,17 @@ def _means(bar: FloatArray, count: FloatArray, values: FloatArray) -> FloatArray
     return means[last]
 
 
-def _best_way(gains: FloatArray) -> FloatArray:
+def _best_way(gains: FloatArray) -> IntArray:
     """Of gains (B, P) the player of each bar, (B,), by which most is gained at `CHANGE_S` a change."""
     bars, players = gains.shape
-    came_from = np.zeros((bars, players), dtype=np.intp)
-    total = gains[0]
+    came_from = np.zeros((bars, players), dtype=np.int64)
+    total: FloatArray = gains[0]
     for bar in range(1, bars):
         best = int(total.argmax())
         stays = total >= total[best] - CHANGE_S
-        came_from[bar] = np.where(stays, np.arange(players), best)
+        came_from[bar] = np.where(stays, np.arange(players, dtype=np.int64), np.int64(best))
         total = np.where(stays, total, total[best] - CHANGE_S) + gains[bar]
-    way = np.zeros(bars, dtype=np.intp)
+    way = np.zeros(bars, dtype=np.int64)
     way[-1] = total.argmax()
     for bar in range(bars - 1, 0, -1):
         way[bar - 1] = came_from[bar, way[bar]]

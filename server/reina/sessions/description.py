@@ -91,7 +91,8 @@ def cast_resource(production: Production) -> resources.Cast:
         resources.TunePassage(start_s=passage.start_s, end_s=passage.end_s, player=passage.player)
         for passage in production.tune
     ]
-    return resources.Cast(**dict(summary) | {"castings": castings, "tune": tune})
+    fields: dict[str, Any] = dict(summary) | {"castings": castings, "tune": tune}
+    return resources.Cast(**fields)
 
 
 def cast_summary(production: Production) -> resources.CastSummary:

@@ -78,11 +78,8 @@ def _models(kind: TypeName, bounds: Bounds, kinds: Kinds) -> tuple[Any, type[Sho
     item: Any = _told_apart(
         {name: Annotated[model, AfterValidator(made)] for name, model in members.items()}, tags, default
     )
-    track = create_model(
-        f"track_{name}",
-        __base__=ShowTrack,
-        keyframes=(Annotated[tuple[item, ...], Strict(strict=False)], ()),
-    )
+    keyframes: Any = Annotated[tuple[item, ...], Strict(strict=False)]
+    track = create_model(f"track_{name}", __base__=ShowTrack, keyframes=(keyframes, ()))
     return item, track
 
 

@@ -56,7 +56,7 @@ def side_spots(leads: Sequence[int], places: Sequence[Place]) -> tuple[SideSpot,
         middle = chests.mean(axis=0)
         reach_m = float(np.linalg.norm(chests - middle, axis=1).max()) + REACH_M
         away_m = float(np.linalg.norm(middle - SPOTS[number]["position"]))
-        x, y, z = np.round(middle, 3).tolist()
+        x, y, z = (round(float(part), 3) for part in middle)
         levels = tuple(LEADING if lead in lit else LIT for lead in leads)
         spots.append(SideSpot(number, (x, y, z), round(float(np.arctan2(reach_m, away_m)), 3), levels))
     return tuple(spots)

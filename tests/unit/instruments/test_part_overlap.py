@@ -16,7 +16,7 @@ NOTES = st.lists(
 
 def parts(one: list[tuple[float, float, int]], other: list[tuple[float, float, int]]) -> tuple[Notes, Notes]:
     score = score_of(sorted(one), sorted(other))
-    return tuple(score.notes.take(score.note_indices(part)) for part in (0, 1))
+    return score.notes.take(score.note_indices(0)), score.notes.take(score.note_indices(1))
 
 
 @given(NOTES, NOTES)

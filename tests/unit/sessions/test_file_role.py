@@ -13,7 +13,7 @@ from reina.sessions.file_role import LOOKED_AT_BYTES, role_of
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 TONE = {"header": {"ppq": 480}, "tracks": [{"name": "A", "notes": [{"midi": 60, "time": 0}]}]}
-LATE_NOTES = {"tracks": [{"controlChanges": {"7": [{"value": 1}] * 5000}, "notes": []}]}
+LATE_NOTES: dict[str, object] = {"tracks": [{"controlChanges": {"7": [{"value": 1}] * 5000}, "notes": []}]}
 LONG_SHOW = {"tracks": [{"keyframes": [{"key": f"k{n}", "time": n, "value": 1} for n in range(5000)]}]}
 
 
@@ -38,8 +38,8 @@ def as_json(document: object, encoding: str = "utf-8") -> bytes:
         (as_json(TONE, "utf-16"), "score"),
         (as_json(LATE_NOTES), "score"),
         (as_json(LONG_SHOW), "show"),
-        (as_json({"version": 1, "tracks": {}}), "show"),
-        (as_json({"tracks": [None, {"notes": []}]}), "score"),
+        (b'{"version": 1, "tracks": {}}', "show"),
+        (b'{"tracks": [null, {"notes": []}]}', "score"),
         (as_json({"parts": [], "notes": [], "tracks": []}), "score"),
         (as_json({"title": '"tracks": [{"parameter":', "parts": []}), "score"),
         (b"{", "score"),

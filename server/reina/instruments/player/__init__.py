@@ -31,7 +31,6 @@ __all__ = [
     "SkeletonLayout",
     "StanceChoice",
     "Standing",
-    "cast_parameters",
     "in_order",
     "movements",
     "phrases_of",

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from reina.instruments.played import PlayedPart
     from reina.instruments.player.seats import Seat
     from reina.kinematics import Curve
+    from reina.music.arrays import BoolArray
     from reina.rotations.arrays import FloatArray
 
 GLANCE_PARAMETER = Parameter(
@@ -126,7 +127,7 @@ def _sounding(played: PlayedPart) -> tuple[FloatArray, FloatArray]:
     return played.line.onset_s[playable], played.line.end_s[playable]
 
 
-def _enters(onset_s: FloatArray, end_s: FloatArray) -> FloatArray:
+def _enters(onset_s: FloatArray, end_s: FloatArray) -> BoolArray:
     """Which notes come after a rest, or first."""
     return onset_s - np.concatenate([[-np.inf], end_s[:-1]])[: len(onset_s)] >= ENTRY_REST_S
 

@@ -78,7 +78,7 @@ def test_of_several_who_enter_the_nearest_is_looked_at() -> None:
     st.lists(st.floats(-0.6, 0.6), min_size=3, max_size=3),
 )
 def test_with_what_a_show_keys_no_bound_is_passed(keys: list[float], turns: list[float]) -> None:
-    keyed = {}
+    keyed: dict[str, FloatArray] = {}
     for part, values in (("torso", keys[:3]), ("head", keys[3:6])):
         size = max(np.linalg.norm(values), BOUNDS_RAD[part]) / BOUNDS_RAD[part]
         keyed |= {
