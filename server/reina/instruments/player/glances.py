@@ -96,6 +96,8 @@ def add_glances(
     for name, turn in (("torso", torso), ("head", head)):
         bow, tip = keyed[f"{name}_bow"], keyed[f"{name}_tip"]
         room = np.sqrt(np.maximum(BOUNDS_RAD[name] ** 2 - bow * bow - tip * tip, 0.0))
+        # What is keyed is within the bounds already, whatever rounding says of what is left beside it.
+        room = np.maximum(room, np.abs(keyed[f"{name}_turn"]))
         turned[f"{name}_turn"] = np.minimum(np.maximum(keyed[f"{name}_turn"] + turn, -room), room)
     bound = BOUNDS_RAD["eyes"]
     turned["eyes_left"] = np.minimum(np.maximum(keyed["eyes_left"] + eyes, -bound), bound)
