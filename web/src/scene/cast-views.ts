@@ -40,11 +40,16 @@ export function castView(stands: readonly Stand[], aspect: number): CameraPreset
   };
 }
 
+/** One player as the three-quarter view shows who stands in the middle. */
+export function playerView(stand: Stand): CameraPreset {
+  return viewAt({ name: "player", title: "One player", ...NEAR }, stand);
+}
+
 /**
- * One player as the three-quarter view shows who stands in the middle, wherever the seat is and whichever way it faces;
+ * A view of who stands in the middle facing the audience, of a player wherever the seat is and whichever way it faces;
  * never from farther aside than there, where the neighbours stand in the way.
  */
-export function playerView({ x, z, facing }: Stand): CameraPreset {
+export function viewAt(view: CameraPreset, { x, z, facing }: Stand): CameraPreset {
   const turn = Math.max(facing, 0);
   const [sin, cos] = [Math.sin(turn), Math.cos(turn)];
   const placed = ([px, py, pz]: readonly [number, number, number]): [number, number, number] => [
@@ -52,13 +57,7 @@ export function playerView({ x, z, facing }: Stand): CameraPreset {
     py,
     z - px * sin + pz * cos,
   ];
-  return {
-    name: "player",
-    title: "One player",
-    position: placed(NEAR.position),
-    target: placed(NEAR.target),
-    fov: NEAR.fov,
-  };
+  return { ...view, position: placed(view.position), target: placed(view.target) };
 }
 
 function extent(values: readonly number[]): [least: number, most: number] {

@@ -8,7 +8,7 @@ import { NoteBlocks } from "./blocks/blocks";
 import { paneColor } from "./blocks/player-colors";
 import { StageCamera } from "./camera";
 import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera-presets";
-import { castView, playerView } from "./cast-views";
+import { castView, playerView, viewAt } from "./cast-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
 import { type InsetPlace, ValvesInset } from "./inset";
@@ -307,11 +307,16 @@ export class Stage {
     return CAMERA_PRESETS;
   }
 
-  /** Take the camera to a preset's view; returns false where there is none of that name. */
-  viewPreset(name: string): boolean {
+  /**
+   * Take the camera to a preset's view; returns false where there is none of that name.
+   *
+   * @param player of several, the one who is looked at: a place in the cast.
+   */
+  viewPreset(name: string, player = 0): boolean {
     const preset = findPreset(name);
     if (preset === null) return false;
-    this.#camera.view(preset);
+    const stand = this.#players.count > 1 ? this.#players.stands()[player] : undefined;
+    this.#camera.view(stand === undefined ? preset : viewAt(preset, stand));
     return true;
   }
 

@@ -27,8 +27,8 @@ export interface DeckHands {
   /** To where everybody is seen, or one player, a place in the cast. */
   viewCast(): void;
   viewPlayer(player: number): void;
-  /** To a view by its name. */
-  viewPreset(name: string): void;
+  /** To a view by its name, of a player: a place in the cast. */
+  viewPreset(name: string, player: number): void;
   toggleFullscreen(): void;
   openFilePicker(): void;
   /** The view that is seen, as a show's camera keys hold it. */
@@ -155,7 +155,7 @@ export class Deck {
   /** @param index of a view, in the order in which they are offered. */
   viewPreset(index: number): void {
     const preset = CAMERA_PRESETS[index];
-    if (preset !== undefined) this.hands.viewPreset?.(preset.name);
+    if (preset !== undefined) this.hands.viewPreset?.(preset.name, this.reina.view?.cast.followed ?? 0);
   }
 
   showValvesInset(shown: boolean): void {
