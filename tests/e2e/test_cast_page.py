@@ -106,7 +106,10 @@ def test_each_player_has_a_lane_and_strips_and_camera_follow_whom_one_chooses(
     stands("z > 4.5")
     page.keyboard.press("w")
     stands("z < 3 && x > -1.2")
+    print("FOLLOWED", page.evaluate("window.reina.drawnFrom"))
     page.keyboard.press("j")
+    page.wait_for_timeout(1500)
+    print("FOLLOWED", page.evaluate("window.reina.drawnFrom"))
     stands("z < 3 && x < -1.3")
     page.keyboard.press("c")
     opened.until("document.querySelector('[aria-label^=\"Give the camera\"]')?.ariaPressed !== 'true'")
@@ -135,7 +138,8 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     own = page.get_by_role("group", name="Soloist, player 2")
     own.get_by_role("combobox", name="Instrument").select_option("flugelhorn")
     watcher.until("window.reina.rigs.includes('flugelhorn')")
-    own.get_by_role("combobox", name="Place").select_option("far left")
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
+        own.get_by_role("combobox", name="Place").select_option("far left")
     cast.get_by_text("Soloist, flugelhorn").wait_for()
     assert [(one["instrument"], one["seat"]) for one in duet.castings()] == [
         ("trumpet", "right"),

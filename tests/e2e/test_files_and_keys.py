@@ -101,7 +101,7 @@ def test_what_a_recording_is_of_is_asked_and_it_is_kept(visit: Visit, client: ht
         page.get_by_text(f"What is {name} a recording of?").wait_for()
         return page.locator(".notices .pane").inner_text()
 
-    assert f"It lasts 0:01, {title} 0:16: hardly the same music." in asked("take 3.wav", 1.4)
+    assert f"It lasts 0:01, {title} 0:20: hardly the same music." in asked("take 3.wav", 1.4)
     assert session_of(opened, client)["song"]["source"] == "rendered"
     page.get_by_role("button", name="Put away").click()
 
@@ -246,7 +246,7 @@ def test_of_chords_what_is_played_is_listed_and_lit_and_the_rest_is_faint(
 
     # Where only notes sound that are not played, however much sounding notes glow, nothing does.
     glows = {
-        at: [light("blocks/glow", glow, at) for glow in (0.0, 6.0)]
+        at: [light("blocks/glow", glow, at) for glow in (0.0, 4.0)]
         for at in (played[0]["onset_s"] + 0.1, SILENT_S)
     }
     sounds, silent = glows.values()

@@ -43,7 +43,7 @@ def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
     page.get_by_role("combobox", name="Sequence").select_option(label="2 of 3")
     page.get_by_text("8 notes").wait_for()
     page.get_by_text("the file holds 3 sequences").wait_for(state="detached")
-    page.get_by_role("heading", name="Walk").wait_for()
+    page.get_by_role("heading", name="Walk", level=2).wait_for()
     assert session()["sequence"] == 1
     assert session()["duration_s"] > lasts
     opened.until("(end) => Number(document.querySelector('[role=slider]').ariaValueMax) >= end", lasts)

@@ -428,7 +428,8 @@ def test_the_schema_is_of_this_servers_parameters(shown: Owned) -> None:
     patterns = [name.get("pattern") or f"^{name['const']}$" for name in described]
     for path in known:
         assert sum(re.search(pattern, path) is not None for pattern in patterns) == 1, path
-    assert len(described) == len(known)
+    # One rule each for the stage's and for the first player's; the others' have the same by a pattern.
+    assert len(described) == len([path for path in known if not path.startswith("players/")])
 
 
 def test_a_track_may_answer_the_notes(shown: Owned) -> None:

@@ -58,7 +58,8 @@ HOLDS = tuple(sorted((path.parents[1].name, path.stem) for path in RIGS.glob("*/
 def test_every_player_holds_every_instrument() -> None:
     players = {player for player, _ in HOLDS}
     assert len(players) >= 2
-    assert set(HOLDS) == {(player, instrument) for player in players for instrument in INSTRUMENTS}
+    horns = [name for name, instrument in INSTRUMENTS.items() if instrument.rig]
+    assert set(HOLDS) == {(player, instrument) for player in players for instrument in horns}
 
 
 @cache

@@ -14,7 +14,7 @@ from reina.instruments import INSTRUMENTS
 
 RIGS = Path(__file__).resolve().parents[3] / "rigs"
 PLAYERS = ("trumpeter", "soloist")
-HORNS = tuple(INSTRUMENTS)
+HORNS = tuple(name for name, instrument in INSTRUMENTS.items() if instrument.rig)
 NAMES = (*PLAYERS, *HORNS)
 TIERS = ("full", "medium", "low")
 FINGERS = ("Index", "Middle", "Ring", "Little")

@@ -247,7 +247,11 @@ export class Stage {
     shadowMap.autoUpdate = true;
     const { mirror, floor } = this.#room;
     if (mirror !== null && !this.#transparent) {
+      // Light in the air is too faint to be seen in the floor.
+      const cones = this.#lights.spots.map(({ cone }) => cone).filter(({ visible }) => visible);
+      for (const cone of cones) cone.visible = false;
       mirror.render(this.#renderer, scene, camera, floor);
+      for (const cone of cones) cone.visible = true;
       shadowMap.autoUpdate = false;
     }
     this.#renderer.setRenderTarget(this.#picture.target);
