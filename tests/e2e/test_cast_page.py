@@ -106,11 +106,15 @@ def test_each_player_has_a_lane_and_strips_and_camera_follow_whom_one_chooses(
     stands("z > 4.5")
     page.keyboard.press("w")
     stands("z < 3 && x > -1.2")
-    print("FOLLOWED", page.evaluate("window.reina.drawnFrom"))
+    # The camera has arrived once another picture is drawn from where the one before was.
+    page.wait_for_function(
+        "() => { const x = window.reina.drawnFrom[0]; const still = x === window.before; "
+        "window.before = x; return still; }",
+        polling=400,
+    )
+    beside = page.evaluate("window.reina.drawnFrom[0]")
     page.keyboard.press("j")
-    page.wait_for_timeout(1500)
-    print("FOLLOWED", page.evaluate("window.reina.drawnFrom"))
-    stands("z < 3 && x < -1.3")
+    stands(f"z < 3 && Math.abs(x - {beside}) > 0.4")
     page.keyboard.press("c")
     opened.until("document.querySelector('[aria-label^=\"Give the camera\"]')?.ariaPressed !== 'true'")
 
@@ -155,7 +159,7 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     assert duet.castings()[1]["transposition"] == -1
 
     parts = page.get_by_role("group", name="Part the flugelhorn plays")
-    parts.locator("label", has_text="Trumpet 1").click()
+    parts.locator("label", has_text="Trumpet 1").first.click()
     refused = parts.get_by_role("alert")
     refused.wait_for()
     assert "part 0 is played by another player already" in refused.inner_text()

@@ -105,7 +105,7 @@ def test_what_a_recording_is_of_is_asked_and_it_is_kept(visit: Visit, client: ht
     assert session_of(opened, client)["song"]["source"] == "rendered"
     page.get_by_role("button", name="Put away").click()
 
-    assert f"It lasts 0:15, {title} 0:16." in asked("take 4.wav", 15.4)
+    assert f"It lasts 0:15, {title} 0:20." in asked("take 4.wav", 15.4)
     page.get_by_role("button", name=f"Play it with {title}").click()
     opened.until_another_session(first)
     told = session_of(opened, client)
@@ -194,7 +194,7 @@ def test_keys_act_wherever_the_pointer_was_and_add_up(visit: Visit, client: http
     until("!window.reina.playing")
 
     # After a choice in a menu, keys are the page's.
-    player = page.get_by_role("combobox", name="Player")
+    player = page.get_by_role("combobox", name="Figure")
     player.scroll_into_view_if_needed()
     player.click()
     player.select_option(label="Soloist")

@@ -183,7 +183,7 @@ def test_a_song_is_heard_in_segments_while_it_is_rendered(client: httpx.Client) 
     assert client.get(f"{segments['href']}/{segments['count']}").status_code == 404
     assert client.get(f"{segments['href']}/-1").status_code == 404
     session.change("PATCH", json={"transposition": 3}).raise_for_status()
-    gone = client.get(f"{segments['href']}/0")
+    gone = rendered(client, f"{segments['href']}/0")
     assert gone.status_code == 410
     assert gone.json()["title"] == "The sound is another now"
     session.change("DELETE").raise_for_status()
