@@ -114,7 +114,7 @@ def test_each_player_has_a_lane_and_strips_and_camera_follow_whom_one_chooses(
     )
     beside = page.evaluate("window.reina.drawnFrom[0]")
     page.keyboard.press("j")
-    stands(f"z < 3 && Math.abs(x - {beside}) > 0.4")
+    stands(f"z < 4 && Math.abs(x - {beside}) > 0.4")
     page.keyboard.press("c")
     opened.until("document.querySelector('[aria-label^=\"Give the camera\"]')?.ariaPressed !== 'true'")
 
@@ -159,13 +159,13 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     assert duet.castings()[1]["transposition"] == -1
 
     parts = page.get_by_role("group", name="Part the flugelhorn plays")
-    parts.locator("label", has_text="Trumpet 1").first.click()
+    parts.locator("label:has(input[type=radio])", has_text="Trumpet 1").click()
     refused = parts.get_by_role("alert")
     refused.wait_for()
     assert "part 0 is played by another player already" in refused.inner_text()
     assert parts.get_by_role("radio", name="Trumpet 2").is_checked(), "as it was"
     assert duet.castings()[1]["part"] == 1
-    parts.locator("label", has_text="Organ").click()
+    parts.locator("label:has(input[type=radio])", has_text="Organ").click()
     cast.get_by_text("plays Organ").wait_for()
     assert page.get_by_role("alert").count() == 0
     organ = len(duet.notes(1))
