@@ -56,7 +56,7 @@ def test_pieces_are_listed_with_pictures_deleted_and_brought_back(visit: Visit, 
     assert items.nth(0).get_by_role("button").first.get_attribute("aria-current") == "page"
     assert panel.locator("img").count() == 2
     widths = panel.locator("img").evaluate_all("(images) => images.map((image) => image.naturalWidth)")
-    assert widths == [240, 240]
+    assert widths == [640, 640]
     assert all(brightness > 20 for brightness in panel.locator("img").evaluate_all(BRIGHTNESS))
 
     # What is open and deleted is left for the other; Undo brings it back, and the server has it still.

@@ -40,7 +40,9 @@ def install(folder: Path, point: str = blocks("toml")[0]) -> None:
     metadata.mkdir(parents=True)
     (folder / "desk_bell.py").write_text(module, encoding="utf-8")
     (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: desk-bell\nVersion: 1.0\n")
-    group, name, value = re.fullmatch(r'\[.*"(.*)"\]\n(\w+) = "(.*)"\n', point).groups()  # type: ignore[union-attr]
+    entry = re.fullmatch(r'\[.*"(.*)"\]\n(\w+) = "(.*)"\n', point)
+    assert entry is not None
+    group, name, value = entry.groups()
     (metadata / "entry_points.txt").write_text(f"[{group}]\n{name} = {value}\n")
 
 

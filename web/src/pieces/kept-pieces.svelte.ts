@@ -1,6 +1,6 @@
 import { ProblemError, type ReinaApi } from "../connection";
 import { remember, remembered, type KeptPiece } from "../state/storage";
-import { forgetPicture, pictureOf } from "./pictures";
+import { forgetPicture, pictureOf } from "../state/pictures";
 
 /** How long a deleted piece can be brought back, milliseconds. */
 const UNDO_MS = 8000;

@@ -2,7 +2,7 @@
 
 import { PerspectiveCamera, Vector2, type Scene, type WebGLRenderer } from "three";
 
-import { findPreset } from "./camera-presets";
+import type { CameraPreset } from "./camera-presets";
 import { OUTLINE_LAYER } from "./toon";
 
 /** Its side as a share of the shorter side of the window, and its bounds, CSS pixels. */
@@ -18,39 +18,27 @@ export interface InsetPlace {
 }
 
 export class ValvesInset {
-  #shown = false;
-  #place: InsetPlace = { left: 0, top: 0, side: MIN_SIDE };
+  /** Where it lies; null where it is not shown. */
+  place: InsetPlace | null = null;
+  /** Whose valves it shows, of several: a place in the cast. */
+  player = 0;
   readonly #camera = new PerspectiveCamera(20, 1, 0.05, 60);
   readonly #size = new Vector2();
 
   constructor() {
-    const preset = findPreset("valves");
-    if (preset === null) throw new Error("there is no view of the valves");
-    this.#camera.position.fromArray(preset.position);
-    this.#camera.lookAt(...preset.target);
-    this.#camera.fov = (preset.fov * 180) / Math.PI;
     this.#camera.layers.enable(OUTLINE_LAYER);
-    this.#camera.updateProjectionMatrix();
-    this.#camera.updateMatrixWorld();
   }
 
-  get shown(): boolean {
-    return this.#shown;
-  }
-
-  show(shown: boolean): void {
-    this.#shown = shown;
-  }
-
-  /** @param place where it lies; null where it is not seen. */
-  setPlace(place: InsetPlace): void {
-    this.#place = place;
-  }
-
-  /** Draw over what is on the canvas; the shadows are those of the large picture. */
-  render(renderer: WebGLRenderer, scene: Scene): void {
-    if (!this.#shown) return;
-    const { left, top, side } = this.#place;
+  /** Draw over what is on the canvas, as a view has it; the shadows are those of the large picture. */
+  render(renderer: WebGLRenderer, scene: Scene, { position, target, fov }: CameraPreset): void {
+    if (this.place === null) return;
+    const camera = this.#camera;
+    camera.position.fromArray(position);
+    camera.lookAt(...target);
+    camera.fov = (fov * 180) / Math.PI;
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    const { left, top, side } = this.place;
     renderer.getSize(this.#size);
     const bottom = this.#size.y - top - side;
     renderer.shadowMap.autoUpdate = false;
@@ -58,7 +46,7 @@ export class ValvesInset {
     renderer.setScissorTest(true);
     renderer.setViewport(left, bottom, side, side);
     renderer.setScissor(left, bottom, side, side);
-    renderer.render(scene, this.#camera);
+    renderer.render(scene, camera);
     renderer.setScissorTest(false);
     renderer.setViewport(0, 0, this.#size.x, this.#size.y);
     renderer.shadowMap.autoUpdate = true;

@@ -7,7 +7,7 @@ import { RigModel, loadRig, mergeMeshes } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
 import { paneColor } from "./blocks/player-colors";
 import { StageCamera } from "./camera";
-import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset } from "./camera-presets";
+import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset, VALVES } from "./camera-presets";
 import { castView, playerView, viewAt } from "./cast-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
@@ -257,7 +257,7 @@ export class Stage {
     this.#renderer.setRenderTarget(this.#picture.target);
     this.#renderer.render(scene, camera);
     this.#picture.finish(camera, this.#camera.targetDistance);
-    this.#inset.render(this.#renderer, scene);
+    this.#inset.render(this.#renderer, scene, this.#presetOf(VALVES, this.#inset.player));
     this.#drawnFrom.copy(camera.position);
     this.#changed = false;
     this.#pictures += 1;
@@ -299,10 +299,13 @@ export class Stage {
     this.#drawSoon();
   }
 
-  /** Show the valves in a small picture of their own; null for none. */
-  setValvesInset(place: InsetPlace | null): void {
-    this.#inset.show(place !== null);
-    if (place !== null) this.#inset.setPlace(place);
+  /**
+   * Show the valves in a small picture of their own; null for none.
+   *
+   * @param player of several, the one whose valves are shown: a place in the cast.
+   */
+  setValvesInset(place: InsetPlace | null, player = 0): void {
+    Object.assign(this.#inset, { place, player });
     this.#drawSoon();
   }
 
@@ -319,9 +322,14 @@ export class Stage {
   viewPreset(name: string, player = 0): boolean {
     const preset = findPreset(name);
     if (preset === null) return false;
-    const stand = this.#players.count > 1 ? this.#players.stands()[player] : undefined;
-    this.#camera.view(stand === undefined ? preset : viewAt(preset, stand));
+    this.#camera.view(this.#presetOf(preset, player));
     return true;
+  }
+
+  /** A view as it is of one of several players. */
+  #presetOf(preset: CameraPreset, player: number): CameraPreset {
+    const stand = this.#players.count > 1 ? this.#players.stands()[player] : undefined;
+    return stand === undefined ? preset : viewAt(preset, stand);
   }
 
   /** Take the camera to where the whole cast is seen. */

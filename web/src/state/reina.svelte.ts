@@ -4,7 +4,7 @@ import { controlToken } from "../pieces/links";
 import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
 import { Notices, type NoticeOptions } from "./notices.svelte";
-import { removePoster } from "./posters";
+import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
 import { remember, remembered, rememberToken } from "./storage";

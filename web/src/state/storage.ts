@@ -90,7 +90,8 @@ export function rememberToken(id: string, token: string): void {
   remember({ tokens: { ...remembered().tokens, [id]: token } });
 }
 
-function pageStorage(): Storage | null {
+/** What the browser keeps for the page; null where it keeps nothing. */
+export function pageStorage(): Storage | null {
   try {
     return localStorage;
   } catch {
