@@ -12,7 +12,7 @@ PER_OCTAVE, PER_NOTE, PER_VELOCITY = 1.0, 0.12, 1.0
 """What an octave more, a note a second more, and full velocity count for; sounding itself counts for 2."""
 
 SOUNDING = 2.0
-MOST_NOTES = 8.0
+MAX_NOTES = 8.0
 """Notes a second beyond which no more is heard."""
 
 MIDDLE_PITCH = 67.0
@@ -74,7 +74,7 @@ def _heard(line: Line, edges_s: FloatArray) -> FloatArray:
     share = np.diff(np.interp(edges_s, edges, by)) / for_s if len(line) else np.zeros(bars)
     # A bar into which a note is held goes on as the bar before.
     height, loud = _means(bar, count, line.sounding_pitch), _means(bar, count, line.velocity)
-    lively = np.minimum(count / for_s, MOST_NOTES)
+    lively = np.minimum(count / for_s, MAX_NOTES)
     worth = SOUNDING + PER_OCTAVE * (height - MIDDLE_PITCH) / 12.0 + PER_VELOCITY * loud
     return np.minimum(share, 1.0) * np.maximum(worth + PER_NOTE * lively, 0.0)
 

@@ -77,7 +77,7 @@ def test_a_session_is_found_again_by_another_store(tmp_path: Path, stage: Stage)
     run(scenario)
 
 
-def test_idle_sessions_beyond_the_bound_are_put_away_and_come_back(tmp_path: Path, stage: Stage) -> None:
+def test_idle_sessions_beyond_the_bound_are_unloaded_and_come_back(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         desk = Desk(tmp_path, stage, loaded=3)
         made = [await desk.create(scale(4)) for _ in range(5)]
@@ -89,7 +89,7 @@ def test_idle_sessions_beyond_the_bound_are_put_away_and_come_back(tmp_path: Pat
     run(scenario)
 
 
-def test_a_session_that_plays_is_not_put_away(tmp_path: Path, stage: Stage) -> None:
+def test_a_session_that_plays_is_not_unloaded(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         desk = Desk(tmp_path, stage, loaded=1)
         playing = await desk.create(scale(4))
@@ -105,7 +105,7 @@ def test_a_session_that_plays_is_not_put_away(tmp_path: Path, stage: Stage) -> N
     run(scenario)
 
 
-def test_a_session_that_is_just_put_away_comes_back_as_it_was(
+def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     writing = threading.Event()
@@ -202,7 +202,7 @@ def test_a_session_ended_while_it_is_read_does_not_come_back(tmp_path: Path, sta
     run(scenario)
 
 
-def test_an_endless_loop_that_nobody_watches_is_put_away(tmp_path: Path, stage: Stage) -> None:
+def test_an_endless_loop_that_nobody_watches_is_unloaded(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         desk = Desk(tmp_path, stage, loaded=1)
         looping = await desk.create(scale(4))

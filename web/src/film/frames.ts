@@ -6,7 +6,7 @@ import type { DrawnFrame } from "../scene";
 import { type FrameSpan, countOf, piecesOf } from "./span";
 
 /** Frames of a piece: one is drawn while the next is on its way, some three megabytes together. */
-const MOST_IN_PIECE = 240;
+const MAX_IN_PIECE = 240;
 /** A server that was restarted is there again within seconds. */
 const TRIES = 6;
 const PAUSE_MS = 1500;
@@ -33,7 +33,7 @@ export async function* readFrames(
   const reader = new FrameReader(hello);
   const frame = reader.createFrame();
   const floats = new Float32Array(frame.words.buffer, HEADER_SIZE);
-  const pieces = piecesOf(span, MOST_IN_PIECE);
+  const pieces = piecesOf(span, MAX_IN_PIECE);
   let coming = ask(pieces[0]);
   for (const [place, piece] of pieces.entries()) {
     const bytes = await coming;

@@ -6,7 +6,7 @@ import { loadWhole } from "../sound";
 /** What encoders of AAC and Opus both take. */
 export const SAMPLE_RATE = 48_000;
 /** As many channels as every player plays. */
-const MOST_CHANNELS = 2;
+const MAX_CHANNELS = 2;
 
 /** Sound, cut to a span. */
 export interface FilmSound {
@@ -63,16 +63,16 @@ export function cutSound(channels: readonly Float32Array[], length: number): Fil
 }
 
 async function decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
-  const context = new OfflineAudioContext(MOST_CHANNELS, 1, SAMPLE_RATE);
+  const context = new OfflineAudioContext(MAX_CHANNELS, 1, SAMPLE_RATE);
   const song = await context.decodeAudioData(bytes).catch(() => {
     throw new Error("This browser cannot decode the song's audio format: make the film without sound, or in another");
   });
-  return song.numberOfChannels <= MOST_CHANNELS ? song : mixDown(song);
+  return song.numberOfChannels <= MAX_CHANNELS ? song : mixDown(song);
 }
 
 /** Surround sound as it is heard from two loudspeakers. */
 function mixDown(song: AudioBuffer): Promise<AudioBuffer> {
-  const context = new OfflineAudioContext(MOST_CHANNELS, song.length, song.sampleRate);
+  const context = new OfflineAudioContext(MAX_CHANNELS, song.length, song.sampleRate);
   const source = new AudioBufferSourceNode(context, { buffer: song });
   source.connect(context.destination);
   source.start();

@@ -31,7 +31,7 @@ const REST_PLACES = { treble: "b/4", bass: "d/3" };
 const [HALF, QUARTER, DOT] = ["\uECA3", "\uECA5", "\uECB7"];
 const [DOUBLE_BAR, FINAL_BAR] = [Barline.type.DOUBLE, Barline.type.END];
 /** Of beams. */
-const MOST_SLOPE = 0.14;
+const MAX_SLOPE = 0.14;
 const TEXT = "Academico, serif";
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -146,7 +146,7 @@ function drawMeasure(
       group.map(({ note }) => note),
       true,
     );
-    Object.assign(beam.renderOptions, { minSlope: -MOST_SLOPE, maxSlope: MOST_SLOPE });
+    Object.assign(beam.renderOptions, { minSlope: -MAX_SLOPE, maxSlope: MAX_SLOPE });
     return beam;
   });
   const voice = new Voice({ numBeats: measure.numerator, beatValue: measure.denominator }).setMode(Voice.Mode.SOFT);

@@ -59,7 +59,7 @@ export interface SegmentedSongParts extends SongShape {
 }
 
 /** So many decoded segments are kept: what is heard, what follows, a loop's begin, and what was heard last. */
-export const MOST_HELD = 6;
+export const MAX_HELD = 6;
 
 /** A song of which a few segments at a time are decoded, so that memory does not grow with its length. */
 export class SegmentedSong implements SongSource {
@@ -121,7 +121,7 @@ export class SegmentedSong implements SongSource {
       if (this.#closed) return;
       this.#held.set(segment, buffer);
       for (const oldest of this.#held.keys()) {
-        if (this.#held.size <= MOST_HELD) break;
+        if (this.#held.size <= MAX_HELD) break;
         if (!this.#wanted.includes(oldest)) this.#held.delete(oldest);
       }
       this.#parts.came();

@@ -8,7 +8,7 @@ export const CROSSFADE_S = 0.02;
 /** So far ahead of its time sound is scheduled: timers of a page in the background come once a second. */
 const SCHEDULED_AHEAD_S = 4;
 /** What would begin sooner than this begins too late. */
-const LEAST_LEAD_S = 0.01;
+const MIN_LEAD_S = 0.01;
 
 interface Scheduled {
   readonly source: AudioBufferSourceNode;
@@ -83,7 +83,7 @@ export class Voice {
         continue;
       }
       const buffer = this.#song.at(part.segment);
-      if (buffer === null || this.until < now + LEAST_LEAD_S) return;
+      if (buffer === null || this.until < now + MIN_LEAD_S) return;
       const before = this.#joins ? CROSSFADE_S / 2 : 0;
       const after = part.joinsNext ? CROSSFADE_S / 2 : 0;
       const begin = this.#next - before;

@@ -28,7 +28,7 @@ export interface NoticeOptions {
 
 const never = (): boolean => false;
 
-/** What the page has to say: one thing at a time, the latest, until it is answered, over or put away. */
+/** What the page has to say: one thing at a time, the latest, until it is answered, over or dismissed. */
 export class Notices {
   current = $state.raw<Notice | null>(null);
   #next = 0;
