@@ -6,6 +6,7 @@ from pydantic import BeforeValidator, Field, Json
 
 from reina.curves.value_types import TypeName
 from reina.instruments import MAX_PLAYERS
+from reina.instruments.note_fingerings import Side
 from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
@@ -14,7 +15,7 @@ from reina.show.document import ShowHead, ShowKeyframe, ShowTrack
 Title = Annotated[str, Field(min_length=1, max_length=200)]
 PlayerName = Annotated[str, Field(min_length=1, max_length=200)]
 PartIndex = Annotated[int, Field(ge=0)]
-Handedness = Literal["right", "left"]
+Handedness = Side
 
 
 def _split_at_commas(text: str) -> list[str]:

@@ -6,7 +6,8 @@ from reina.protocol import generate
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    import re
+from pathlib import Path
 
     import pytest
 
@@ -46,3 +47,15 @@ def test_every_message_is_documented_and_typed() -> None:
         assert f"export interface {model.__name__} " in types
         for field in model.model_fields:
             assert f"| `{field}` |" in text
+
+
+def test_choices_of_the_same_words_have_them_in_one_order() -> None:
+    # typing takes Literals of the same words for equal and keeps the first that it meets: in another order,
+    # what is generated would depend on what was imported before.
+    orders: dict[frozenset[str], set[str]] = {}
+    for path in (generate.ROOT / "server").rglob("*.py"):
+        for words in re.findall(r"\bLiteral\[([^\]]+)\]", path.read_text(encoding="utf-8")):
+            listed = [word.strip() for word in words.split(",") if word.strip()]
+            orders.setdefault(frozenset(listed), set()).add(", ".join(listed))
+    assert len(orders) > 20
+    assert [order for order in orders.values() if len(order) > 1] == []

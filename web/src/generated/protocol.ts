@@ -623,7 +623,7 @@ export interface CastingFields {
   octave_fit?: boolean
   joined_parts?: number[]
   /** Which hand leads, where the instrument can be played so. */
-  handedness?: "right" | "left"
+  handedness?: "left" | "right"
   /** Take no fingering but the usual one of each note. */
   usual_fingerings?: boolean
 }
