@@ -1,13 +1,13 @@
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from reina.protocol import generate
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 
 if TYPE_CHECKING:
-    import re
-from pathlib import Path
+    from pathlib import Path
 
     import pytest
 
