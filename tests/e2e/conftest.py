@@ -15,15 +15,15 @@ from tests.e2e.opened import Opened
 from tests.e2e.shows import WINDOW, ShowPage, made_session, remembering
 from tests.integration.server import Running, serve
 
+from reina.cli.browser import GRAPHICS
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 FIND_BROWSER = Path(__file__).with_name("find_browser.py")
 BROWSER_ARGUMENTS = (
     "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
+    *GRAPHICS,
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",

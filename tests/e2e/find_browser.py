@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from ctypes.util import find_library
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,9 @@ from reina.cli.browser import find_browser as installed_browser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+MESA = ("libegl1", "libgl1-mesa-dri")
+"""What draws in software by EGL."""
 
 
 class BrowserNotFoundError(RuntimeError):
@@ -48,6 +52,7 @@ def install_browser() -> Path:
     """
     found = find_browser()
     if found is not None:
+        _install_graphics()
         return found
     for install in _ways_to_install():
         install()
@@ -59,14 +64,28 @@ def install_browser() -> Path:
 
 def _ways_to_install() -> list[Callable[[], None]]:
     playwright = [_install_with_playwright]
-    if shutil.which("apt-get") is not None and os.geteuid() == 0:
+    if _has_apt():
         return [_install_with_apt, *playwright]
     return playwright
 
 
+def _install_graphics() -> None:
+    """Mesa, where there is no EGL: the browser's own drawing in software is slower."""
+    if sys.platform == "linux" and find_library("EGL") is None and _has_apt():
+        _apt_install(*MESA)
+
+
+def _has_apt() -> bool:
+    return shutil.which("apt-get") is not None and os.geteuid() == 0
+
+
 def _install_with_apt() -> None:
+    _apt_install("chromium", *MESA)
+
+
+def _apt_install(*packages: str) -> None:
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for command in (["apt-get", "update"], ["apt-get", "install", "-y", "chromium"]):
+    for command in (["apt-get", "update"], ["apt-get", "install", "-y", *packages]):
         if subprocess.run(command, env=environment, check=False).returncode != 0:
             return
 

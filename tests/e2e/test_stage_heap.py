@@ -22,7 +22,7 @@ TINY = (240, 136)
 ROUNDS = 8
 """What is kept of every frame is kept in every round; what else a page does now and then is not."""
 
-PICTURES_A_ROUND = 60
+PICTURES_A_ROUND = 240
 KEPT_BYTES_A_FRAME = 400
 """Of each frame that came by, drawn or passed over, as a slow machine must. One is 1.5 kB on the wire, more
 as objects: who kept them would be far above."""

@@ -24,13 +24,14 @@ from tests.e2e.shows import ShowPage, remembering
 from tests.integration.server import serve, upload
 from tests.pictures.gallery import PATIENCE_MS, GalleryPage, vite
 
+from reina.cli.browser import GRAPHICS
+
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
     from tests.integration.server import Running
 
 ROOT = Path(__file__).parents[2]
 IMAGES = ROOT / "docs/images"
-SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PAGE_SIZE = (1280, 720)
 PAGE_MOMENT_S = 1.4
 PAGE_LATEST_S = 6.0
@@ -190,7 +191,7 @@ def main() -> None:
         serve(Path(data)) as server,
         sync_playwright() as playwright,
     ):
-        browser = playwright.chromium.launch(executable_path=browser_path(), args=list(SOFTWARE_GL))
+        browser = playwright.chromium.launch(executable_path=browser_path(), args=["--no-sandbox", *GRAPHICS])
         for name in wanted:
             begun = time.monotonic()
             PICTURES[name](browser, server)

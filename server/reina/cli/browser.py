@@ -25,9 +25,6 @@ APPLICATIONS = (
 )
 """Where browsers stand that are on no PATH."""
 ARGUMENTS = (
-    # Where there is no graphics card, pictures are drawn in software.
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
     # A page that nobody looks at is not to be slowed down.
     "--disable-background-timer-throttling",
     "--disable-renderer-backgrounding",
@@ -38,6 +35,14 @@ ARGUMENTS = (
     "--no-first-run",
 )
 STARTING_MS = 60_000
+GRAPHICS = (
+    # Without a window a browser finds no graphics by itself on Linux. EGL has the card there, or Mesa's drawing
+    # in software, which is three times as fast as the browser's own; that is left where there is no EGL.
+    *(("--use-gl=angle", "--use-angle=gl-egl") if sys.platform == "linux" else ()),
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+)
+"""What a browser without a window draws with."""
 WITHOUT_PLAYWRIGHT = (
     "Playwright, which drives the browser, is not installed: "
     "`make film` installs it, or `pip install playwright` where Reina is installed"
@@ -75,7 +80,7 @@ def headless_browser() -> Generator[Browser]:
             )
         try:
             browser = playwright.chromium.launch(
-                executable_path=path, args=[*ARGUMENTS, *_sandbox()], timeout=STARTING_MS
+                executable_path=path, args=[*GRAPHICS, *ARGUMENTS, *_sandbox()], timeout=STARTING_MS
             )
         except Error as error:
             raise InputError(f"the browser {path} does not start: {error.message.splitlines()[0]}") from error
