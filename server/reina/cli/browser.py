@@ -36,8 +36,8 @@ ARGUMENTS = (
 )
 STARTING_MS = 60_000
 GRAPHICS = (
-    # Without a window a browser finds no graphics by itself on Linux. EGL has the card there, or Mesa's drawing
-    # in software, which is three times as fast as the browser's own; that is left where there is no EGL.
+    # Without a window a browser finds no graphics by itself on Linux. EGL has the card there, or Mesa's
+    # drawing in software, three times as fast as the browser's own; that is left where there is no EGL.
     *(("--use-gl=angle", "--use-angle=gl-egl") if sys.platform == "linux" else ()),
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
