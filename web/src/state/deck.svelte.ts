@@ -8,11 +8,11 @@ import { keyTargetOf, ownsKey } from "./key-owner";
 import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames, type Quality } from "./storage";
+import { SHORTEST_LOOP_S } from "../timeline/loop-span";
 import { CAMERA_PRESETS, type CameraView } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
-const SHORTEST_LOOP_S = 0.25;
 /** How far one key press takes the camera: an angle, radians, and a share of its distance. */
 const ORBIT_STEP = Math.PI / 36;
 const DOLLY_STEP = 0.92;
@@ -33,6 +33,8 @@ export interface DeckHands {
   openFilePicker(): void;
   /** The view that is seen, as a show's camera keys hold it. */
   currentView(): CameraView;
+  /** Zoom the transport's timeline to what is played, or back to all. */
+  zoomTimeline(): void;
   /** Take a key press while the show is open; returns whether it was the editor's. */
   pressInShow(event: KeyboardEvent): boolean;
 }
@@ -67,6 +69,7 @@ export class Deck {
     loopStart: (view) => this.#setLoopStart(view),
     loopEnd: (view) => this.#setLoopEnd(view),
     loopOff: (view) => view.setLoop(view.transport.loop === null ? phraseAt(view) : null),
+    zoom: () => this.hands.zoomTimeline?.(),
     louder: () => this.#changeVolume(VOLUME_STEP),
     quieter: () => this.#changeVolume(-VOLUME_STEP),
     mute: () => this.reina.setVolume(this.reina.volume, !this.reina.muted),
@@ -175,7 +178,14 @@ export class Deck {
 
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
-    else return this.panels.closeLast();
+    else return this.panels.closeLast() || this.#endLoop();
+    return true;
+  }
+
+  #endLoop(): boolean {
+    const { view } = this.reina;
+    if (view?.canControl !== true || view.transport.loop === null) return false;
+    void view.setLoop(null);
     return true;
   }
 

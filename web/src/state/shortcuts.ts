@@ -12,6 +12,7 @@ export type Action =
   | "loopStart"
   | "loopEnd"
   | "loopOff"
+  | "zoom"
   | "louder"
   | "quieter"
   | "mute"
@@ -71,6 +72,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { action: "loopStart", keys: ["["], shown: "[", says: "Loop from here", controls: true },
   { action: "loopEnd", keys: ["]"], shown: "]", says: "Loop to here", controls: true },
   { action: "loopOff", keys: ["l"], shown: "L", says: "Loop this phrase, or end the loop", controls: true },
+  { action: "zoom", keys: ["z"], shown: "Z", says: "Zoom the timeline to the loop, or to these bars; again: all of it" },
   { action: "louder", keys: ["ArrowUp"], shown: "↑", says: "Louder", repeats: true },
   { action: "quieter", keys: ["ArrowDown"], shown: "↓", says: "Quieter", repeats: true },
   { action: "mute", keys: ["m"], shown: "M", says: "Sound off or on" },

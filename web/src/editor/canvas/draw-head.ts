@@ -1,11 +1,15 @@
 import type { Score, WireNote } from "../../generated/protocol";
 import { pitchRange } from "../../state/overview";
 import { clockTime } from "../../state/readout";
+import type { LoopSpan } from "../../timeline/loop-span";
 import type { Peaks } from "../state/peaks.svelte";
 import type { TimeAxis } from "../state/time-axis";
 import { gridLines, timeStep } from "./grid";
 import { font, INK } from "./ink";
 import { headHeight, type Layout } from "./layout";
+
+/** Width of a loop's ends, pixels; they stand outside of it. */
+const LOOP_GRIP = 5;
 
 /** What stands still while keyframes are moved. */
 export interface Ground {
@@ -19,7 +23,7 @@ export interface Ground {
   readonly axis: TimeAxis;
   readonly notes: readonly WireNote[];
   readonly peaks: Peaks | null;
-  readonly loop: { readonly start_s: number; readonly end_s: number } | null;
+  readonly loop: LoopSpan | null;
   readonly markers: readonly { readonly time: number; readonly name: string; readonly chosen: boolean }[];
   /** The rows' stripes: y of their upper edge. */
   readonly rows: readonly { readonly y: number; readonly group: boolean; readonly active: boolean }[];
@@ -59,11 +63,9 @@ function drawRows(context: CanvasRenderingContext2D, ground: Ground): void {
 function drawGrid(context: CanvasRenderingContext2D, ground: Ground): void {
   const { layout, width, height, scale, from } = ground;
   const to = from + width / scale;
-  if (ground.loop !== null) {
-    const x = xOf(ground, ground.loop.start_s);
-    context.fillStyle = INK.brassWash;
-    context.fillRect(x, 0, xOf(ground, ground.loop.end_s) - x, height);
-  }
+  context.fillStyle = INK.stripe;
+  context.fillRect(0, 0, width, layout.loop);
+  if (ground.loop !== null) drawLoop(context, ground, ground.loop);
   context.textBaseline = "alphabetic";
   for (const { time, bar, isBar } of gridLines(ground.score, ground.axis, from, to, scale)) {
     const x = Math.round(xOf(ground, time));
@@ -73,7 +75,7 @@ function drawGrid(context: CanvasRenderingContext2D, ground: Ground): void {
     if (bar === null) continue;
     context.fillStyle = INK.soft;
     context.font = font(11.5, 600);
-    context.fillText(String(bar), x + 5, 14);
+    context.fillText(String(bar), x + 5, layout.loop - 3);
   }
   context.fillStyle = INK.faint;
   context.font = font(9.5);
@@ -86,6 +88,22 @@ function drawGrid(context: CanvasRenderingContext2D, ground: Ground): void {
   context.fillStyle = INK.bar;
   context.fillRect(0, layout.ruler - 1, width, 1);
   context.fillRect(0, headHeight(layout) - 1, width, 1);
+}
+
+/** The loop: a wash over all, a bar along the bar numbers that is taken to move it, and its two ends. */
+function drawLoop(context: CanvasRenderingContext2D, ground: Ground, { start, end }: LoopSpan): void {
+  const { layout, height } = ground;
+  const [from, to] = [xOf(ground, start), xOf(ground, end)];
+  context.fillStyle = INK.brassWash;
+  context.fillRect(from, 0, to - from, height);
+  context.fillStyle = INK.loop;
+  context.fillRect(from, 1, to - from, layout.loop - 2);
+  context.fillStyle = INK.brass;
+  for (const x of [from - LOOP_GRIP, to]) {
+    context.beginPath();
+    context.roundRect(x, 1, LOOP_GRIP, layout.loop - 2, 2);
+    context.fill();
+  }
 }
 
 function drawMusic(context: CanvasRenderingContext2D, ground: Ground): void {

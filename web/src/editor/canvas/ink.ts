@@ -10,6 +10,7 @@ export const INK = {
   brass: "#d9a441",
   light: "#e8bf6e",
   brassWash: "rgb(217 164 65 / 0.16)",
+  loop: "rgb(217 164 65 / 0.34)",
   wave: "rgb(118 150 204 / 0.62)",
   ink: "#14171f",
 } as const;

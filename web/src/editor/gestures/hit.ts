@@ -1,5 +1,6 @@
 import { GRIP } from "../canvas/draw-span";
 import { headHeight, type Layout } from "../canvas/layout";
+import type { LoopPart } from "../../timeline/loop-span";
 import type { Editor } from "../state/editor.svelte";
 import { nearest } from "../state/key-times";
 import type { Row } from "../state/rows";
@@ -11,6 +12,7 @@ export type KeyName = readonly [path: string, key: string];
 /** What lies under a point of the timeline. */
 export type Hit =
   | { readonly kind: "ruler" }
+  | { readonly kind: "loop"; readonly part: LoopPart }
   | { readonly kind: "marker"; readonly index: number }
   | { readonly kind: "span" }
   | { readonly kind: "grip"; readonly side: "start" | "end" }
@@ -25,6 +27,7 @@ const TOGETHER_S = 1e-4;
 export function hitAt(editor: Editor, layout: Layout, x: number, y: number, reach: number): Hit {
   const musicTop = layout.ruler + layout.markers;
   const head = headHeight(layout);
+  if (y < layout.loop) return { kind: "loop", part: loopPartAt(editor, x, reach) };
   if (y < head - layout.span) {
     if (y >= layout.ruler && y < musicTop) {
       const index = markerAt(editor, x);
@@ -36,6 +39,16 @@ export function hitAt(editor: Editor, layout: Layout, x: number, y: number, reac
   if (editor.mode === "curves") return { kind: "row", row: null };
   const row = editor.rows[Math.floor((y - head + editor.scrollTop) / layout.row)] ?? null;
   return (row === null ? null : (hitKeys(editor, row, x, reach) ?? hitShot(editor, row, x))) ?? { kind: "row", row };
+}
+
+function loopPartAt(editor: Editor, x: number, reach: number): LoopPart {
+  const { loop, window } = editor;
+  if (loop === null) return "new";
+  const [from, to] = [window.xOf(loop.start), window.xOf(loop.end)];
+  const inner = Math.min(reach, (to - from) / 3);
+  if (x >= from - reach && x <= from + inner) return "start";
+  if (x >= to - inner && x <= to + reach) return "end";
+  return x > from && x < to ? "whole" : "new";
 }
 
 /** The camera's row shows its shots: what is no key there is one of them. */

@@ -1,12 +1,14 @@
 import { counted, retime } from "../commands/keys";
 import { moveMarker } from "../commands/markers";
 import { headHeight, type Layout } from "../canvas/layout";
+import { LoopDrag } from "../../timeline/loop-drag";
+import type { LoopPart, LoopSpan } from "../../timeline/loop-span";
 import type { Editor } from "../state/editor.svelte";
 import { keysInShot } from "../state/shots";
 import { movedBy, stretched, type Retiming, type Span } from "../state/spans";
 import { hitAt, keysInBox, type Hit, type KeyName } from "./hit";
 import { Seeking } from "./seeking";
-import { Touches } from "./touches";
+import { Touches } from "../../timeline/touches";
 
 /** A pointer's event, with its place in the timeline, pixels. */
 export interface Press {
@@ -16,6 +18,7 @@ export interface Press {
   readonly touch: boolean;
   readonly button: number;
   readonly adds: boolean;
+  readonly shift: boolean;
   readonly alt: boolean;
 }
 
@@ -38,6 +41,7 @@ type Gesture =
       moved: boolean;
     }
   | { readonly kind: "stretch"; readonly held: number; readonly from: number }
+  | { readonly kind: "loop"; readonly drag: LoopDrag; readonly begin: Press; moved: boolean }
   | { readonly kind: "marker"; readonly index: number; readonly begin: Press; moved: boolean }
   | {
       readonly kind: "box";
@@ -69,6 +73,8 @@ export class LaneGestures {
   #gesture: Gesture | null = null;
   #longPress: ReturnType<typeof setTimeout> | undefined;
   box = $state.raw<Box | null>(null);
+  /** The loop as it would be if the pointer let go, song time, seconds. */
+  loop = $state.raw<LoopSpan | null>(null);
   /** Where a marker is while the pointer holds it, song time, seconds. */
   heldMarker = $state.raw<{ readonly index: number; readonly time: number } | null>(null);
 
@@ -130,6 +136,12 @@ export class LaneGestures {
       case "stretch":
         this.#editor.moving = this.#stretching(gesture, press);
         break;
+      case "loop":
+        if (!this.#hasMoved(gesture, press)) break;
+        clearTimeout(this.#longPress);
+        this.#panAtEdges(press);
+        this.loop = gesture.drag.at(window.timeAt(press.x), press.alt);
+        break;
       case "marker":
         if (this.#hasMoved(gesture, press) && this.#editor.editable) {
           this.heldMarker = {
@@ -168,6 +180,9 @@ export class LaneGestures {
       case "stretch":
         this.#place("stretched");
         break;
+      case "loop":
+        void this.#placeLoop(gesture, press);
+        break;
       case "marker":
         if (this.heldMarker !== null) moveMarker(this.#editor, gesture.index, this.heldMarker.time);
         else if (this.#editor.view.canControl)
@@ -190,7 +205,7 @@ export class LaneGestures {
     this.#gesture = null;
     this.#editor.moving = null;
     this.box = null;
-    this.heldMarker = null;
+    this.heldMarker = this.loop = null;
     return was;
   }
 
@@ -215,8 +230,11 @@ export class LaneGestures {
     const editor = this.#editor;
     const { window, span } = editor;
     switch (hit.kind) {
+      case "loop":
+        return this.#beginLoop(press, hit.part);
       case "ruler": {
         if (!editor.view.canControl) return null;
+        if (press.shift) return this.#beginLoop(press, "new");
         const seeking = new Seeking(editor.view);
         seeking.to(editor.snap(Math.max(window.timeAt(press.x), 0), press.alt, 5));
         return { kind: "seek", seeking };
@@ -239,6 +257,24 @@ export class LaneGestures {
         if (press.touch) return { kind: "pan", begin: press, hit, last: press, moved: false };
         return this.#beginBox(press, hit);
     }
+  }
+
+  #beginLoop(press: Press, part: LoopPart): Gesture | null {
+    const { view, loopGrid, loop, window } = this.#editor;
+    if (!view.canControl) return null;
+    const drag = new LoopDrag(loopGrid, part, window.timeAt(press.x), part === "new" ? null : loop);
+    return { kind: "loop", drag, begin: press, moved: false };
+  }
+
+  /** What was drawn becomes the loop; a click ends the loop that it meets, and goes there elsewhere. */
+  async #placeLoop({ drag }: Gesture & { kind: "loop" }, press: Press): Promise<void> {
+    const { view, window } = this.#editor;
+    const { loop } = this;
+    if (loop !== null) {
+      await view.setLoop(loop);
+      if (this.loop === loop) this.loop = null;
+    } else if (drag.part === "whole") await view.setLoop(null);
+    else await view.seek(Math.max(window.timeAt(press.x), 0));
   }
 
   #beginKeys(press: Press, hit: Hit & { kind: "key" }): Gesture | null {
@@ -288,13 +324,18 @@ export class LaneGestures {
   #moveKeys({ anchor, begin, within }: Gesture & { kind: "keys" }, press: Press): void {
     const editor = this.#editor;
     const { window, axis, span } = editor;
-    if (press.x < EDGE) window.pan(-6);
-    else if (press.x > window.width - EDGE) window.pan(6);
+    this.#panAtEdges(press);
     const wanted = anchor + (press.x - begin.x) / window.scale;
     // Nothing stands before the music begins.
     const least = Math.max(anchor - (span?.start ?? 0) + editor.lead, within?.start ?? 0);
     const to = Math.min(Math.max(editor.snap(wanted, press.alt), least), within?.end ?? Infinity);
     editor.moving = movedBy(axis, anchor, to);
+  }
+
+  #panAtEdges(press: Press): void {
+    const { window } = this.#editor;
+    if (press.x < EDGE) window.pan(-6);
+    else if (press.x > window.width - EDGE) window.pan(6);
   }
 
   #stretching(gesture: Gesture & { kind: "stretch" }, press: Press): Retiming {

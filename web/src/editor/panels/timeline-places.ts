@@ -46,7 +46,8 @@ export function timelinePlaces({ editor, lanes, layout, curves, bending, place }
       if (shot === undefined || row < 0) return null;
       return at(span.xOf((shot.start + shot.end) / 2), head + (row + 0.5) * layout.row - editor.scrollTop);
     },
-    time: (songTime) => at(span.xOf(songTime), layout.ruler / 2),
+    time: (songTime) => at(span.xOf(songTime), (layout.loop + layout.ruler) / 2),
+    loop: (songTime) => at(span.xOf(songTime), layout.loop / 2),
     grips() {
       if (editor.span === null) return null;
       const y = head - layout.span / 2;

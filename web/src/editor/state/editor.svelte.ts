@@ -16,7 +16,8 @@ import { ShowStore } from "./show-store.svelte";
 import { snapped, type Snap } from "./snapping";
 import { spanOf, type Retiming, type Span } from "./spans";
 import { TimeAxis } from "./time-axis";
-import { TimeWindow } from "./time-window.svelte";
+import { LoopGrid, type LoopSpan } from "../../timeline/loop-span";
+import { TimeWindow } from "../../timeline/time-window.svelte";
 
 export type Mode = "keys" | "curves";
 
@@ -65,6 +66,12 @@ export class Editor {
     this.curves = new CurveReader(this.reina.api, view.id, view.token);
   }
 
+  /** What loops are drawn to, and the loop that there is. */
+  readonly loopGrid = $derived.by(() => new LoopGrid(this.view.score.bar_lines_s, this.view.duration));
+  readonly loop: LoopSpan | null = $derived.by(() => {
+    const { loop } = this.view.transport;
+    return loop === null ? null : { start: loop.start_s, end: loop.end_s };
+  });
   readonly axis = $derived.by(() => new TimeAxis(this.view.score));
   readonly times = $derived.by(() => new KeyTimes(this.axis, this.store.document?.time ?? "seconds"));
   readonly rows: readonly Row[] = $derived.by(() => rowsOf(this.store.document, this.closed));

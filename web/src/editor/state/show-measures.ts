@@ -14,6 +14,8 @@ export interface TimelinePlaces {
   shot(index: number): Point | null;
   /** The ruler at a song time, seconds. */
   time(songTime: number): Point;
+  /** The strip along which loops are drawn, at a song time, seconds. */
+  loop(songTime: number): Point;
   /** The bar over the chosen keyframes: its two grips. */
   grips(): readonly [Point, Point] | null;
   /** Whether the curves on screen are those of the show as the server has it. */
