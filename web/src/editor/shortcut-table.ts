@@ -3,7 +3,7 @@
 export type EditorAction =
   | "undo" | "redo" | "add" | "cameraKey" | "marker" | "all" | "none" | "copy" | "cut" | "paste" | "duplicate" | "remove"
   | "before" | "after" | "nudgeBack" | "nudgeOn" | "frameBack" | "frameOn" | "barBack" | "barOn"
-  | "mode" | "snap" | "showChosen" | "showAll" | "closer" | "further" | "mute" | "solo";
+  | "mode" | "snap" | "showChosen" | "showAll" | "closer" | "further" | "mute" | "solo" | "find" | "menu";
 
 export interface EditorShortcut {
   readonly action: EditorAction;
@@ -53,6 +53,9 @@ export const EDITOR_SHORTCUTS: readonly EditorShortcut[] = [
   { action: "further", keys: ["-"], shown: "−", says: "Zoom out" },
   { action: "mute", keys: ["m"], shift: true, shown: "Shift M", says: "Mute the chosen track", everywhere: true, edits: true },
   { action: "solo", keys: ["s"], shift: true, shown: "Shift S", says: "Solo the chosen track", everywhere: true, edits: true },
+  { action: "find", keys: ["f"], ctrl: true, shown: "Ctrl F", says: "Find a track" },
+  { action: "menu", keys: ["F10"], shift: true, shown: "Shift F10", says: "Menu of what is chosen" },
+  { action: "menu", keys: ["ContextMenu"], shown: "Menu key", says: "Menu of what is chosen" },
 ];
 
 /** What `title` says of a control: what it does, and its key. */

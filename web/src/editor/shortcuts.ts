@@ -60,6 +60,8 @@ const ACTIONS: Readonly<Record<EditorAction, (editor: Editor) => void>> = {
   solo: (editor) => {
     if (editor.active !== null) soloTrack(editor, editor.active);
   },
+  find: (editor) => (editor.searchWanted += 1),
+  menu: (editor) => editor.openMenuHere(),
 };
 
 function zoomAtPlayhead({ window, view }: Editor, factor: number): void {
@@ -74,7 +76,7 @@ export function runEditorAction(editor: Editor, action: EditorAction): void {
 /** Take a key press; returns whether it was the editor's. `within`: the keyboard's focus is in the editor. */
 export function pressEditorKey(editor: Editor, event: KeyboardEvent, within: boolean): boolean {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  const letter = /^[a-z]$/.test(key) || key.startsWith("Arrow") || key === "Enter";
+  const letter = /^[a-z]$/.test(key) || key.startsWith("Arrow") || key === "Enter" || key === "F10";
   const shortcut = EDITOR_SHORTCUTS.find(
     (each) =>
       each.keys.includes(key) &&

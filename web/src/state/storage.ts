@@ -23,6 +23,9 @@ export interface Remembered {
   readonly panels: readonly string[];
   /** Height of the show's editor, pixels; 0 for what suits the window. */
   readonly editorHeight: number;
+  /** Where the show's editor stands, and its width at a side, pixels; 0 for what suits the window. */
+  readonly editorDock: "foot" | "left" | "right";
+  readonly editorWidth: number;
   /** Groups of tracks that are folded up. */
   readonly closedGroups: readonly string[];
   /** Whether keyframes are drawn to places, and to which. */
@@ -51,6 +54,8 @@ const NOTHING: Remembered = {
   muted: false,
   panels: [],
   editorHeight: 0,
+  editorDock: "foot",
+  editorWidth: 0,
   closedGroups: [],
   snapping: true,
   snaps: ["bars", "beats", "keys", "markers"],

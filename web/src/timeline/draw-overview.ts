@@ -8,7 +8,11 @@ export interface OverviewNotes {
   /** What nobody on the stage plays. */
   readonly others: readonly WireNote[];
   /** Each player's line, a place in the cast; who is followed comes last, over the others. */
-  readonly lines: readonly { readonly player: number; readonly followed: boolean; readonly notes: readonly WireNote[] }[];
+  readonly lines: readonly {
+    readonly player: number;
+    readonly followed: boolean;
+    readonly notes: readonly WireNote[];
+  }[];
   /** The lowest and the highest pitch. */
   readonly range: readonly [number, number];
 }

@@ -52,7 +52,13 @@ export class LoopGrid {
 
   /** The bar around a song time. */
   bar(time: number): LoopSpan {
-    const index = Math.min(Math.max(this.#lines.findLastIndex((line) => line <= time + SAME_S), 0), this.#lines.length - 2);
+    const index = Math.min(
+      Math.max(
+        this.#lines.findLastIndex((line) => line <= time + SAME_S),
+        0,
+      ),
+      this.#lines.length - 2,
+    );
     return this.#held(this.#at(index), this.#at(index + 1));
   }
 

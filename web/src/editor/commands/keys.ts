@@ -1,12 +1,14 @@
+import type { ShowParameter } from "../../generated/protocol";
 import type { CameraView } from "../../scene";
 import { copied, freshKey, pasted, type Copied } from "../state/clipboard";
 import type { Editor } from "../state/editor.svelte";
-import type { Changes, Edit } from "../state/edits";
+import { withEdits, type Changes, type Edit } from "../state/edits";
 import { nearest } from "../state/key-times";
-import { shownPath } from "../state/parameter-value";
+import { hasCurve } from "../state/component-values";
+import { shownPath, valueOf } from "../state/parameter-value";
 import { groupOf } from "../state/rows";
 import { byTrack, keysOf } from "../state/selection.svelte";
-import type { ShowTrack } from "../state/show-document";
+import { trackOf, type ShowTrack } from "../state/show-document";
 import { movedBy, stretched, type Retiming } from "../state/spans";
 
 /** What was copied last, on whatever session. */
@@ -17,9 +19,12 @@ export function copiedCount(): number {
   return clipboard?.count ?? 0;
 }
 
-/** Put a keyframe of each parameter at the playhead; one that stands there takes the value instead. */
-function keysHere(editor: Editor, values: readonly (readonly [path: string, value: unknown])[]): void {
-  const at = editor.playhead;
+/** Put a keyframe of each parameter at a song time; one that stands there takes the value instead. */
+function keysHere(
+  editor: Editor,
+  values: readonly (readonly [path: string, value: unknown])[],
+  at = editor.playhead,
+): void {
   const { document } = editor.store;
   if (document === null) return;
   const keys: [string, string][] = [];
@@ -72,6 +77,48 @@ export function addKeyHere(editor: Editor, path = editor.active): void {
   editor.look(parameter.path);
 }
 
+/** A keyframe on a track at a song time, seconds, with the value that its keyframes give it there. */
+export async function addKeyAt(editor: Editor, path: string, at: number): Promise<void> {
+  const parameter = editor.parameter(path);
+  const track = editor.track(path);
+  if (parameter === null || track === null || !editor.editable) return;
+  try {
+    const value = await valueThere(editor, track, parameter, at);
+    keysHere(editor, [[path, value]], at);
+    editor.look(path);
+  } catch (error) {
+    editor.reina.tell(error);
+  }
+}
+
+/** The value of a track at a song time without its answer to the music, as the server samples it. */
+async function valueThere(editor: Editor, track: ShowTrack, parameter: ShowParameter, at: number): Promise<unknown> {
+  if (hasCurve(parameter)) {
+    const { document } = editor.store;
+    const silent: Edit = { edit: "change_track", parameter: parameter.path, changes: { events: null } };
+    const draft = document === null ? null : withEdits(document, [silent], editor.axis);
+    const alone = trackOf(draft, parameter.path) ?? track;
+    const curve = await editor.curves.preview(alone, at, at + 1 / editor.fps, 2);
+    const values = curve?.values.map(([first = 0]) => Number(first.toPrecision(6)));
+    if (values !== undefined) return valueOf(parameter, values);
+  }
+  // What has no curve jumps: it is what the keyframe before says.
+  const before = editor.times.of(track).findLastIndex((time) => time <= at);
+  return track.keyframes[Math.max(before, 0)]?.value ?? parameter.default;
+}
+
+/** Choose the keyframes of some tracks, all of them or those from a song time on. */
+export function chooseKeys(editor: Editor, tracks: readonly ShowTrack[], from = -Infinity): void {
+  editor.selection.set(
+    tracks.flatMap((track) => {
+      const times = editor.times.of(track);
+      const keys = track.keyframes.filter((_, index) => (times[index] ?? 0) >= from);
+      return keys.map(({ key }) => [track.parameter, key] as const);
+    }),
+  );
+  editor.said = `${editor.selection.size} keyframes chosen`;
+}
+
 /** Keyframes of the camera's four tracks from a view, as one step. */
 export function addCameraKeys(editor: Editor, view: CameraView): void {
   keysHere(editor, [
@@ -87,11 +134,10 @@ function short(value: number): number {
   return Number(value.toFixed(5));
 }
 
+/** Choose the keyframes of all tracks, or of those that are sought. */
 export function selectAll(editor: Editor): void {
-  editor.selection.set(
-    editor.known.flatMap(({ parameter, keyframes }) => keyframes.map(({ key }) => [parameter, key] as const)),
-  );
-  editor.said = `${editor.selection.size} keyframes chosen`;
+  const { found, known } = editor;
+  chooseKeys(editor, found === null ? known : known.filter(({ parameter }) => found.has(parameter)));
 }
 
 export function removeKeys(editor: Editor): void {

@@ -2,12 +2,12 @@ import type { Editor } from "../state/editor.svelte";
 import type { Marker } from "../../generated/show";
 import type { Edit } from "../state/edits";
 
-/** A marker at the playhead. */
-export function addMarker(editor: Editor): void {
+/** A marker at a song time, seconds. */
+export function addMarker(editor: Editor, at = editor.playhead): void {
   const { document } = editor.store;
   if (document === null) return;
   const markers = document.markers ?? [];
-  const time = editor.axis.toTrackTime(document.time, editor.playhead);
+  const time = editor.axis.toTrackTime(document.time, at);
   const marker = { time, name: `Marker ${markers.length + 1}` };
   put(editor, "Marker added", [...markers, marker]);
   editor.marker = (editor.store.document?.markers ?? []).findIndex((each) => each.time === time);

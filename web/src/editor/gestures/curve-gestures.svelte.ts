@@ -84,6 +84,28 @@ export class CurveGestures {
     return true;
   }
 
+  /** The track whose curve runs at a point, or null. */
+  trackAt(press: Press): CurvedTrack | null {
+    const time = this.#editor.window.timeAt(press.x);
+    const near = this.#view.tracks.flatMap((shown) => {
+      const { curve } = shown;
+      if (curve === null) return [];
+      return curve.values.map((values) => {
+        const share = (time - curve.from) / Math.max(curve.to - curve.from, 1e-9);
+        const value = values[Math.round(share * (values.length - 1))] ?? Infinity;
+        return { shown, distance: Math.abs(yOf(this.#place(), shown, value) - press.y) };
+      });
+    });
+    const [best] = near.sort((a, b) => a.distance - b.distance);
+    return best === undefined || best.distance > REACH_TOUCH ? null : best.shown;
+  }
+
+  /** The keyframe under a point: its track's path and its key. */
+  keyAt(press: Press): [path: string, key: string] | null {
+    const hit = this.#keyAt(press, press.touch ? REACH_TOUCH : REACH);
+    return hit === null ? null : [hit.shown.track.parameter, hit.key];
+  }
+
   move(press: Press, straight: boolean): void {
     const held = this.#held;
     if (held === null || !this.#editor.editable) return;

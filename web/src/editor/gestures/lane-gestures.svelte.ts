@@ -6,6 +6,7 @@ import type { LoopPart, LoopSpan } from "../../timeline/loop-span";
 import type { Editor } from "../state/editor.svelte";
 import { keysInShot } from "../state/shots";
 import { movedBy, stretched, type Retiming, type Span } from "../state/spans";
+import { LONG_PRESS_MS } from "./touch";
 import { hitAt, keysInBox, type Hit, type KeyName } from "./hit";
 import { Seeking } from "./seeking";
 import { Touches } from "../../timeline/touches";
@@ -56,7 +57,6 @@ type Gesture =
 /** From here on a press is a drag, pixels. */
 const DRAG = 3;
 const DRAG_TOUCH = 8;
-const LONG_PRESS_MS = 420;
 const FINGER = 22;
 /** What a neighbour of a shot that is moved keeps, seconds. */
 const SHORTEST_SHOT_S = 0.25;
@@ -72,6 +72,8 @@ export class LaneGestures {
   readonly #touches = new Touches();
   #gesture: Gesture | null = null;
   #longPress: ReturnType<typeof setTimeout> | undefined;
+  /** A finger has rested so long that, let go where it is, it asks for the menu. */
+  #rested = false;
   box = $state.raw<Box | null>(null);
   /** The loop as it would be if the pointer let go, song time, seconds. */
   loop = $state.raw<LoopSpan | null>(null);
@@ -103,9 +105,12 @@ export class LaneGestures {
     if (press.button !== 0) return;
     const hit = this.hit(press);
     this.#gesture = this.#begin(press, hit);
-    if (press.touch && this.#gesture?.kind === "pan") {
+    this.#rested = false;
+    if (press.touch) {
       this.#longPress = setTimeout(() => {
         navigator.vibrate(12);
+        this.#rested = true;
+        if (this.#gesture?.kind !== "pan") return;
         this.#gesture = this.#beginBox(press, hit);
         // A box around the finger says that it has begun.
         this.box = { x0: press.x - FINGER, y0: press.y - FINGER, x1: press.x + FINGER, y1: press.y + FINGER };
@@ -163,12 +168,21 @@ export class LaneGestures {
     }
   }
 
-  up(press: Press): void {
+  /** The pointer lets go; returns whether it asks for the menu, as a finger does that has rested. */
+  up(press: Press): boolean {
     clearTimeout(this.#longPress);
     if (press.touch) this.#touches.up(press.id);
     const gesture = this.#gesture;
+    if (this.#rested && gesture !== null && !("moved" in gesture && gesture.moved)) {
+      this.cancel();
+      return true;
+    }
     this.#gesture = null;
-    if (gesture === null) return;
+    if (gesture !== null) this.#end(gesture, press);
+    return false;
+  }
+
+  #end(gesture: Gesture, press: Press): void {
     switch (gesture.kind) {
       case "seek":
         gesture.seeking.end();

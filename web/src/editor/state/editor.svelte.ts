@@ -6,7 +6,9 @@ import { remember, remembered } from "../../state/storage";
 import { CurveReader } from "./curves.svelte";
 import { readEasingShapes, type EasingShape } from "./easing-shapes";
 import type { Edit } from "./edits";
+import { findParameters, type Described } from "./find-parameters";
 import { KeyTimes } from "./key-times";
+import type { OpenMenu } from "./menu";
 import { valueOnScreen } from "./parameter-value";
 import { rowsOf, type Row } from "./rows";
 import { keysOf, Selection, type ChosenKey } from "./selection.svelte";
@@ -39,10 +41,20 @@ export class Editor {
   snaps = $state.raw<ReadonlySet<Snap>>(new Set(remembered().snaps));
   /** What the pointer moves; the show is edited once it lets go. */
   moving = $state.raw<Retiming | null>(null);
+  /** The words of the tracks that are sought. */
+  sought = $state("");
+  /** The menu that is open, and where in the window. */
+  menu = $state.raw<OpenMenu | null>(null);
+  /** Raised whenever the value of what is chosen is to be typed. */
+  valueWanted = $state(0);
+  /** Raised whenever a track is to be sought. */
+  searchWanted = $state(0);
+  /** Opens the menu of what the keyboard is at on the timeline; filled by what draws it. */
+  openMenuHere: () => void = () => undefined;
   /** How far the rows are scrolled, pixels. */
   scrollTop = $state(0);
-  /** Path of the track whose row is to be brought on screen. */
-  rowWanted = $state<string | null>(null);
+  /** The track whose row is to be brought on screen, and whether the keyboard's focus goes there. */
+  rowWanted = $state.raw<{ readonly path: string; readonly focus: boolean } | null>(null);
   /** Every interpolation by its name, with its options; as the server describes them. */
   ways = $state.raw<ReadonlyMap<string, Interpolation>>(new Map());
   /** How each interpolation runs, as the server samples it. */
@@ -74,7 +86,15 @@ export class Editor {
   });
   readonly axis = $derived.by(() => new TimeAxis(this.view.score));
   readonly times = $derived.by(() => new KeyTimes(this.axis, this.store.document?.time ?? "seconds"));
-  readonly rows: readonly Row[] = $derived.by(() => rowsOf(this.store.document, this.closed));
+  /** Paths of the tracks that are sought; null while nothing is. */
+  readonly found: ReadonlySet<string> | null = $derived.by(() => {
+    if (this.sought.trim() === "") return null;
+    const tracks = (this.store.document?.tracks ?? []).map(
+      ({ parameter: path }): Described => this.parameter(path) ?? { path, documentation: "", type: "number" },
+    );
+    return new Set(findParameters(tracks, this.sought).map(({ path }) => path));
+  });
+  readonly rows: readonly Row[] = $derived.by(() => rowsOf(this.store.document, this.closed, this.found));
   readonly chosen: readonly ChosenKey[] = $derived.by(() => this.selection.keysOf(this.store.document));
   readonly span: Span | null = $derived.by(() => spanOf(this.axis, this.times, this.chosen));
   /** The keys that move when the chosen ones do, by track: cuts stay whole. */
@@ -204,9 +224,10 @@ export class Editor {
     remember({ closedGroups: [...closed] });
   }
 
-  /** Scroll to a track's row, in the middle where there is room. */
-  revealRow(path: string): void {
-    this.rowWanted = path;
+  /** Scroll to a track's row, in the middle where there is room; `focus` takes the keyboard there. */
+  revealRow(path: string, focus = false): void {
+    if (this.found?.has(path) === false) this.sought = "";
+    this.rowWanted = { path, focus };
   }
 
   /** Look at a track, whatever of it is chosen. */
@@ -219,6 +240,11 @@ export class Editor {
   chooseTrack(path: string): void {
     this.look(path);
     this.selection.chooseTrack(path);
+  }
+
+  /** Open a menu at a place in the window, pixels; without any entry there is none. */
+  openMenu(menu: OpenMenu): void {
+    if (menu.entries.length > 0) this.menu = menu;
   }
 
   /** Ask the server what interpolations there are. */

@@ -35,6 +35,9 @@ const SYNONYMS: Readonly<Record<string, readonly string[]>> = {
   visible: ["show", "hide", "on", "off"],
 };
 
+/** What of a parameter is searched. */
+export type Described = Pick<ShowParameter, "path" | "documentation" | "type">;
+
 /** How well a word that is sought fits, the best first. */
 const FITS = ["whole", "start", "synonym", "within", "described"] as const;
 type Fit = (typeof FITS)[number];
@@ -45,7 +48,7 @@ type Fit = (typeof FITS)[number];
  * A word counts most where the path has it, as a whole or at a word's start, then where people call the thing so, then
  * within the path, and least where only the description has it. All words must fit.
  */
-export function findParameters(parameters: readonly ShowParameter[], sought: string): ShowParameter[] {
+export function findParameters<T extends Described>(parameters: readonly T[], sought: string): T[] {
   const words = sought
     .toLowerCase()
     .split(/[\s/_]+/)
@@ -60,7 +63,7 @@ export function findParameters(parameters: readonly ShowParameter[], sought: str
 }
 
 /** Index in FITS of the best fit; -1 for none. */
-function rankOf({ path, documentation, type }: ShowParameter, word: string): number {
+function rankOf({ path, documentation, type }: Described, word: string): number {
   const inPath = shownPath(path).toLowerCase().split(" ");
   const called = inPath.flatMap((each) => SYNONYMS[each] ?? []);
   const fits: Record<Fit, boolean> = {

@@ -6,6 +6,11 @@ export function valueOnScreen(manifest: Manifest, floats: Float32Array, paramete
   if (place === undefined) return parameter.default;
   const from = (place.offset - HEADER_SIZE) / 4;
   const values = [...floats.subarray(from, from + place.length)].map((value) => Number(value.toPrecision(6)));
+  return valueOf(parameter, values);
+}
+
+/** What a parameter's value is called in a show's JSON. */
+export function valueOf(parameter: ShowParameter, values: readonly number[]): unknown {
   const [first = 0] = values;
   switch (parameter.type) {
     case "number":
@@ -19,7 +24,7 @@ export function valueOnScreen(manifest: Manifest, floats: Float32Array, paramete
     case "transform":
       return { position: values.slice(0, 3), orientation: values.slice(3, 7), scale: values.slice(7, 10) };
     default:
-      return values;
+      return [...values];
   }
 }
 

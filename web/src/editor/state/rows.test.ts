@@ -13,6 +13,10 @@ it("rows are groups by the first word, with the tracks of open ones", () => {
     row.kind === "group" ? `[${row.name}]` : row.track.parameter,
   );
   expect(named).toEqual(["[camera]", "camera/fov", "camera/roll", "[blocks]"]);
+
+  // What is sought is seen, whatever is folded up.
+  const found = rowsOf(document, new Set(["blocks"]), new Set(["blocks/color"]));
+  expect(found.map((row) => row.kind)).toEqual(["group", "track"]);
 });
 
 it("another player's tracks are a group of their own", () => {

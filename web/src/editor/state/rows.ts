@@ -18,17 +18,27 @@ export function nameInGroup(path: string): string {
   return shownPath(words.slice(words[0] === "players" ? 2 : 1).join("/"));
 }
 
-/** The rows of a show: groups in the order of their first track, the tracks of open ones below them. */
-export function rowsOf(document: ShowDocument | null, closed: ReadonlySet<string>): Row[] {
+/**
+ * The rows of a show: groups in the order of their first track, the tracks of open ones below them.
+ *
+ * @param closed names of the groups that are folded up.
+ * @param found paths of the tracks that are sought, whose groups are all open; null for all tracks.
+ */
+export function rowsOf(
+  document: ShowDocument | null,
+  closed: ReadonlySet<string>,
+  found: ReadonlySet<string> | null = null,
+): Row[] {
   const groups = new Map<string, ShowTrack[]>();
   for (const track of document?.tracks ?? []) {
+    if (found !== null && !found.has(track.parameter)) continue;
     const name = groupOf(track.parameter);
     const tracks = groups.get(name);
     if (tracks === undefined) groups.set(name, [track]);
     else tracks.push(track);
   }
   return [...groups].flatMap(([name, tracks]): Row[] => {
-    const open = !closed.has(name);
+    const open = found !== null || !closed.has(name);
     const heading: Row = { kind: "group", name, open, tracks };
     return open ? [heading, ...tracks.map((track): Row => ({ kind: "track", group: name, track }))] : [heading];
   });
