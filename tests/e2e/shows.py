@@ -67,7 +67,7 @@ class ShowPage:
 
     def afresh(self) -> ShowPage:
         """Put the show above there again, and open the editor anew."""
-        self.page.evaluate("document.querySelector('[aria-label=\"Close the show\"]').click()")
+        self.page.evaluate("document.querySelector('[aria-label=\"Close the show\"]')?.click()")
         self.opened.until("window.reina.show === undefined")
         self.client.put(self.path, json=SHOW, headers=self.headers).raise_for_status()
         self.seek(0.0)

@@ -36,6 +36,8 @@ export interface ShowMeasures extends TimelinePlaces {
   readonly chosen: readonly (readonly [string, string])[];
   /** How many keyframes the page shows in all. */
   readonly keyframes: number;
+  /** Song time of the loop's ends; nothing without one. */
+  readonly looped: readonly number[];
   /** Song time at the left edge and at the right one. */
   readonly window: readonly [number, number];
 }
@@ -68,6 +70,9 @@ export function publishShow(editor: Editor, places: TimelinePlaces): () => void 
     },
     get keyframes() {
       return (store.document?.tracks ?? []).reduce((sum, { keyframes }) => sum + keyframes.length, 0);
+    },
+    get looped() {
+      return editor.loop === null ? [] : [editor.loop.start, editor.loop.end];
     },
     get window() {
       return [span.from, span.to] as const;
