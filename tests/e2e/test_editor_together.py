@@ -132,6 +132,29 @@ def test_fingers_drag_pan_and_zoom(visit: Visit, client: httpx.Client) -> None:
     touch("touchEnd")
     assert sorted(show.measure("chosen")) == [[HAZE, "h1"], [EXPOSURE, "k2"], [EXPOSURE, "k3"]]
 
+    # One that rests on a keyframe and is lifted asks for its menu.
+    menu = show.page.get_by_role("menu")
+    touch("touchStart", show.key(EXPOSURE, "k1"))
+    show.page.wait_for_selector(".lanes[data-rested=true]")
+    touch("touchEnd")
+    menu.get_by_text("Remove", exact=True).wait_for()
+    assert show.measure("chosen") == [[EXPOSURE, "k1"]]
+    touch("touchStart", (edge, below))
+    touch("touchEnd")
+    menu.wait_for(state="hidden")
+
+    # A finger along the bar numbers draws a loop, and a tap on it ends it.
+    loop = "(time) => window.reina.show.loop(time)"
+    (x0, y0), (x1, y1) = [tuple(show.page.evaluate(loop, time).values()) for time in (4.3, 9.6)]
+    touch("touchStart", (x0, y0))
+    touch("touchMove", ((x0 + x1) / 2, y1))
+    touch("touchMove", (x1, y1))
+    touch("touchEnd")
+    show.opened.until("window.reina.show.looped.join() === '4,10'")
+    touch("touchStart", ((x0 + x1) / 2, y1))
+    touch("touchEnd")
+    show.opened.until("window.reina.show.looped.length === 0")
+
     begin, end = show.measure("window")
     middle = (show.ruler(begin)[0] + show.ruler(end)[0]) / 2
     held = (begin + end) / 2

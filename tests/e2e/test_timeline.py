@@ -111,7 +111,9 @@ def test_loops_are_dragged_on_the_editors_ruler_and_its_place_is_chosen(free: Sh
         return point["x"], point["y"]
 
     def until_loop(*ends: float) -> None:
-        free.opened.until("(ends) => JSON.stringify(window.reina.show.looped) === JSON.stringify(ends)", list(ends))
+        free.opened.until(
+            "(ends) => JSON.stringify(window.reina.show.looped) === JSON.stringify(ends)", list(ends)
+        )
 
     free.drag(strip(2.2), strip(7.8))
     until_loop(2, 8)

@@ -2,7 +2,7 @@ import type { SessionView } from "../state/session-view.svelte";
 import { LoopDrag } from "./loop-drag";
 import { LoopGrid, type LoopPart, type LoopSpan } from "./loop-span";
 import type { TimeWindow } from "./time-window.svelte";
-import { Touches } from "./touches";
+import { buzz, LONG_PRESS_MS, Touches } from "./touches";
 
 /** A pointer's event, with its place on the timeline, pixels. */
 export interface OverviewPress {
@@ -24,7 +24,6 @@ const DRAG_PAUSE_MS = 120;
 /** From here on a press is a drag, pixels. */
 const DRAG = 4;
 const DRAG_TOUCH = 8;
-const LONG_PRESS_MS = 420;
 /** This near to an edge, a drag moves a zoomed timeline on, pixels. */
 const EDGE = 14;
 
@@ -73,7 +72,7 @@ export class OverviewGestures {
     this.#seek(press.x, true);
     if (!press.touch) return;
     this.#longPress = setTimeout(() => {
-      navigator.vibrate(12);
+      buzz();
       this.sought = null;
       this.#begin(press, "new");
       this.loop = this.grid.bar(this.#timeAt(press.x));

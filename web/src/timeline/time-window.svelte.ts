@@ -18,7 +18,7 @@ export class TimeWindow {
   /** Seconds that there are to see. */
   duration = $state(1);
   readonly #tight: boolean;
-  #followed: number | null = null;
+  #followed: { readonly songTime: number; readonly playing: boolean } | null = null;
 
   /** @param tight whether nothing but the piece comes on screen: no air beside it, and no zooming out beyond it. */
   constructor({ tight = false }: { tight?: boolean } = {}) {
@@ -83,17 +83,19 @@ export class TimeWindow {
   }
 
   /**
-   * Keep the playhead in view where it leaves it by itself or is put elsewhere. Who has moved away from it stays there,
-   * also while a loop brings it back again and again.
+   * Keep the playhead in view where it leaves it by itself, is put elsewhere or sets out. Who moves away from it then
+   * stays there, also while a loop brings it back again and again.
    *
    * @param songTime of the playhead, seconds.
    */
-  follow(songTime: number, loop: LoopSpan | null): void {
+  follow(songTime: number, playing: boolean, loop: LoopSpan | null): void {
     const before = this.#followed;
-    this.#followed = songTime;
-    if (before === null || this.#sees(before)) this.reveal(songTime);
-    else if (Math.abs(songTime - before) > JUMP_S && !(holds(loop, before) && holds(loop, songTime)))
-      this.reveal(songTime);
+    this.#followed = { songTime, playing };
+    if (before === null) return;
+    const jumps = Math.abs(songTime - before.songTime) > JUMP_S;
+    const loops = holds(loop, before.songTime) && holds(loop, songTime);
+    const begins = playing && !before.playing;
+    if (begins || this.#sees(before.songTime) || (jumps && !loops)) this.reveal(songTime);
   }
 
   get #margin(): number {

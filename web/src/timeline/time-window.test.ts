@@ -63,15 +63,18 @@ describe("a window that shows nothing but the piece", () => {
   it("follows a playhead that leaves it, and not one that was left", () => {
     const window = tight();
     window.show(0, 10);
-    window.follow(9.99, null);
-    window.follow(10.01, null);
+    window.follow(9.99, true, null);
+    window.follow(10.01, true, null);
     expect(window.from).toBeCloseTo(9.01, 6);
     window.pan(6000);
     const away = window.from;
-    window.follow(10.1, null);
-    window.follow(5, { start: 5, end: 11 });
+    window.follow(10.1, true, null);
+    window.follow(5, true, { start: 5, end: 11 });
     expect(window.from).toBe(away);
-    window.follow(30, null);
+    window.follow(30, false, null);
+    expect(window.from).toBeCloseTo(29, 6);
+    window.pan(6000);
+    window.follow(30, true, null);
     expect(window.from).toBeCloseTo(29, 6);
   });
 });

@@ -1,3 +1,6 @@
+/** A finger that rests so long means more than a tap. */
+export const LONG_PRESS_MS = 420;
+
 interface Point {
   readonly x: number;
   readonly y: number;
@@ -9,6 +12,11 @@ export interface Pinch {
   readonly dx: number;
   readonly dy: number;
   readonly factor: number;
+}
+
+/** Let a finger feel that its long press is taken, where the device can. */
+export function buzz(): void {
+  if ("vibrate" in navigator) navigator.vibrate(12);
 }
 
 /** Nearer to each other than this, two fingers do not zoom, pixels. */

@@ -6,10 +6,9 @@ import type { LoopPart, LoopSpan } from "../../timeline/loop-span";
 import type { Editor } from "../state/editor.svelte";
 import { keysInShot } from "../state/shots";
 import { movedBy, stretched, type Retiming, type Span } from "../state/spans";
-import { LONG_PRESS_MS } from "./touch";
 import { hitAt, keysInBox, type Hit, type KeyName } from "./hit";
 import { Seeking } from "./seeking";
-import { Touches } from "../../timeline/touches";
+import { buzz, LONG_PRESS_MS, Touches } from "../../timeline/touches";
 
 /** A pointer's event, with its place in the timeline, pixels. */
 export interface Press {
@@ -73,7 +72,7 @@ export class LaneGestures {
   #gesture: Gesture | null = null;
   #longPress: ReturnType<typeof setTimeout> | undefined;
   /** A finger has rested so long that, let go where it is, it asks for the menu. */
-  #rested = false;
+  rested = $state(false);
   box = $state.raw<Box | null>(null);
   /** The loop as it would be if the pointer let go, song time, seconds. */
   loop = $state.raw<LoopSpan | null>(null);
@@ -105,11 +104,11 @@ export class LaneGestures {
     if (press.button !== 0) return;
     const hit = this.hit(press);
     this.#gesture = this.#begin(press, hit);
-    this.#rested = false;
+    this.rested = false;
     if (press.touch) {
       this.#longPress = setTimeout(() => {
-        navigator.vibrate(12);
-        this.#rested = true;
+        buzz();
+        this.rested = true;
         if (this.#gesture?.kind !== "pan") return;
         this.#gesture = this.#beginBox(press, hit);
         // A box around the finger says that it has begun.
@@ -173,7 +172,9 @@ export class LaneGestures {
     clearTimeout(this.#longPress);
     if (press.touch) this.#touches.up(press.id);
     const gesture = this.#gesture;
-    if (this.#rested && gesture !== null && !("moved" in gesture && gesture.moved)) {
+    const rested = this.rested;
+    this.rested = false;
+    if (rested && gesture !== null && !("moved" in gesture && gesture.moved)) {
       this.cancel();
       return true;
     }

@@ -3,8 +3,9 @@ import { remember, remembered } from "../../state/storage";
 /** Where the editor stands: at the foot of the window, or aside. */
 export type Dock = "foot" | "left" | "right";
 
-/** A window that is narrower has no room beside the stage, pixels. */
-export const LEAST_WINDOW = 960;
+/** A window that is narrower has no room beside the stage, and a lower one none for rows and values, pixels. */
+const LEAST_WINDOW = 960;
+const LEAST_ROOM = 250;
 const LEAST_HEIGHT = 210;
 const LEAST_WIDTH = 400;
 /** What is left to the stage at least, pixels. */
@@ -21,7 +22,7 @@ export class DockPlace {
 
   /** Whether there is a choice. */
   get movable(): boolean {
-    return this.window.width >= LEAST_WINDOW;
+    return this.window.width >= LEAST_WINDOW && this.window.room >= LEAST_ROOM;
   }
 
   get dock(): Dock {
@@ -48,7 +49,7 @@ export class DockPlace {
     const { width, room, narrow } = this.window;
     const { least, most } = this.bounds;
     const wanted = this.aside ? this.#width : this.#height;
-    const foot = narrow ? room * 0.62 : Math.min(room * 0.52, USUAL_HEIGHT);
+    const foot = narrow ? room * 0.8 : Math.min(room * 0.67, USUAL_HEIGHT);
     const usual = this.aside ? width * 0.36 : foot;
     return Math.round(Math.min(Math.max(wanted > 0 ? wanted : usual, least), most));
   }
