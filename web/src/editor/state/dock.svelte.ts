@@ -4,8 +4,7 @@ import { remember, remembered } from "../../state/storage";
 export type Dock = "foot" | "left" | "right";
 
 /** A window that is narrower has no room beside the stage, and a lower one none for rows and values, pixels. */
-const LEAST_WINDOW = 960;
-const LEAST_ROOM = 250;
+const LEAST_WINDOW = { width: 960, height: 600 };
 const LEAST_HEIGHT = 210;
 const LEAST_WIDTH = 400;
 /** What is left to the stage at least, pixels. */
@@ -18,11 +17,13 @@ export class DockPlace {
   #height = $state(remembered().editorHeight);
   #width = $state(remembered().editorWidth);
   /** Size of the window, and the height that there is at its foot at most, pixels. */
-  window = $state.raw({ width: 0, room: 0, narrow: false });
+  window = $state.raw({ width: 0, height: 0, room: 0, narrow: false });
 
   /** Whether there is a choice. */
   get movable(): boolean {
-    return this.window.width >= LEAST_WINDOW && this.window.room >= LEAST_ROOM;
+    // The room at the foot is no measure: it depends on the transport, and that on where the editor stands.
+    const { width, height } = this.window;
+    return width >= LEAST_WINDOW.width && height >= LEAST_WINDOW.height;
   }
 
   get dock(): Dock {
