@@ -71,6 +71,7 @@ export class LaneGestures {
   readonly #touches = new Touches();
   #gesture: Gesture | null = null;
   #longPress: ReturnType<typeof setTimeout> | undefined;
+  #pressed: Press | null = null;
   /** A finger has rested so long that, let go where it is, it asks for the menu. */
   rested = $state(false);
   box = $state.raw<Box | null>(null);
@@ -105,6 +106,7 @@ export class LaneGestures {
     const hit = this.hit(press);
     this.#gesture = this.#begin(press, hit);
     this.rested = false;
+    this.#pressed = press;
     if (press.touch) {
       this.#longPress = setTimeout(() => {
         buzz();
@@ -127,6 +129,11 @@ export class LaneGestures {
         return;
       }
     }
+    const begin = this.#pressed;
+    if (begin !== null && Math.hypot(press.x - begin.x, press.y - begin.y) >= DRAG_TOUCH) {
+      clearTimeout(this.#longPress);
+      this.rested = false;
+    }
     const gesture = this.#gesture;
     if (gesture === null) return;
     const { window } = this.#editor;
@@ -142,7 +149,6 @@ export class LaneGestures {
         break;
       case "loop":
         if (!this.#hasMoved(gesture, press)) break;
-        clearTimeout(this.#longPress);
         this.#panAtEdges(press);
         this.loop = gesture.drag.at(window.timeAt(press.x), press.alt);
         break;
@@ -159,7 +165,6 @@ export class LaneGestures {
         break;
       case "pan":
         if (!this.#hasMoved(gesture, press)) break;
-        clearTimeout(this.#longPress);
         window.pan(gesture.last.x - press.x);
         this.#scroll(gesture.last.y - press.y);
         gesture.last = press;
@@ -174,7 +179,7 @@ export class LaneGestures {
     const gesture = this.#gesture;
     const rested = this.rested;
     this.rested = false;
-    if (rested && gesture !== null && !("moved" in gesture && gesture.moved)) {
+    if (rested && gesture !== null) {
       this.cancel();
       return true;
     }
