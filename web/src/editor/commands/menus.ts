@@ -40,7 +40,10 @@ export function keysMenu(editor: Editor): MenuEntry[] {
       says: tracks.length === 1 ? "Choose all of this track" : "Choose all of these tracks",
       run: () => chooseKeys(editor, tracks),
     },
-    { says: "Choose these tracks from here on", run: () => chooseKeys(editor, tracks, span.start - 1e-6) },
+    {
+      says: tracks.length === 1 ? "Choose this track from here on" : "Choose these tracks from here on",
+      run: () => chooseKeys(editor, tracks, span.start - 1e-6),
+    },
     "line",
     ...loopItems(editor, span.start, chosen.length > 1 ? span : null),
     goItem(editor, span.start),
