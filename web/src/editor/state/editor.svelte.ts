@@ -36,6 +36,8 @@ export class Editor {
   closed = $state.raw<ReadonlySet<string>>(new Set(remembered().closedGroups));
   snapping = $state(remembered().snapping);
   snaps = $state.raw<ReadonlySet<Snap>>(new Set(remembered().snaps));
+  /** Whether each unit's curves fill the room by themselves. */
+  normalised = $state(remembered().normalised);
   /** What the pointer moves; the show is edited once it lets go. */
   moving = $state.raw<Retiming | null>(null);
   /** How far the rows are scrolled, pixels. */
@@ -180,6 +182,11 @@ export class Editor {
   setSnapping(on: boolean): void {
     this.snapping = on;
     remember({ snapping: on });
+  }
+
+  setNormalised(on: boolean): void {
+    this.normalised = on;
+    remember({ normalised: on });
   }
 
   toggleSnap(snap: Snap): void {
