@@ -118,11 +118,7 @@ export function drawCurve(context: CanvasRenderingContext2D, place: CurvesPlace,
 const NAME_HEIGHT = 13;
 
 /** What each line is, where it leaves the screen; names that would lie over one another stand apart. */
-export function drawNames(
-  context: CanvasRenderingContext2D,
-  place: CurvesPlace,
-  shown: readonly CurvedTrack[],
-): void {
+export function drawNames(context: CanvasRenderingContext2D, place: CurvesPlace, shown: readonly CurvedTrack[]): void {
   const names = shown.flatMap((each) => {
     const { curve, parameter } = each;
     if (curve === null) return [];
@@ -182,7 +178,7 @@ export function drawCurveKeys(
       context.lineTo(x, y + size);
       context.lineTo(x - size, y);
       context.closePath();
-      context.fillStyle = isChosen ? INK.brass : (inkOf(shown, component));
+      context.fillStyle = isChosen ? INK.brass : inkOf(shown, component);
       context.globalAlpha = shown.active || isChosen ? 1 : 0.6;
       context.fill();
       if (isChosen) {

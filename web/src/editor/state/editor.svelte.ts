@@ -8,6 +8,7 @@ import { readEasingShapes, type EasingShape } from "./easing-shapes";
 import type { Edit } from "./edits";
 import { KeyTimes } from "./key-times";
 import { valueOnScreen } from "./parameter-value";
+import type { PitchReading } from "./pitch-names";
 import { rowsOf, type Row } from "./rows";
 import { keysOf, Selection, type ChosenKey } from "./selection.svelte";
 import { shotsOf, withCuts, type Shot } from "./shots";
@@ -141,6 +142,19 @@ export class Editor {
   /** Song time of a keyframe, seconds. */
   songTimeOf({ track, keyframe }: ChosenKey): number {
     return this.axis.toSongTime(this.times.unitOf(track), keyframe.time);
+  }
+
+  /** How the pitches of a part, or of the first player's, are called as the page calls notes. */
+  pitchReading(part: number | undefined): PitchReading {
+    const { score, cast } = this.view;
+    const own = part ?? cast.castings[0]?.part ?? score.part;
+    const note = this.deck.noteNames === "written" ? score.notes.find((each) => each.part === own) : undefined;
+    const key = score.keys[0];
+    return {
+      above: note === undefined ? 0 : note.written_pitch - note.sounding_pitch,
+      fifths: key?.fifths ?? 0,
+      minor: key?.name.endsWith("minor") ?? false,
+    };
   }
 
   /** A parameter's value in the picture that was drawn last. */

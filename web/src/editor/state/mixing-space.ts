@@ -29,7 +29,11 @@ const ROOTS_FROM_LAB = inverse(LAB_FROM_ROOTS);
 
 const OKLAB: MixingSpace = {
   to: (linear) => times(LAB_FROM_ROOTS, each(times(LMS_FROM_LINEAR, linear), Math.cbrt)),
-  from: (point) => times(LINEAR_FROM_LMS, each(times(ROOTS_FROM_LAB, point), (root) => root ** 3)),
+  from: (point) =>
+    times(
+      LINEAR_FROM_LMS,
+      each(times(ROOTS_FROM_LAB, point), (root) => root ** 3),
+    ),
 };
 
 export function mixingSpaceOf({ color_space }: Pick<ShowTrack, "color_space">): MixingSpace {
