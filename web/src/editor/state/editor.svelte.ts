@@ -39,6 +39,8 @@ export class Editor {
   snaps = $state.raw<ReadonlySet<Snap>>(new Set(remembered().snaps));
   /** Whether each unit's curves fill the room by themselves. */
   normalised = $state(remembered().normalised);
+  /** The camera's path is drawn in the picture, whatever is chosen. */
+  pathShown = $state(false);
   /** What the pointer moves; the show is edited once it lets go. */
   moving = $state.raw<Retiming | null>(null);
   /** How far the rows are scrolled, pixels. */
