@@ -81,10 +81,10 @@ export class LookLibrary {
   }
 
   #free(title: string, others: readonly KeptLook[] = this.looks): string {
-    const taken = new Set(others.map((each) => each.title));
+    const taken = others.map((each) => each.title);
     const wanted = title.trim() === "" ? "Look" : title.trim();
-    if (!taken.has(wanted)) return wanted;
-    for (let number = 2; ; number += 1) if (!taken.has(`${wanted} ${number}`)) return `${wanted} ${number}`;
+    if (!taken.includes(wanted)) return wanted;
+    for (let number = 2; ; number += 1) if (!taken.includes(`${wanted} ${number}`)) return `${wanted} ${number}`;
   }
 
   #keep(looks: readonly KeptLook[]): void {

@@ -86,7 +86,7 @@ function readPitch(text: string, reading: PitchReading): number {
   }
   const called = letter.toUpperCase() + accidentals.replaceAll("b", "♭").replaceAll("#", "♯");
   if (octave === undefined) throw new PitchError(`${called} is in every octave. Write which: ${called}4.`);
-  const altered = [...accidentals].reduce((sum, each) => sum + (ACCIDENTALS[each] ?? 0), 0);
+  const altered = Array.from(accidentals).reduce((sum, each) => sum + (ACCIDENTALS[each] ?? 0), 0);
   const written = (Number(octave) + 1) * 12 + (SEMITONES[letter.toUpperCase()] ?? 0) + altered;
   const sounding = written - reading.above;
   if (sounding < 0 || sounding > HIGHEST) {
