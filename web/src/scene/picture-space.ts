@@ -3,6 +3,7 @@
 import { Box3, PerspectiveCamera, Sphere, Vector3 } from "three";
 
 import type { CameraPreset } from "./camera-presets";
+import { ROOM } from "./room/plan";
 import { aim, type ShowPose } from "./camera";
 
 /** A place in the world, metres. */
@@ -25,7 +26,12 @@ export interface ShowCamera {
 const ASPECT = 16 / 9;
 /** The player's middle, which an overview always has in it. */
 const MIDDLE: Place = [0, 1, 0];
-const OVERVIEW = { direction: new Vector3(-0.62, 0.42, 0.66).normalize(), fov: 0.8, nearest: 3, furthest: 7 };
+const OVERVIEW = { direction: new Vector3(-0.5, 0.4, 0.76).normalize(), fov: 0.8, nearest: 2.6, furthest: 7 };
+/** An overview stands inside of the room, off its walls and its lamps, metres. */
+const WITHIN = new Box3(
+  new Vector3(1 - ROOM.halfWidth, 0.5, 1 + ROOM.back),
+  new Vector3(ROOM.halfWidth - 1, 2.9, ROOM.front - 1),
+);
 
 /** What is seen of places of the world through a camera on a canvas of some CSS pixels. */
 export class PictureSpace {
@@ -81,6 +87,6 @@ export function overview(places: readonly Place[]): CameraPreset {
   const sphere = box.getBoundingSphere(new Sphere());
   const { direction, fov, nearest, furthest } = OVERVIEW;
   const distance = Math.min(Math.max(sphere.radius / Math.sin(fov / 2), nearest), furthest);
-  const position = direction.clone().multiplyScalar(distance).add(sphere.center);
+  const position = direction.clone().multiplyScalar(distance).add(sphere.center).clamp(WITHIN.min, WITHIN.max);
   return { name: "overview", title: "Overview", position: position.toArray(), target: sphere.center.toArray(), fov };
 }
