@@ -10,7 +10,7 @@ from reina.api.http.access import Store, Watched
 from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, LightMood, LightMoodList, ShowParameterList
-from reina.stage import LIGHT_MOODS
+from reina.stage import LIGHT_MOODS, MOOD_REST
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,7 +46,10 @@ def _listed(registry: ParameterRegistry, streamed: Sequence[Parameter]) -> ShowP
 async def list_moods() -> LightMoodList:
     """Lights for a whole piece, in the order in which they are offered."""
     return LightMoodList(
-        moods=[LightMood(name=mood.name, title=mood.title, values=dict(mood.values)) for mood in LIGHT_MOODS]
+        moods=[
+            LightMood(name=mood.name, title=mood.title, values=dict(mood.values), rest=list(MOOD_REST))
+            for mood in LIGHT_MOODS
+        ]
     )
 
 

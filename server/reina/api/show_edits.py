@@ -43,6 +43,12 @@ EXAMPLE: list[dict[str, Any]] = [
     {"edit": "change_track", "parameter": "camera/fov", "changes": {"after": "loop", "muted": True}},
     {"edit": "copy_track", "parameter": "camera/fov", "to": "camera/roll"},
     {"edit": "remove_track", "parameter": "camera/roll"},
+    {
+        "edit": "apply_look",
+        "look": {"values": {"lights/key/intensity": 0.4, "lights/haze": 1}, "rest": ["lights"]},
+        "at": 8,
+        "time": "bars",
+    },
     {"edit": "change_show", "changes": {"markers": [{"time": 8, "name": "Refrain"}]}},
 ]
 

@@ -520,12 +520,14 @@ class ShowParameterList(WireModel):
 
 
 class LightMood(WireModel):
-    """A light for a whole piece; to choose one is to give each of its parameters a track of one keyframe."""
+    """A light to choose; the edit `apply_look` takes its `values` and `rest`."""
 
     name: str
     title: str
     values: dict[str, float | str | list[float]]
-    """Parameters, each with the value that it has throughout; the other lights are as they are at rest."""
+    """Parameters, each with its value."""
+    rest: list[str]
+    """Parameters, or beginnings of their paths, that go back to their defaults where they have no value."""
 
 
 class LightMoodList(WireModel):

@@ -15,6 +15,7 @@ from reina.show.document import Marker, ShowKeyframe, ShowTrack
 from reina.show.errors import MAX_FAULTS, ShowError, together
 from reina.show.event_response import EventResponse
 from reina.show.faults import show_error
+from reina.show.look import Look
 from reina.show.model import ShowModel, Text, read_later
 from reina.show.show import Show
 from reina.show.show_draft import ShowDraft
@@ -188,6 +189,25 @@ class RemoveTrack(ShowModel):
         draft.remove_track(self.parameter)
 
 
+class ApplyLook(ShowModel):
+    """Many parameters given values at once, from a time on or throughout."""
+
+    edit: Literal["apply_look"]
+    look: Look
+    at: Number | None = None
+    """From when on: what was before stays, and each track goes on to its next keyframe from there. Throughout
+    where it is not given: what the tracks were is gone."""
+    time: TimeUnit | None = None
+    """The unit of `at`; the show's where it is not given."""
+
+    def make(self, draft: ShowDraft) -> None:
+        """Do it to a draft."""
+        if self.at is None:
+            self.look.put_throughout(draft)
+        else:
+            self.look.put_at(draft, self.at, self.time or draft.show.time)
+
+
 class ChangeShow(ShowModel):
     """What a show has beside its tracks, changed."""
 
@@ -208,6 +228,7 @@ Edit = Annotated[
     | ChangeTrack
     | CopyTrack
     | RemoveTrack
+    | ApplyLook
     | ChangeShow,
     Field(discriminator="edit"),
 ]

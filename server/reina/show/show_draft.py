@@ -52,6 +52,11 @@ class ShowDraft:
         check_size(show)
         return show
 
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The parameters that have a track, unknown ones too."""
+        return tuple(self._tracks)
+
     def track(self, parameter: Parameter) -> TrackDraft:
         """A track to be edited.
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from reina.curves.arrays import FloatArray
+from reina.curves.interpolation import interpolation_name
 from reina.curves.keyframe import Keyframe
 from reina.curves.parameter import Parameter
 from reina.curves.value_types import LARGEST
@@ -26,6 +27,8 @@ SAME_TIME = 1e-6
 DEFAULTS: Mapping[str, Any] = {field.name: field.default for field in fields(Track)}
 RATE_STEP = 1e-4
 """Of a unit: over so much of the time the tempo at a keyframe is measured."""
+CUT_S = 0.02
+"""What ends in a jump ends so much before it, seconds: within a frame of it, and told apart in an editor."""
 DIGITS = 9
 """Decimals of times that are worked out, so that 0.1 + 0.2 is written as 0.3."""
 
@@ -156,6 +159,54 @@ class TrackDraft:
                 changes["value"] = self._value_moved(keyframe.value, value_by)
             self._keyframes[keyframe.key] = replace(keyframe, **changes)
 
+    def jump(self, at_s: float, value: Any, time_map: TimeMap) -> None:
+        """Give it a value from a time on, by a jump; what was before stays as it was.
+
+        What was on its way to a keyframe behind is ended just before, straight, where it had come to.
+
+        Args:
+            at_s: When, seconds.
+            value: What it is from there on, as JSON has it.
+            time_map: How the music's time runs.
+        """
+        at, ended, begin = time_map.from_seconds(np.array([at_s, at_s - CUT_S, 0.0]), self.time).tolist()
+        at, ended, begin = round(at, DIGITS), round(ended, DIGITS), round(begin, DIGITS)
+        times = sorted(keyframe.time for keyframe in self._keyframes.values())
+        earlier = [time for time in times if time < at - SAME_TIME]
+        if at > begin + SAME_TIME:
+            if not earlier:
+                self._end(begin, "step", time_map)
+            elif earlier[-1] < ended and self._is_moving(at):
+                self._end(ended, "linear", time_map)
+        document = {"time": at, "value": value, "interpolation": "step"}
+        self.add(document, replaces=True, time_map=time_map)
+
+    def take_over(self, other: "TrackDraft", at_s: float, show_time: TimeUnit, time_map: TimeMap) -> None:
+        """Move as another track does from a time on; what was before stays, what it stands on gives way.
+
+        Args:
+            other: Of the same parameter, with a keyframe at least; its times count from there.
+            at_s: When, seconds.
+            show_time: The unit of the show.
+            time_map: How the music's time runs.
+        """
+        keys = list(other._keyframes)
+        by = float(time_map.from_seconds(np.array([at_s]), other.time)[0])
+        other.move(keys, by=by, about=0.0, factor=1.0, unit=other.time, time_map=time_map, value_by=None)
+        other.change_head({"time": self.time}, show_time, time_map)
+        placed = sorted(other._keyframes.values(), key=lambda keyframe: keyframe.time)
+        first, last = placed[0], placed[-1]
+        first_s = float(time_map.to_seconds(np.array([first.time]), self.time)[0])
+        self.jump(first_s, keyframe_document(first)["value"], time_map)
+        for key, keyframe in list(self._keyframes.items()):
+            if first.time + SAME_TIME <= keyframe.time <= last.time + SAME_TIME:
+                del self._keyframes[key]
+        (begun,) = self._standing_at([first.time])
+        self._keyframes[begun] = replace(self._keyframes[begun], out_tangent=first.out_tangent)
+        for keyframe in placed[1:]:
+            key = self._next_key()
+            self._keyframes[key] = replace(keyframe, key=key)
+
     def change_head(self, changes: Mapping[str, Any], show_time: TimeUnit, time_map: TimeMap) -> None:
         """Change what a track has beside its keyframes; None takes a field back to its default.
 
@@ -216,6 +267,18 @@ class TrackDraft:
     def _next_key(self) -> str:
         """The next of k1, k2 and so on that no keyframe has."""
         return next(key for n in self._numbers if (key := f"k{n}") not in self._keyframes)
+
+    def _end(self, time: float, interpolation: str, time_map: TimeMap) -> None:
+        """Add a keyframe with the value that the others have at its time."""
+        usable = interpolation if self.parameter.interpolates else "step"
+        self.add({"time": time, "interpolation": usable}, replaces=True, time_map=time_map)
+
+    def _is_moving(self, time: float) -> bool:
+        """Whether a time lies before a keyframe that is come to otherwise than by a jump."""
+        behind = [keyframe for keyframe in self._keyframes.values() if keyframe.time > time - SAME_TIME]
+        if not behind:
+            return self._head.after != "hold"
+        return interpolation_name(min(behind, key=lambda keyframe: keyframe.time)) != "step"
 
     def _value_at(self, time: float, time_map: TimeMap) -> Any:
         """What the keyframes say at a time of the track, as JSON has it."""

@@ -32,6 +32,9 @@ def _dark(**lights: tuple[str | None, float]) -> dict[str, Any]:
     return {**off, **levels, **colors}
 
 
+MOOD_REST = ("lights", "stage/fog/density")
+"""What goes back to rest where a mood says nothing of it: parameters, or beginnings of their paths."""
+
 LIGHT_MOODS: tuple[LightMood, ...] = (
     LightMood(
         "afternoon",

@@ -88,6 +88,15 @@ FIELDS: dict[str, st.SearchStrategy[Any]] = {
     "replace": st.booleans(),
     "track": tracks,
     "keyframes": st.dictionaries(paths, st.lists(keys, max_size=3), max_size=3),
+    "look": st.fixed_dictionaries(
+        {},
+        optional={
+            "values": st.dictionaries(paths, values, max_size=3),
+            "tracks": st.lists(tracks, max_size=2),
+            "rest": st.lists(st.sampled_from(["camera", "look/style", "no", ""]), max_size=2),
+        },
+    ),
+    "at": st.one_of(st.none(), numbers),
     "by": numbers,
     "time": times,
     "value_by": values,

@@ -732,12 +732,14 @@ export interface KeysFingering {
   keys: string[]
 }
 
-/** A light for a whole piece; to choose one is to give each of its parameters a track of one keyframe. */
+/** A light to choose; the edit apply_look takes its values and rest. */
 export interface LightMood {
   name: string
   title: string
-  /** Parameters, each with the value that it has throughout; the other lights are as they are at rest. */
+  /** Parameters, each with its value. */
   values: Record<string, number | string | number[]>
+  /** Parameters, or beginnings of their paths, that go back to their defaults where they have no value. */
+  rest: string[]
 }
 
 /** The span of song time that is played over and over. */

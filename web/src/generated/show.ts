@@ -116,6 +116,19 @@ export interface RemoveTrack {
   readonly parameter: string
 }
 
+/** Many parameters given values at once, from a time on or throughout. */
+export interface ApplyLook {
+  readonly edit: "apply_look"
+  readonly look: Look
+  /**
+   * From when on: what was before stays, and each track goes on to its next keyframe from there. Throughout
+   * where it is not given: what the tracks were is gone.
+   */
+  readonly at?: number
+  /** The unit of at; the show's where it is not given. */
+  readonly time?: "seconds" | "beats" | "bars"
+}
+
 /** What a show has beside its tracks, changed. */
 export interface ChangeShow {
   readonly edit: "change_show"
@@ -151,6 +164,19 @@ export interface EventResponse {
   readonly blend?: "replace" | "add" | "multiply" | "max"
   /** Values that take turns: the first from the first event on, the second from the second on. */
   readonly cycle?: readonly unknown[]
+}
+
+/** Values and movements to put into a show; what a show's parameters do not know of it is left out. */
+export interface Look {
+  /** By parameter, each as the parameter has it. */
+  readonly values?: Readonly<Record<string, unknown>>
+  /** Tracks of keyframes without events; their times count from where the look is put. */
+  readonly tracks?: readonly ShowTrack[]
+  /**
+   * Parameters, or beginnings of their paths, that go back to their defaults where they have no value and
+   * no track here: lights for all lights.
+   */
+  readonly rest?: readonly string[]
 }
 
 /** A named place, in the show's unit of time. */
@@ -280,4 +306,5 @@ export type Edit =
   | ChangeTrack
   | CopyTrack
   | RemoveTrack
+  | ApplyLook
   | ChangeShow

@@ -80,6 +80,11 @@ export class StageCamera {
     return this.camera.position.distanceTo(this.#taken ? this.#controls.target : this.show.target);
   }
 
+  /** Of the canvas, CSS pixels. */
+  get size(): { readonly width: number; readonly height: number } {
+    return { width: this.#width, height: this.#height };
+  }
+
   resize(width: number, height: number): void {
     this.#width = Math.max(1, width);
     this.#height = Math.max(1, height);

@@ -8,3 +8,4 @@ export { playedScore, type ScoreNote, type ScoreView } from "./score";
 export { Stage, type StageOptions } from "./stage";
 export type { Tier } from "./tiers";
 export { RigError } from "../rig";
+export type { PicturePoint, Place, ShowCamera } from "./picture-space";

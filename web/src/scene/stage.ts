@@ -15,6 +15,7 @@ import { type InsetPlace, ValvesInset } from "./inset";
 import { StageLights } from "./lights";
 import { PlayerLook } from "./look";
 import { Picture } from "./picture";
+import { overview, PictureSpace, type PicturePoint, type Place, type ShowCamera } from "./picture-space";
 import { Players } from "./players";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
@@ -57,6 +58,9 @@ export class Stage {
   readonly #show: ShowBinding;
   /** Where less motion is wanted. */
   readonly #still: StillShots | null;
+  readonly #space: PictureSpace;
+  /** Told after each picture. */
+  onPicture: (() => void) | null = null;
   readonly #caster = new Raycaster();
   readonly #shade = new Color();
   #models: RigModel[] = [];
@@ -103,6 +107,7 @@ export class Stage {
       onChange: () => this.#drawSoon(),
     });
     this.#camera.camera.layers.enable(OUTLINE_LAYER);
+    this.#space = new PictureSpace(this.#camera.camera, () => this.#camera.size);
     this.#picture = new Picture(this.#renderer, this.#tier, transparent);
     this.#show = new ShowBinding({
       renderer: this.#renderer,
@@ -261,6 +266,7 @@ export class Stage {
     this.#drawnFrom.copy(camera.position);
     this.#changed = false;
     this.#pictures += 1;
+    this.onPicture?.();
     if (this.#camera.moving) this.#drawSoon();
     return true;
   }
@@ -352,6 +358,31 @@ export class Stage {
   playerAt(x: number, y: number): number | null {
     this.#caster.setFromCamera(new Vector2(2 * x - 1, 1 - 2 * y), this.#camera.camera);
     return this.#players.pick(this.#caster.ray);
+  }
+
+  /** Take the camera to where some places of the world and the players are seen, from above and from the side. */
+  viewPlaces(places: readonly Place[]): void {
+    this.#camera.view(overview(places));
+  }
+
+  /** Where a place of the world is in the picture that was drawn last, CSS pixels; null behind the camera. */
+  pointOf(place: Place): PicturePoint | null {
+    return this.#space.pointOf(place);
+  }
+
+  /** A place of the world moved along the picture by so many CSS pixels. */
+  movedInPicture(place: Place, right: number, down: number): [number, number, number] {
+    return this.#space.moved(place, right, down);
+  }
+
+  /** The show's own camera: where it stands and looks, and the corners of what it sees, so many metres before it. */
+  showCamera(distance: number): ShowCamera {
+    const { show } = this.#camera;
+    return {
+      position: show.position.toArray(),
+      target: show.target.toArray(),
+      corners: this.#space.cornersOf(show, distance),
+    };
   }
 
   /** The view that is seen, as a show's camera keys hold it: metres and radians, the field of view for 16:9. */

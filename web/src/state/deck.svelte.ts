@@ -9,7 +9,7 @@ import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames, type Quality } from "./storage";
 import { SHORTEST_LOOP_S } from "../timeline/loop-span";
-import { CAMERA_PRESETS, type CameraView } from "../scene";
+import { CAMERA_PRESETS, type CameraView, type PicturePoint, type Place, type ShowCamera } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -35,6 +35,16 @@ export interface DeckHands {
   currentView(): CameraView;
   /** Zoom the transport's timeline to what is played, or back to all. */
   zoomTimeline(): void;
+  /** To where some places of the world are seen. */
+  viewPlaces(places: readonly Place[]): void;
+  /** Where a place of the world is in the picture, CSS pixels; null behind the camera. */
+  pointOf(place: Place): PicturePoint | null;
+  /** A place of the world moved along the picture by so many CSS pixels. */
+  movedInPicture(place: Place, right: number, down: number): [number, number, number];
+  /** The show's own camera, and the corners of what it sees, so many metres before it. */
+  showCamera(distance: number): ShowCamera;
+  /** Told after each picture, by the stage. */
+  pictureDrawn(): void;
   /** Take a key press while the show is open; returns whether it was the editor's. */
   pressInShow(event: KeyboardEvent): boolean;
 }

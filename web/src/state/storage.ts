@@ -31,6 +31,8 @@ export interface Remembered {
   /** Whether keyframes are drawn to places, and to which. */
   readonly snapping: boolean;
   readonly snaps: readonly ("bars" | "beats" | "keys" | "markers" | "frames")[];
+  /** Whether curves of different units each fill the room. */
+  readonly normalised: boolean;
   /** Notes are called as written for the trumpet, or as they sound. */
   readonly noteNames: NoteNames;
   /** What parts are printed on; null for what is usual where the person is. */
@@ -59,6 +61,7 @@ const NOTHING: Remembered = {
   closedGroups: [],
   snapping: true,
   snaps: ["bars", "beats", "keys", "markers"],
+  normalised: true,
   noteNames: "written",
   paper: null,
   quality: "automatic",

@@ -1,7 +1,8 @@
-import { shownNumber, shownUnit } from "../state/parameter-value";
+import { shownNumber, shownPath, shownUnit } from "../state/parameter-value";
 import { componentNames, componentsOf } from "../state/component-values";
 import type { CurvedTrack } from "../state/curve-view.svelte";
 import type { Handle } from "../state/curve-handles";
+import { scaleName } from "../state/value-scales";
 import { COMPONENT_INK, font, INK } from "./ink";
 
 /** Where curves are drawn, and what is held. */
@@ -29,26 +30,68 @@ export function valueAt({ top, height }: CurvesPlace, { low, high }: CurvedTrack
   return low + (1 - (y - top - PAD) / (height - 2 * PAD)) * (high - low);
 }
 
-/** The scale of the track that is looked at. */
-export function drawScale(context: CanvasRenderingContext2D, place: CurvesPlace, shown: CurvedTrack): void {
+const COLUMN = 46;
+
+/**
+ * The scales of what is drawn: lines for the one that is looked at, and beside its numbers those of the other units.
+ *
+ * @param shown the one that is looked at comes last.
+ * @param normalised whether each unit has its own scale; otherwise all share one, of plain numbers.
+ */
+export function drawScales(
+  context: CanvasRenderingContext2D,
+  place: CurvesPlace,
+  shown: readonly CurvedTrack[],
+  normalised: boolean,
+): void {
+  const scales = new Map<string, CurvedTrack>();
+  for (const each of [...shown].reverse()) {
+    const name = normalised ? scaleName(each.parameter) : "";
+    if (!scales.has(name)) scales.set(name, each);
+  }
+  const plain = !normalised && new Set(shown.map(({ parameter }) => parameter.unit)).size > 1;
+  [...scales].forEach(([name, each], column) => {
+    const x = 6 + column * COLUMN;
+    if (x + COLUMN > place.width / 2) return;
+    drawScale(context, place, each, { x, lines: column === 0, unit: plain ? "" : each.parameter.unit });
+    if (scales.size === 1) return;
+    context.fillStyle = inkOf(each, 0);
+    context.font = font(10, 600);
+    context.fillText(name, x, place.top + 11);
+  });
+}
+
+function drawScale(
+  context: CanvasRenderingContext2D,
+  place: CurvesPlace,
+  shown: CurvedTrack,
+  { x, lines, unit }: { x: number; lines: boolean; unit: string },
+): void {
   const { low, high, parameter } = shown;
   const step = niceStep((high - low) / Math.max(place.height / 42, 1), parameter.unit);
   context.font = font(10);
   for (let value = Math.ceil(low / step) * step; value <= high; value += step) {
     const y = Math.round(yOf(place, shown, value));
+    // The name of the scale stands there.
+    if (!lines && y < place.top + 24) continue;
     context.fillStyle = INK.line;
-    context.fillRect(0, y, place.width, 1);
-    context.fillStyle = INK.soft;
-    const text = `${Number(shownNumber(value, parameter.unit).toPrecision(4))}${parameter.unit === "" ? "" : ` ${shownUnit(parameter.unit)}`}`;
-    context.fillText(text, 6, y - 3);
+    if (lines) context.fillRect(0, y, place.width, 1);
+    context.fillStyle = lines ? INK.soft : INK.faint;
+    const number = Number(shownNumber(value, parameter.unit).toPrecision(4));
+    context.fillText(unit === "" ? `${number}` : `${number} ${shownUnit(unit)}`, x, y - 3);
   }
+}
+
+/** The ink of a curve: a value's components each have one, and so have numbers that are drawn together. */
+function inkOf({ parameter, place }: CurvedTrack, component: number): string {
+  const first = parameter.type === "number" ? place : 0;
+  return COMPONENT_INK[(first + component) % COMPONENT_INK.length] ?? INK.paper;
 }
 
 /** One track's curves, a line a component, broken where the value jumps. */
 export function drawCurve(context: CanvasRenderingContext2D, place: CurvesPlace, shown: CurvedTrack): void {
-  const { curve, parameter } = shown;
+  const { curve } = shown;
   if (curve === null) return;
-  const names = componentNames(parameter);
   curve.values.forEach((values, component) => {
     if (values.length === 0) return;
     const step = values.length > 1 ? (curve.to - curve.from) / (values.length - 1) : 0;
@@ -65,30 +108,49 @@ export function drawCurve(context: CanvasRenderingContext2D, place: CurvesPlace,
       } else context.lineTo(x, y);
     });
     context.globalAlpha = shown.active ? 1 : 0.45;
-    context.strokeStyle = COMPONENT_INK[component] ?? INK.paper;
+    context.strokeStyle = inkOf(shown, component);
     context.lineWidth = shown.active ? 2 : 1.25;
     context.stroke();
-    nameLine(context, place, shown, component, names[component] ?? "");
     context.globalAlpha = 1;
   });
 }
 
-function nameLine(
-  context: CanvasRenderingContext2D,
-  place: CurvesPlace,
-  shown: CurvedTrack,
-  component: number,
-  name: string,
-): void {
-  const { curve } = shown;
-  if (name === "" || curve === null) return;
-  const values = curve.values[component] ?? [];
-  const at = (place.from + (place.width - 16) / place.scale - curve.from) / Math.max(curve.to - curve.from, 1e-9);
-  const value = values[Math.min(Math.max(Math.round(at * (values.length - 1)), 0), values.length - 1)];
-  if (value === undefined) return;
-  context.fillStyle = COMPONENT_INK[component] ?? INK.paper;
+const NAME_HEIGHT = 13;
+
+/** What each line is, where it leaves the screen; names that would lie over one another stand apart. */
+export function drawNames(context: CanvasRenderingContext2D, place: CurvesPlace, shown: readonly CurvedTrack[]): void {
+  const names = shown.flatMap((each) => {
+    const { curve, parameter } = each;
+    if (curve === null) return [];
+    const components = componentNames(parameter);
+    const at = (place.from + (place.width - 16) / place.scale - curve.from) / Math.max(curve.to - curve.from, 1e-9);
+    return curve.values.flatMap((values, component) => {
+      const value = values[Math.min(Math.max(Math.round(at * (values.length - 1)), 0), values.length - 1)];
+      const text = [...(shown.length > 1 ? [shownPath(parameter.path)] : []), components[component] ?? ""]
+        .join(" ")
+        .trim();
+      if (value === undefined || text === "") return [];
+      return [{ text, y: yOf(place, each, value) - 5, ink: inkOf(each, component), active: each.active }];
+    });
+  });
+  names.sort((a, b) => a.y - b.y);
   context.font = font(11, 600);
-  context.fillText(name, place.width - 14, yOf(place, shown, value) - 5);
+  context.textAlign = "right";
+  context.lineJoin = "round";
+  let least = place.top + 10;
+  names.forEach(({ text, y, ink, active }, index) => {
+    const room = place.top + place.height - 4 - (names.length - 1 - index) * NAME_HEIGHT;
+    const at = Math.max(Math.min(y, room), least);
+    least = at + NAME_HEIGHT;
+    context.globalAlpha = active ? 1 : 0.75;
+    context.strokeStyle = INK.ink;
+    context.lineWidth = 3;
+    context.strokeText(text, place.width - 6, at);
+    context.fillStyle = ink;
+    context.fillText(text, place.width - 6, at);
+  });
+  context.globalAlpha = 1;
+  context.textAlign = "left";
 }
 
 /** A track's keyframes on its curves. */
@@ -116,7 +178,7 @@ export function drawCurveKeys(
       context.lineTo(x, y + size);
       context.lineTo(x - size, y);
       context.closePath();
-      context.fillStyle = isChosen ? INK.brass : (COMPONENT_INK[component] ?? INK.paper);
+      context.fillStyle = isChosen ? INK.brass : inkOf(shown, component);
       context.globalAlpha = shown.active || isChosen ? 1 : 0.6;
       context.fill();
       if (isChosen) {
@@ -153,7 +215,7 @@ export function drawHandle(
   context.arc(x, y, 4.5, 0, 2 * Math.PI);
   context.fillStyle = INK.ink;
   context.fill();
-  context.strokeStyle = COMPONENT_INK[handle.component] ?? INK.paper;
+  context.strokeStyle = inkOf(shown, handle.component);
   context.lineWidth = 2;
   context.stroke();
 }

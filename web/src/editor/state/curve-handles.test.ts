@@ -4,6 +4,7 @@ import { handleEdit, handlesOf } from "./curve-handles";
 import type { ShowTrack } from "./show-document";
 
 const number = { path: "a", type: "number" } as ShowParameter;
+const color = { path: "a", type: "color" } as ShowParameter;
 const vector = { path: "a", type: "vector" } as ShowParameter;
 const track = (interpolation: string, from: unknown, to: unknown, more: object = {}): ShowTrack => ({
   parameter: "a",
@@ -42,6 +43,36 @@ describe("a curve's handles", () => {
     expect(handleEdit(curved, number, out, 4, 3)).toMatchObject({ key: "k1", changes: { out_tangent: 1.5 } });
     // A slope has no handle on the other side of its key.
     expect(handleEdit(curved, number, out, 1, 3)).toBeNull();
+  });
+
+  it("of a colour's spline stand on each component, and are set where its colours are mixed", () => {
+    const curved = track("cubic_spline", [0.2, 0.5, 0.05], [1, 0, 0], { in_tangent: [0.1, 0, 0] });
+    const handles = handlesOf(curved, color, chosen);
+    expect(handles.map(({ kind, component }) => `${kind}${component}`)).toEqual([
+      "out0",
+      "in0",
+      "out1",
+      "in1",
+      "out2",
+      "in2",
+    ]);
+    const red = handles[0];
+    if (red === undefined) throw new Error("there is no handle");
+    expect(red.value).toBeCloseTo(0.2, 9);
+    // Of the three components the others stay: the slope leads to the colour whose red is so much higher.
+    const edit = handleEdit(curved, color, red, red.time, 0.3);
+    if (edit?.edit !== "change_keyframe") throw new Error("there is no edit");
+    const bent: ShowTrack = {
+      ...curved,
+      keyframes: curved.keyframes.map((each) => (each.key === "k1" ? { ...each, ...edit.changes } : each)),
+    };
+    const values = handlesOf(bent, color, chosen).filter(({ kind }) => kind === "out");
+    [0.3, 0.5, 0.05].forEach((value, component) => expect(values[component]?.value).toBeCloseTo(value, 3));
+
+    const plain = { ...curved, color_space: "linear" } as const;
+    expect(handleEdit(plain, color, red, red.time, 0.3)).toMatchObject({
+      changes: { out_tangent: [0.075, 0, 0] },
+    });
   });
 
   it("are there for the segments around what is chosen, where they can be bent", () => {

@@ -1,6 +1,7 @@
 import type { ShowParameter } from "../../generated/protocol";
 import { componentsOf } from "./component-values";
 import type { Edit } from "./edits";
+import { mixingSpaceOf, type Triple } from "./mixing-space";
 import type { ShowKeyframe, ShowTrack } from "./show-document";
 
 /** CSS's `ease`: what a cubic Bézier has where its key names no handles. */
@@ -25,8 +26,7 @@ export function handlesOf(track: ShowTrack, parameter: ShowParameter, chosen: Re
     const previous = track.keyframes[index - 1];
     if (previous === undefined || !(chosen.has(previous.key) || chosen.has(next.key))) return [];
     if (next.interpolation === "cubic_bezier") return bezierHandles(parameter, previous, next);
-    if (next.interpolation === "cubic_spline" && parameter.type !== "color")
-      return slopeHandles(parameter, previous, next);
+    if (next.interpolation === "cubic_spline") return slopeHandles(track, parameter, previous, next);
     return [];
   });
 }
@@ -42,33 +42,78 @@ function bezierHandles(parameter: ShowParameter, previous: ShowKeyframe, next: S
   ];
 }
 
-/** A slope is drawn as the Bézier handle that it is in a cubic: a third of the way. */
-function slopeHandles(parameter: ShowParameter, previous: ShowKeyframe, next: ShowKeyframe): Handle[] {
+/**
+ * A slope is drawn as the Bézier handle that it is in a cubic: a third of the way, each component by itself.
+ *
+ * A colour's slopes are told in the space that it is mixed in: its handles stand where the Bézier's points are there.
+ */
+function slopeHandles(
+  track: ShowTrack,
+  parameter: ShowParameter,
+  previous: ShowKeyframe,
+  next: ShowKeyframe,
+): Handle[] {
   const third = (next.time - previous.time) / 3;
-  const [begins, ends] = [componentsOf(parameter, previous.value), componentsOf(parameter, next.value)];
-  return begins.flatMap((from, component): Handle[] => {
-    const to = ends[component] ?? 0;
-    const out = slopeOf(previous.out_tangent, component);
-    const into = slopeOf(next.in_tangent, component);
-    return [
-      {
-        kind: "out",
-        key: previous.key,
-        component,
-        time: previous.time + third,
-        value: from + out * third,
-        at: { time: previous.time, value: from },
-      },
-      {
-        kind: "in",
-        key: next.key,
-        component,
-        time: next.time - third,
-        value: to - into * third,
-        at: { time: next.time, value: to },
-      },
-    ];
-  });
+  const begins = componentsOf(parameter, previous.value);
+  const ends = componentsOf(parameter, next.value);
+  const out = alongSlope(track, parameter, previous, "out_tangent", third);
+  const into = alongSlope(track, parameter, next, "in_tangent", -third);
+  return begins.flatMap((from, component): Handle[] => [
+    {
+      kind: "out",
+      key: previous.key,
+      component,
+      time: previous.time + third,
+      value: out[component] ?? from,
+      at: { time: previous.time, value: from },
+    },
+    {
+      kind: "in",
+      key: next.key,
+      component,
+      time: next.time - third,
+      value: into[component] ?? 0,
+      at: { time: next.time, value: ends[component] ?? 0 },
+    },
+  ]);
+}
+
+/** Where a key's slope leads in so much time, as the components of a curve. */
+function alongSlope(
+  track: ShowTrack,
+  parameter: ShowParameter,
+  keyframe: ShowKeyframe,
+  name: "in_tangent" | "out_tangent",
+  away: number,
+): readonly number[] {
+  const from = componentsOf(parameter, keyframe.value);
+  if (parameter.type !== "color") return from.map((each, index) => each + slopeOf(keyframe[name], index) * away);
+  const space = mixingSpaceOf(track);
+  const [a, b, c] = space.to(triple(from));
+  return space.from([
+    a + slopeOf(keyframe[name], 0) * away,
+    b + slopeOf(keyframe[name], 1) * away,
+    c + slopeOf(keyframe[name], 2) * away,
+  ]);
+}
+
+/** The slope that leads a key to some components in so much time. */
+function slopesTo(
+  track: ShowTrack,
+  parameter: ShowParameter,
+  keyframe: ShowKeyframe,
+  wanted: readonly number[],
+  away: number,
+): number[] {
+  const from = componentsOf(parameter, keyframe.value);
+  if (parameter.type !== "color") return wanted.map((each, index) => tidy((each - (from[index] ?? 0)) / away));
+  const space = mixingSpaceOf(track);
+  const begin = space.to(triple(from));
+  return space.to(triple(wanted)).map((each, index) => tidy((each - (begin[index] ?? 0)) / away));
+}
+
+function triple([a = 0, b = 0, c = 0]: readonly number[]): Triple {
+  return [a, b, c];
 }
 
 /** The edit that takes a handle to another place; null where it cannot go there. */
@@ -91,12 +136,13 @@ export function handleEdit(
   if (handle.kind === "out" || handle.kind === "in") {
     const away = time - handle.at.time;
     if (Math.abs(away) < LEAST || away > 0 !== (handle.kind === "out")) return null;
-    const slope = tidy((value - handle.at.value) / away);
     const name = handle.kind === "out" ? "out_tangent" : "in_tangent";
-    if (parameter.type === "number") return change({ [name]: slope });
-    const slopes = componentsOf(parameter, keyframe.value).map((_, each) =>
-      each === handle.component ? slope : slopeOf(keyframe[name], each),
+    // The other components keep the way they go.
+    const wanted = alongSlope(track, parameter, keyframe, name, away).map((each, component) =>
+      component === handle.component ? value : each,
     );
+    const slopes = slopesTo(track, parameter, keyframe, wanted, away);
+    if (parameter.type === "number") return change({ [name]: slopes[0] ?? 0 });
     return change({ [name]: slopes });
   }
   const previous = track.keyframes[index - 1];

@@ -4,6 +4,7 @@ import type { SampledCurve } from "./curves.svelte";
 import type { Editor } from "./editor.svelte";
 import { FollowedCurves } from "./followed-curves.svelte";
 import type { ShowTrack } from "./show-document";
+import { valueSpans, type ValueSpan } from "./value-scales";
 
 /** A track whose curve is drawn, with the span of values that its room shows. */
 export interface CurvedTrack {
@@ -13,6 +14,8 @@ export interface CurvedTrack {
   readonly low: number;
   readonly high: number;
   readonly active: boolean;
+  /** How many are drawn over it: 0 for the one that is looked at. */
+  readonly place: number;
 }
 
 const MAX_TRACKS = 8;
@@ -48,15 +51,19 @@ export class CurveView {
   });
 
   /** The one that is looked at comes last. */
-  readonly tracks: readonly CurvedTrack[] = $derived.by(() =>
-    this.#shown.map((shown) => {
+  readonly tracks: readonly CurvedTrack[] = $derived.by(() => {
+    const curves = this.#shown.map((shown) => {
       const path = shown.track.parameter;
       const held = this.#preview?.path === path ? this.#preview.curve : null;
       const curve = held ?? this.#curves.sampled.get(path) ?? null;
-      const [low, high] = this.#frozen?.get(path) ?? rangeOf(shown.track, shown.parameter, curve);
-      return { ...shown, curve, low, high };
-    }),
-  );
+      return { ...shown, curve, values: valuesOf(shown.track, shown.parameter, curve) };
+    });
+    const spans = valueSpans(curves, this.#editor.normalised);
+    return curves.map(({ track, parameter, active, curve }, index) => {
+      const [low, high] = this.#frozen?.get(track.parameter) ?? spans[index] ?? [0, 1];
+      return { track, parameter, active, curve, low, high, place: curves.length - 1 - index };
+    });
+  });
 
   /** Whether what is drawn is the show as the server has it. */
   get settled(): boolean {
@@ -106,8 +113,8 @@ export class CurveView {
   }
 }
 
-/** The span of a track's values, with a little air. */
-function rangeOf(track: ShowTrack, parameter: ShowParameter, curve: SampledCurve | null): readonly [number, number] {
+/** The lowest and highest of a track's values. */
+function valuesOf(track: ShowTrack, parameter: ShowParameter, curve: SampledCurve | null): ValueSpan | null {
   let [low, high] = [Infinity, -Infinity];
   const take = (value: number): void => {
     low = Math.min(low, value);
@@ -115,7 +122,5 @@ function rangeOf(track: ShowTrack, parameter: ShowParameter, curve: SampledCurve
   };
   for (const { value } of track.keyframes) componentsOf(parameter, value).forEach(take);
   for (const values of curve?.values ?? []) values.forEach(take);
-  if (low > high) return [0, 1];
-  const air = high - low > 1e-9 ? (high - low) * 0.12 : Math.max(Math.abs(high) * 0.25, 0.25);
-  return [low - air, high + air];
+  return low > high ? null : [low, high];
 }

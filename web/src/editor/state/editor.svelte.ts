@@ -10,6 +10,7 @@ import { findParameters, type Described } from "./find-parameters";
 import { KeyTimes } from "./key-times";
 import type { OpenMenu } from "./menu";
 import { valueOnScreen } from "./parameter-value";
+import type { PitchReading } from "./pitch-names";
 import { rowsOf, type Row } from "./rows";
 import { keysOf, Selection, type ChosenKey } from "./selection.svelte";
 import { shotsOf, withCuts, type Shot } from "./shots";
@@ -39,6 +40,10 @@ export class Editor {
   closed = $state.raw<ReadonlySet<string>>(new Set(remembered().closedGroups));
   snapping = $state(remembered().snapping);
   snaps = $state.raw<ReadonlySet<Snap>>(new Set(remembered().snaps));
+  /** Whether each unit's curves fill the room by themselves. */
+  normalised = $state(remembered().normalised);
+  /** The camera's path is drawn in the picture, whatever is chosen. */
+  pathShown = $state(false);
   /** What the pointer moves; the show is edited once it lets go. */
   moving = $state.raw<Retiming | null>(null);
   /** The words of the tracks that are sought. */
@@ -168,6 +173,19 @@ export class Editor {
     return this.axis.toSongTime(this.times.unitOf(track), keyframe.time);
   }
 
+  /** How the pitches of a part, or of the first player's, are called as the page calls notes. */
+  pitchReading(part: number | undefined): PitchReading {
+    const { score, cast } = this.view;
+    const own = part ?? cast.castings[0]?.part ?? score.part;
+    const note = this.deck.noteNames === "written" ? score.notes.find((each) => each.part === own) : undefined;
+    const key = score.keys[0];
+    return {
+      above: note === undefined ? 0 : note.written_pitch - note.sounding_pitch,
+      fifths: key?.fifths ?? 0,
+      minor: key?.name.endsWith("minor") ?? false,
+    };
+  }
+
   /** A parameter's value in the picture that was drawn last. */
   valueNow(parameter: ShowParameter): unknown {
     const { hello, drawn } = this.view;
@@ -207,6 +225,11 @@ export class Editor {
   setSnapping(on: boolean): void {
     this.snapping = on;
     remember({ snapping: on });
+  }
+
+  setNormalised(on: boolean): void {
+    this.normalised = on;
+    remember({ normalised: on });
   }
 
   toggleSnap(snap: Snap): void {
