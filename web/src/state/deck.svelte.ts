@@ -1,4 +1,4 @@
-import { Panels } from "./panels.svelte";
+import { Panels, type PiecePlace } from "./panels.svelte";
 import { nextRate } from "./rates";
 import { phrasesOf } from "./overview";
 import type { Reina } from "./reina.svelte";
@@ -8,10 +8,13 @@ import { keyTargetOf, ownsKey } from "./key-owner";
 import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames, type Quality } from "./storage";
+import { arrivalOf, worthKnowing, type OctaveOffer } from "./findings";
 import { CAMERA_PRESETS, type CameraView } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
+/** How many players' parts are offered in another octave at once. */
+const OCTAVES_OFFERED = 2;
 const SHORTEST_LOOP_S = 0.25;
 /** How far one key press takes the camera: an angle, radians, and a share of its distance. */
 const ORBIT_STEP = Math.PI / 36;
@@ -101,6 +104,7 @@ export class Deck {
 
   constructor(reina: Reina) {
     this.reina = reina;
+    reina.arrived = (view) => this.#tellArrival(view);
   }
 
   /** Do what a control or a key asks for. */
@@ -168,9 +172,48 @@ export class Deck {
     remember({ quality });
   }
 
+  /** Open the piece's panel at a place in it. */
+  openPiece(place: PiecePlace): void {
+    this.panels.sought = place;
+    this.panels.toggle("piece", true);
+  }
+
   nameNotes(noteNames: NoteNames): void {
     this.noteNames = noteNames;
     remember({ noteNames });
+  }
+
+  /** Say who plays what of a score that was just opened, and what can be done about it. */
+  #tellArrival(view: SessionView): void {
+    const { title, lines, offers } = arrivalOf(view.session);
+    const several = view.cast.castings.length > 1;
+    const { castings } = view.cast;
+    const octaves = offers.slice(0, OCTAVES_OFFERED).map((offer) => ({
+      label: several ? `Move player ${offer.player + 1} ${offer.move}` : `Move ${offer.move}`,
+      run: () => this.#fitOctave(view, offer),
+    }));
+    const change = several
+      ? { label: "Change who plays", run: () => this.openPiece("cast") }
+      : { label: "Change the part", run: () => this.openPiece("part") };
+    const known = worthKnowing(view.session.findings).length > 0;
+    const details = known ? [{ label: "Details", run: () => this.openPiece("findings") }] : [];
+    this.reina.word(title, "", {
+      lines,
+      actions: [...octaves, change, ...details],
+      over: () => this.reina.view !== view || view.cast.castings !== castings,
+    });
+  }
+
+  async #fitOctave(view: SessionView, { player, move }: OctaveOffer): Promise<void> {
+    await view.cast.change(player, { octave_fit: true });
+    if (view.cast.castings[player]?.octave_fit !== true) {
+      if (view.cast.refusal !== null) this.reina.problem("It cannot be moved", view.cast.refusal.words);
+      return;
+    }
+    this.reina.word(`Moved ${move}`, "", {
+      actions: [{ label: "Undo", run: () => view.cast.change(player, { octave_fit: false }) }],
+      over: () => this.reina.view !== view || view.cast.castings[player]?.octave_fit !== true,
+    });
   }
 
   #escape(): boolean {

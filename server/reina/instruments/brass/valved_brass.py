@@ -115,6 +115,8 @@ class ValvedBrass(Instrument):
                 "written_pitch",
                 place,
                 f"read as written for {self.title}: it sounds {_semitones(transposition)}",
+                things=abs(transposition),
+                values={"side": "lower" if transposition < 0 else "higher"} if transposition else {},
             )
         pitches = score.notes.sounding_pitch[notes_of_parts(score, (part, *joined))].astype(np.int64)
         octaves = fitting_octaves(pitches + transposition, self.model.lowest, self.model.highest)
