@@ -59,7 +59,8 @@ class Words:
 
     def __call__(self, count: int, values: Values) -> str:
         """Return the words for a count and the values that they hold."""
-        return (self.many if count > 1 else self.one).format_map({**values, "count": count})
+        said = {name: "none" if value == 0 else value for name, value in values.items()}
+        return (self.many if count > 1 else self.one).format_map({**said, "count": count})
 
 
 @cache

@@ -185,19 +185,21 @@ export class Deck {
 
   /** Say who plays what of a score that was just opened, and what can be done about it. */
   #tellArrival(view: SessionView): void {
-    const { title, lines, offers } = arrivalOf(view.session);
+    const { title, detail, drumsAlone, lines, offers } = arrivalOf(view.session);
     const several = view.cast.castings.length > 1;
     const { castings } = view.cast;
     const octaves = offers.slice(0, OCTAVES_OFFERED).map((offer) => ({
       label: several ? `Move player ${offer.player + 1} ${offer.move}` : `Move ${offer.move}`,
       run: () => this.#fitOctave(view, offer),
     }));
-    const change = several
-      ? { label: "Change who plays", run: () => this.openPiece("cast") }
-      : { label: "Change the part", run: () => this.openPiece("part") };
+    const change = drumsAlone
+      ? { label: "Open another file", run: () => this.run("open") }
+      : several
+        ? { label: "Change who plays", run: () => this.openPiece("cast") }
+        : { label: "Change the part", run: () => this.openPiece("part") };
     const known = worthKnowing(view.session.findings).length > 0;
     const details = known ? [{ label: "Details", run: () => this.openPiece("findings") }] : [];
-    this.reina.word(title, "", {
+    this.reina.word(title, detail, {
       lines,
       actions: [...octaves, change, ...details],
       over: () => this.reina.view !== view || view.cast.castings !== castings,

@@ -20,6 +20,8 @@ test("who plays what comes first, then what is missing, what became of it, and h
   const unpacked = finding("unpacked", "file");
   expect(arrivalOf(session([CHOSEN, CHORDS, cut, ...repaired, unpacked]))).toEqual({
     title: CHOSEN.text,
+    detail: "",
+    drumsAlone: false,
     lines: ["The file is cut short", CHORDS.text, "The file was repaired in 3 places"],
     offers: [],
   });
@@ -35,6 +37,13 @@ test("each player of several is told apart, and offered the octave that fits", (
   const told = arrivalOf(session([CHOSEN, finding("parts_heard", "choice", { text: "Flute is heard" }), far], 2));
   expect(told.lines).toEqual(["Flute is heard", "Player 2: 9 of 9 notes lie outside"]);
   expect(told.offers).toEqual([{ player: 1, move: "2 octaves up" }]);
+});
+
+test("of drums alone the first sentence is the title", () => {
+  const drums = finding("drums_alone", "choice", { text: "Drums alone in this file. They are heard. Open another" });
+  const told = arrivalOf(session([drums]));
+  expect([told.title, told.detail]).toEqual(["Drums alone in this file", "They are heard. Open another"]);
+  expect(told.drumsAlone).toBe(true);
 });
 
 test("a choice as anybody would expect is not worth a line in the panel", () => {

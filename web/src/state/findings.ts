@@ -19,6 +19,10 @@ export interface OctaveOffer {
 export interface Arrival {
   /** Who plays what. */
   readonly title: string;
+  /** What more there is to say of it. */
+  readonly detail: string;
+  /** There is no other part to choose. */
+  readonly drumsAlone: boolean;
   /** What became of it, and of the file. */
   readonly lines: readonly string[];
   readonly offers: readonly OctaveOffer[];
@@ -45,7 +49,9 @@ export function arrivalOf({ findings, cast }: Pick<Session, "findings" | "cast">
       ? [{ player, move: `${count === 1 ? "an octave" : `${count} octaves`} ${values["side"] ?? "away"}` }]
       : [],
   );
-  return { title: choice[0] ?? "", lines, offers };
+  const [title = "", ...more] = (choice[0] ?? "").split(". ");
+  const drumsAlone = findings.some(({ kind }) => kind === "drums_alone");
+  return { title, detail: more.join(". "), drumsAlone, lines, offers };
 }
 
 function ofPlayer(player: number | null, text: string): string {
