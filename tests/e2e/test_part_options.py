@@ -40,7 +40,7 @@ def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
     page.keyboard.press("p")
     page.get_by_text("The file holds 3 pieces").first.wait_for()
     lasts = session()["duration_s"]
-    page.get_by_role("combobox", name="Sequence").select_option(label="2 of 3")
+    page.get_by_role("combobox", name="Piece").select_option(label="2 of 3")
     page.get_by_text("8 notes").wait_for()
     page.get_by_text("The file holds 3 pieces").first.wait_for(state="detached")
     page.get_by_role("heading", name="Walk", level=2).wait_for()

@@ -28,7 +28,7 @@ export class Reina {
   busy = $state<string | null>(null);
   readonly notices = new Notices();
   /** Called with the session of a score that was just uploaded. */
-  arrived: (view: SessionView) => void = () => {};
+  arrived: ((view: SessionView) => void) | null = null;
   parameters = $state.raw<readonly ShowParameter[]>([]);
   examples = $state.raw<readonly Example[]>([]);
   /** What a cast can be made of; null until the server has said it. */
@@ -141,7 +141,7 @@ export class Reina {
     const { view } = this;
     if (!made || view === null) return;
     if (aside.length === 0) {
-      this.arrived(view);
+      this.arrived?.(view);
       return;
     }
     this.notices.say(
