@@ -86,7 +86,7 @@ def test_every_panel(visit: Visit, size: tuple[int, int]) -> None:
     look("add a track, none found")
     page.keyboard.press("Escape")
     page.get_by_role("button", name=re.compile("the show$")).first.click()
-    page.get_by_text("Bundled shows").wait_for()
+    page.get_by_text("Shows that come with Reina").wait_for()
     look("show's menu")
     page.keyboard.press("Escape")
 

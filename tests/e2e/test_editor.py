@@ -149,7 +149,7 @@ def test_values_and_ways_are_set_by_their_fields(show: ShowPage) -> None:
     settings = page.get_by_label("The track blocks colour")
     settings.get_by_label("After").select_option("loop")
     settings.get_by_label("Counts in").select_option("seconds")
-    settings.get_by_label("Reacts to", exact=True).select_option("notes")
+    settings.get_by_role("combobox", name="Reacts to").select_option("notes")
     show.until_saved()
     settings.get_by_label("Valves").select_option("1 3")
     show.until_saved()
