@@ -98,7 +98,7 @@ def test_every_panel(visit: Visit, size: tuple[int, int]) -> None:
     page.get_by_role("listbox", name="Keyframes of").get_by_role("option").nth(1).click()
     page.get_by_label("Chosen keyframes").wait_for()
     look("keyframe")
-    page.get_by_role("button", name="how it comes here").click()
+    page.get_by_role("button", name="the easing").click()
     opened.until("document.querySelectorAll('.grid path[d^=M]').length > 30")
     look("ways")
     page.keyboard.press("Escape")

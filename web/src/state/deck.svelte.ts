@@ -188,6 +188,7 @@ export class Deck {
     const { title, detail, drumsAlone, lines, offers } = arrivalOf(view.session);
     const several = view.cast.castings.length > 1;
     const { castings } = view.cast;
+    const covered = this.panels.coversStage;
     const octaves = offers.slice(0, OCTAVES_OFFERED).map((offer) => ({
       label: several ? `Move player ${offer.player + 1} ${offer.move}` : `Move ${offer.move}`,
       run: () => this.#fitOctave(view, offer),
@@ -202,7 +203,12 @@ export class Deck {
     this.reina.word(title, detail, {
       lines,
       actions: [...octaves, change, ...details],
-      over: () => this.reina.view !== view || view.cast.castings !== castings,
+      // On a phone it would lie over what was opened since.
+      over: () =>
+        this.reina.view !== view ||
+        view.cast.castings !== castings ||
+        this.helpOpen ||
+        (this.panels.coversStage && !covered),
     });
   }
 
