@@ -20,6 +20,8 @@ from reina.cli.browser import GRAPHICS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from playwright.sync_api import ViewportSize
+
 FIND_BROWSER = Path(__file__).with_name("find_browser.py")
 BROWSER_ARGUMENTS = (
     "--no-sandbox",
@@ -102,7 +104,7 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
 
     Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
     `refusals`. With `sound_waits` the browser lets no sound out before a click or a key; `remembers` is what
-    the page has kept in its storage from an earlier visit.
+    the page has kept in its storage from an earlier visit. With `touch` it is a phone: fingers, and no mouse.
     """
     opened: list[Opened] = []
 
@@ -114,9 +116,11 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
         refusals: tuple[str, ...] = (),
         sound_waits: bool = False,
         remembers: dict[str, Any] | None = None,
+        touch: bool = False,
     ) -> Opened:
         if beside is None:
-            context = browser.new_context(viewport={"width": size[0], "height": size[1]})
+            viewport: ViewportSize = {"width": size[0], "height": size[1]}
+            context = browser.new_context(viewport=viewport, has_touch=touch, is_mobile=touch)
         else:
             context = beside.page.context
         if sound_waits:

@@ -93,7 +93,7 @@ def test_every_panel(visit: Visit, size: tuple[int, int]) -> None:
     look("add a track, none found")
     page.keyboard.press("Escape")
     page.get_by_role("button", name=re.compile("the show$")).first.click()
-    page.get_by_text("Bundled shows").wait_for()
+    page.get_by_text("Shows that come with Reina").wait_for()
     look("show's menu")
     page.keyboard.press("Escape")
 
@@ -115,7 +115,7 @@ def test_every_panel(visit: Visit, size: tuple[int, int]) -> None:
         look("the editor aside")
         page.get_by_role("button", name="Where the editor stands").click()
         page.get_by_role("button", name="Below").click()
-    page.get_by_role("button", name="how it comes here").click()
+    page.get_by_role("button", name="the easing").click()
     opened.until("document.querySelectorAll('.grid path[d^=M]').length > 30")
     look("ways")
     page.keyboard.press("Escape")

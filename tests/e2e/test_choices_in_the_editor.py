@@ -106,7 +106,7 @@ def test_what_enter_takes_is_on_top_and_its_row_is_scrolled_to(show: ShowPage) -
     page = show.page
     rows = page.get_by_role("tree", name="Tracks")
     for word, path, row in (
-        ("zoom", "camera/fov", "camera fov"),
+        ("zoom", "camera/fov", "camera angle of view"),
         ("blur", "camera/aperture", "camera aperture"),
         ("toon", "look/style", "look style"),
         ("rim intens", "lights/rim/intensity", "lights rim intensity"),
@@ -131,4 +131,4 @@ def test_what_enter_takes_is_on_top_and_its_row_is_scrolled_to(show: ShowPage) -
     page.keyboard.type("zoom")
     page.locator("#free-parameters").get_by_text("has a track").wait_for()
     page.keyboard.press("Enter")
-    page.get_by_label("What is chosen").get_by_text("Chosen: the whole track camera fov").wait_for()
+    page.get_by_label("What is chosen").get_by_text("Chosen: the whole track camera angle of view").wait_for()

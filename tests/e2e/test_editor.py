@@ -137,7 +137,7 @@ def test_values_and_ways_are_set_by_their_fields(show: ShowPage) -> None:
     # The presets are drawn as the server samples them, and one is set on all that are chosen.
     page.locator(".lanes").focus()
     page.keyboard.press("Control+a")
-    page.get_by_role("button", name="How it comes here").click()
+    page.get_by_role("button", name="the easing").click()
     show.opened.until("document.querySelectorAll('.grid path[d^=M]').length > 30")
     page.get_by_role("button", name="bounce out", exact=True).click()
     for path, key in ((EXPOSURE, "k3"), (HAZE, "h1"), (COLOR, "c1")):
@@ -146,10 +146,10 @@ def test_values_and_ways_are_set_by_their_fields(show: ShowPage) -> None:
     page.mouse.click(*show.key(COLOR, "c1"))
     fill(show, fields.get_by_label("Value", exact=True), "#4c6a9a")
     assert show.keyframe(COLOR, "c1")["value"] == "#4C6A9A"
-    settings = page.get_by_label("The track blocks color")
+    settings = page.get_by_label("The track blocks colour")
     settings.get_by_label("After").select_option("loop")
     settings.get_by_label("Counts in").select_option("seconds")
-    settings.get_by_label("Answers").select_option("notes")
+    settings.get_by_role("combobox", name="Reacts to").select_option("notes")
     show.until_saved()
     settings.get_by_label("Valves").select_option("1 3")
     show.until_saved()
@@ -162,7 +162,7 @@ def test_values_and_ways_are_set_by_their_fields(show: ShowPage) -> None:
     page.get_by_role("button", name="Mute stage exposure").click()
     show.until_saved()
     assert show.track(EXPOSURE)["muted"] is True
-    page.get_by_role("button", name="Solo blocks color").click()
+    page.get_by_role("button", name="Solo blocks colour").click()
     show.until_saved()
     assert show.track(COLOR)["solo"] is True
 

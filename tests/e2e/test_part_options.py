@@ -38,11 +38,11 @@ def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
 
     options = page.get_by_role("group", name="How the file is taken")
     page.keyboard.press("p")
-    page.get_by_text("the file holds 3 sequences").wait_for()
+    page.get_by_text("The file holds 3 pieces").first.wait_for()
     lasts = session()["duration_s"]
-    page.get_by_role("combobox", name="Sequence").select_option(label="2 of 3")
+    page.get_by_role("combobox", name="Piece").select_option(label="2 of 3")
     page.get_by_text("8 notes").wait_for()
-    page.get_by_text("the file holds 3 sequences").wait_for(state="detached")
+    page.get_by_text("The file holds 3 pieces").first.wait_for(state="detached")
     page.get_by_role("heading", name="Walk", level=2).wait_for()
     assert session()["sequence"] == 1
     assert session()["duration_s"] > lasts
@@ -52,18 +52,18 @@ def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
     assert page.evaluate(VALVES) == [1, 3], "C4, D4 on paper"
     written = page.get_by_role("switch", name="Written for B♭ trumpet")
     written.check()
-    options.get_by_text("read as written for B♭ trumpet").wait_for()
+    options.get_by_text("Read as written for the trumpet").wait_for()
     assert session()["written"] is True
     seek(0.25)
     assert page.evaluate(VALVES) == [], "B♭3, C4 on paper"
 
     client.patch(path, json={"transposition": -20}, headers=opened.headers).raise_for_status()
-    options.get_by_text("more of its notes would be in range").wait_for()
+    options.get_by_text("lie outside the trumpet's range").wait_for()
     page.get_by_role("switch", name="Fit the octave").check()
-    options.get_by_text("to come into range").wait_for()
+    options.get_by_text("into the trumpet's range").wait_for()
     assert (session()["octave_fit"], session()["sounding_transposition"]) == (True, 2)
     written.uncheck()
-    options.get_by_text("read as written for B♭ trumpet").wait_for(state="detached")
+    options.get_by_text("Read as written for the trumpet").wait_for(state="detached")
     assert session()["written"] is False
     beside = visit(f"/s/{opened.session}")
     beside.until_drawn()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from tests.integration.scores import duet, song
+from tests.integration.scores import duet, song, sung
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
+PHONE = (390, 700)
 NARROW = (420, 500)
 """The strip of next notes has its own line in a narrow window."""
 REPAIRED = ("repaired.mid", "audio/midi", b"junk" + duet()[:-3])
@@ -56,11 +57,18 @@ def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) 
     page.keyboard.press("p")
     warnings = client.get(f"{path}/score").json()["warnings"]
     assert {warning["kind"] for warning in warnings} >= {"leading_bytes", "truncated_track"}
-    page.get_by_text(f"{len(warnings)} things to know").wait_for()
-    listed = page.locator(".warnings li").all_inner_texts()
-    assert [text.split("\n") for text in listed] == [
-        [warning["place"], warning["message"]] for warning in warnings
+    findings = [one for one in client.get(path).json()["findings"] if one["about"] != "choice"]
+    assert {warning["kind"] for one in findings for warning in one["details"]} >= {
+        warning["kind"] for warning in warnings
+    }
+    page.get_by_text(f"{len(findings)} things to know").wait_for()
+    cut = page.locator(".findings summary", has_text="The file is cut short")
+    assert page.locator(".findings li > details > summary").all_inner_texts() == [
+        one["text"] for one in findings
     ]
+    cut.click()
+    detail = next(one for one in warnings if one["kind"] == "truncated_track")
+    page.locator(".findings li", has_text=f"{detail['place']} {detail['message']}").first.wait_for()
     session = client.get(path).json()
     rows = page.get_by_role("group", name="Part the trumpet plays").locator("label:has([type=radio])")
     assert rows.count() == len(session["choices"]) == 2
@@ -71,19 +79,55 @@ def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) 
         assert all(reason.startswith(text) for text, reason in zip(said, choice["reasons"], strict=True))
 
 
+def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(size=PHONE, touch=True).open_files(("sung.mid", "audio/midi", sung()))
+    page, path = opened.page, f"/api/v1/sessions/{opened.session}"
+    notice = page.locator(".notice")
+    notice.get_by_text("No trumpet in this file: she plays Vocals").wait_for()
+    told = {one["kind"]: one["text"] for one in client.get(path).json()["findings"]}
+    assert told["chord_note_dropped"] == "Plays the top note of 3 chords"
+    assert told["not_playable"] == "Leaves out 2 notes below the trumpet's range"
+    assert set(told.values()) <= {
+        notice.locator("strong").inner_text(),
+        *notice.locator("li").all_inner_texts(),
+    }
+    assert opened.overflowing() == []
+
+    notice.get_by_role("button", name="Change the part").tap()
+    chosen = page.get_by_role("group", name="Part the trumpet plays").get_by_role("radio", checked=True)
+    opened.until("() => document.activeElement?.matches('input[name=part]:checked')")
+    assert chosen.input_value() == "0"
+    page.keyboard.press("Escape")
+
+    opened.choose_files(("sung.mid", "audio/midi", sung()))
+    opened.until_another_session(opened.session)
+    path = f"/api/v1/sessions/{opened.session}"
+    notice.get_by_role("button", name="Move an octave up").tap()
+    notice.get_by_text("Moved an octave up").wait_for()
+    assert client.get(path).json()["octave_fit"] is True
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
+        notice.get_by_role("button", name="Undo").tap()
+    assert client.get(path).json()["octave_fit"] is False
+
+    page.get_by_role("button", name="Help").tap()
+    touches = page.get_by_role("region", name="Touches")
+    touches.get_by_text("Look around the player").wait_for()
+    assert touches.locator("kbd").count() == 0, "a phone has no keys"
+
+
 def test_the_page_tells_what_is_amiss_with_a_song_and_a_show(visit: Visit, client: httpx.Client) -> None:
     cut = ("cut.wav", "audio/wav", song(12.0)[:20_044])
     opened = visit(size=NARROW).open_files(("scale.mid", "audio/midi", duet()), cut)
     path = f"/api/v1/sessions/{opened.session}"
     opened.page.keyboard.press("p")
-    opened.page.get_by_text("what is in it lasts").wait_for()
+    opened.page.get_by_text("The recording says a wrong length of itself").first.wait_for()
     late: dict[str, Any] = {"version": 1, "title": "Late", "time": "seconds", "tracks": []}
     late["markers"] = [{"time": 1000.0, "name": "too late"}]
     answer = client.put(f"{path}/show", json=late, headers=opened.headers)
     assert answer.status_code == 200, answer.text
-    opened.page.get_by_text("too late").wait_for()
-    warnings = client.get(path).json()["warnings"]
-    listed = opened.page.locator(".warnings li").all_inner_texts()
-    assert [text.split("\n") for text in listed] == [
-        [warning["place"], warning["message"]] for warning in warnings
-    ]
+    opened.page.get_by_text("One marker of the show stands after the end of the piece").wait_for()
+    findings = client.get(path).json()["findings"]
+    listed = opened.page.locator(".findings li > details > summary").all_inner_texts()
+    assert listed == [one["text"] for one in findings if one["about"] != "choice"]
+    marker = next(one for one in findings if one["about"] == "show")
+    assert "too late" in marker["details"][0]["message"]

@@ -144,6 +144,24 @@ def chords() -> bytes:
     return file.getvalue()
 
 
+def sung() -> bytes:
+    """Chords for a voice, low, and no trumpet; a guitar beside it."""
+    midi = mido.MidiFile(ticks_per_beat=TICKS)
+    for channel, name, chords in ((0, "Vocals", [(52, 55, 60)] * 3 + [(48,), (47,)]), (1, "Guitar", [(52,)])):
+        track = mido.MidiTrack()
+        midi.tracks.append(track)
+        track.append(mido.MetaMessage("track_name", name=name))
+        track.append(mido.Message("program_change", program=(53, 24)[channel], channel=channel))
+        for chord in chords:
+            track.extend(mido.Message("note_on", note=pitch, velocity=90, channel=channel) for pitch in chord)
+            for place, pitch in enumerate(chord):
+                length = 0 if place else TICKS
+                track.append(mido.Message("note_off", note=pitch, channel=channel, time=length))
+    file = io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
+
+
 def song(seconds: float = 1.0, rate: int = 8000) -> bytes:
     """A sine as WAV."""
     file = io.BytesIO()

@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from tests.integration.scores import duet, scale, show, song
+from tests.integration.scores import duet, scale, show, song, sung
 from tests.integration.server import upload
+
+from reina.cli import main
 
 if TYPE_CHECKING:
     import httpx
@@ -33,6 +35,31 @@ def test_a_score_becomes_a_session(client: httpx.Client) -> None:
     again = client.get(session.path).json()
     assert again.keys() == body.keys() - {"control_token"}
     assert all(again[field] == body[field] for field in again.keys() - {"song"})
+    session.change("DELETE").raise_for_status()
+
+
+def test_the_api_and_inspect_tell_a_musician_the_same(
+    client: httpx.Client, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    session = upload(client, sung(), "sung.mid")
+    findings = session.body["findings"]
+    assert [one["text"] for one in findings] == [
+        "No trumpet in this file: she plays Vocals",
+        "2 of 11 notes lie outside the trumpet's range; an octave up, none would",
+        "Plays the top note of 3 chords",
+        "Leaves out 2 notes below the trumpet's range",
+    ]
+    details = [detail for one in findings if one["about"] != "choice" for detail in one["details"]]
+    assert sorted(details, key=str) == sorted(session.body["warnings"], key=str), "none is lost"
+    file = tmp_path / "sung.mid"
+    file.write_bytes(sung())
+    assert main(["inspect", "--json", str(file)]) == 0
+    assert json.loads(capsys.readouterr().out)["findings"] == findings
+    assert main(["inspect", str(file)]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert all(f"  {one['text']}" in printed for one in findings)
+    moved = session.change("PATCH", json={"octave_fit": True}).json()["findings"]
+    assert "Moved an octave up, into the trumpet's range" in [one["text"] for one in moved]
     session.change("DELETE").raise_for_status()
 
 

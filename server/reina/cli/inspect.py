@@ -11,6 +11,7 @@ from reina.api.settings import Settings
 from reina.cli.inspect_cast import asked_cast, cast_document, cast_lines
 from reina.cli.score_tables import (
     REST,
+    finding_lines,
     fingering_lines,
     heading,
     section,
@@ -18,7 +19,7 @@ from reina.cli.score_tables import (
     warning_lines,
 )
 from reina.errors import InputError, ReinaError
-from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score
+from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, score_findings
 from reina.music import Score, read_score
 from reina.notation import keys_of
 from reina.sessions.production import Production
@@ -133,6 +134,8 @@ def _lines(
     score: Score, instrument: Instrument, rankings: Sequence[PartRanking], played: PlayedPart
 ) -> Iterable[str]:
     yield from heading(score)
+    reasons = next(ranking.reasons for ranking in rankings if ranking.part == played.part)
+    yield from finding_lines(score_findings(score, instrument, played, reasons))
     yield from section("Tempo")
     tempos = [
         (f"{t.onset_beats:g}", f"{t.onset_s:.3f}", f"{t.beats_per_minute:.2f}")

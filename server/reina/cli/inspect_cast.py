@@ -8,9 +8,17 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from reina.api.cast import cast_of
-from reina.cli.score_tables import fingering_lines, heading, named_parts, section, table, warning_lines
+from reina.cli.score_tables import (
+    finding_lines,
+    fingering_lines,
+    heading,
+    named_parts,
+    section,
+    table,
+    warning_lines,
+)
 from reina.errors import InputError
-from reina.instruments import Cast, describe_notes
+from reina.instruments import Cast, describe_finding, describe_notes, describe_warning
 from reina.protocol import resources
 from reina.sessions.description import cast_summary
 from reina.sessions.production import Production
@@ -59,9 +67,8 @@ def cast_document(production: Production) -> dict[str, Any]:
             for part in played.parts
             for note in describe_notes(score, performer.instrument, played, part)
         ]
-        casting["warnings"] = [
-            {"kind": one.kind, "place": one.place, "message": one.message} for one in played.warnings
-        ]
+        casting["warnings"] = [describe_warning(warning) for warning in played.warnings]
+    document["findings"] = [describe_finding(finding) for finding in production.findings]
     return {"title": score.title, "duration_s": score.duration_s, **document}
 
 
@@ -69,6 +76,7 @@ def cast_lines(production: Production) -> Iterable[str]:
     """The same as tables."""
     score, summary = production.score, cast_summary(production)
     yield from heading(score)
+    yield from finding_lines(production.findings)
     yield from section("Cast" if not summary.auto else "Cast, as the score asks for it")
     yield from table(
         ("player", "figure", "instrument", "seat", "hand", "part", "name", "playable", "because"),

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from reina.instruments import Instrument, NoteNames, PlayedPart
-from reina.music import Score, ScoreWarning
+from reina.music import Finding, Score, ScoreWarning
 
 REST = "–"
 
@@ -17,6 +17,14 @@ def heading(score: Score) -> Iterable[str]:
     yield f"{score.title}  {int(minutes)}:{seconds:05.2f}  {len(score.notes)} notes"
     if score.sequences > 1:
         yield f"sequence {score.sequence} of {score.sequences}"
+
+
+def finding_lines(findings: Sequence[Finding]) -> Iterable[str]:
+    """A section of what a musician is told."""
+    yield from section("To know")
+    for finding in findings:
+        who = "" if finding.player is None else f"player {finding.player + 1}: "
+        yield f"  {who if len({one.player for one in findings} - {None}) > 1 else ''}{finding.text}"
 
 
 def warning_lines(warnings: Sequence[ScoreWarning]) -> Iterable[str]:

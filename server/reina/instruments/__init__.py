@@ -6,7 +6,14 @@ Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
 from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.chart_note import ChartNote
-from reina.instruments.describe import describe_notes, describe_score
+from reina.instruments.choice_findings import choice_findings, spoken_name
+from reina.instruments.describe import (
+    describe_finding,
+    describe_notes,
+    describe_score,
+    describe_warning,
+    score_findings,
+)
 from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts
@@ -55,14 +62,19 @@ __all__ = [
     "cast_parameters",
     "casting_reasons",
     "check_parts",
+    "choice_findings",
+    "describe_finding",
     "describe_notes",
     "describe_score",
+    "describe_warning",
     "find_cast",
     "pitch_name",
     "playable_line",
     "player_parameters",
     "rank_parts",
+    "score_findings",
     "spell_line",
+    "spoken_name",
     "streamed_parameters",
     "unplayed_parts",
     "who_has_tune",

@@ -1,15 +1,20 @@
 """A score and its fingering as plain data, for JSON and for tables."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from reina.instruments.casting import Casting
+from reina.instruments.choice_findings import choice_findings, spoken_name
 from reina.instruments.instrument import Instrument
 from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
 from reina.instruments.note_names import NoteNames
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
+from reina.music.findings import Finding, findings_of
 from reina.music.score import Score
+from reina.music.warnings import ScoreWarning
 from reina.notation import keys_of
 
 
@@ -82,10 +87,49 @@ def describe_score(
         "pickup_beats": score.metre_map.pickup_beats,
         "bar_lines_s": score.tempo_map.seconds(bar_lines).tolist(),
         "notes": describe_notes(score, instrument, played, part),
-        "warnings": [
-            {"kind": warning.kind, "place": warning.place, "message": warning.message}
-            for warning in (*score.warnings, *played.warnings)
+        "warnings": [describe_warning(warning) for warning in (*score.warnings, *played.warnings)],
+        "findings": [
+            describe_finding(finding)
+            for finding in score_findings(score, instrument, played, ranking_of[played.part].reasons)
         ],
+    }
+
+
+def score_findings(
+    score: Score, instrument: Instrument, played: PlayedPart, reasons: Sequence[str] = ()
+) -> tuple[Finding, ...]:
+    """Return what a musician is told of a score of which one part is played.
+
+    Args:
+        score: The score.
+        instrument: What plays.
+        played: How it plays its part.
+        reasons: Why it is that part.
+    """
+    casting = Casting(part=played.part, instrument=instrument.name, joined_parts=played.joined_parts)
+    return (
+        *choice_findings(score, [casting], {instrument.name: instrument}, [reasons]),
+        *findings_of(played.warnings, player=0, instrument=spoken_name(instrument.name)),
+        *findings_of(score.warnings),
+    )
+
+
+def describe_warning(warning: ScoreWarning) -> dict[str, Any]:
+    """Return a warning as JSON has it."""
+    return {"kind": warning.kind, "place": warning.place, "message": warning.message}
+
+
+def describe_finding(finding: Finding) -> dict[str, Any]:
+    """Return what a musician is told as JSON has it."""
+    return {
+        "kind": finding.kind,
+        "about": finding.about,
+        "weight": finding.weight,
+        "count": finding.count,
+        "values": dict(finding.values),
+        "text": finding.text,
+        "player": finding.player,
+        "details": [describe_warning(warning) for warning in finding.details],
     }
 
 

@@ -133,11 +133,13 @@ class _LineMaker:
         self._log = log
         self.dropped: set[int] = set()
         self.shortened: set[int] = set()
+        self._above_chords: set[int] = set()
 
-    def drop(self, kind: str, note: _Note, why: str) -> None:
+    def drop(self, kind: str, note: _Note, why: str, things: int = 1) -> None:
         """Leave a note out and tell of it."""
         self.dropped.add(note.note)
-        self._log.add(kind, self._place(note), f"{pitch_name(note.pitch)} is not played: {why}")
+        what = f"{pitch_name(note.pitch)} is not played: {why}"
+        self._log.add(kind, self._place(note), what, things=things)
 
     def one_at_a_time(self, notes: list[_Note]) -> list[_Note]:
         """Make a line of notes that are sorted by onset."""
@@ -156,7 +158,11 @@ class _LineMaker:
                 self._ornament(line, note, last)
             elif together:
                 lower, line[-1] = sorted((last, note), key=lambda one: (one.pitch, one.duration_s))
-                self.drop("chord_note_dropped", lower, f"{pitch_name(line[-1].pitch)} sounds above it")
+                # Chords are counted, not their notes.
+                begun = bool({last.note, note.note} & self._above_chords)
+                self._above_chords.add(line[-1].note)
+                above = f"{pitch_name(line[-1].pitch)} sounds above it"
+                self.drop("chord_note_dropped", lower, above, things=0 if begun else 1)
             elif note.pitch < last.pitch and note.end_s <= last.end_s + SOUND_TOGETHER_S:
                 self.drop("inner_note_dropped", note, f"{pitch_name(last.pitch)} is held above it")
             else:

@@ -54,7 +54,7 @@ def family_part(part: Part) -> FamilyPart | None:
     if named is not None and ("other" not in kinds or part.program in PROGRAMS):
         return FamilyPart(named, f"named “{part.name}”")
     if part.program is not None and part.program in PROGRAMS and kinds <= {"brass", "melody"}:
-        return FamilyPart("trumpet", f"program {part.program} is {PROGRAM_NAMES[part.program]}")
+        return FamilyPart("trumpet", f"its sound is {PROGRAM_NAMES[part.program]}, program {part.program}")
     return None
 
 

@@ -80,7 +80,7 @@ def _rank(part: Part, notes: Notes, most_notes: int, suitability: Suitability) -
         )
     )
     alone = monophony(notes)
-    evidence.append((ONE_AT_A_TIME * alone, f"{alone:.0%} of its notes sound alone"))
+    evidence.append((ONE_AT_A_TIME * alone, f"{alone:.0%} one note at a time"))
     if len(notes) < 0.05 * most_notes:
         evidence.append((FEW_NOTES, f"few notes ({len(notes)})"))
     evidence.sort(key=lambda item: -abs(item[0]))
@@ -94,7 +94,7 @@ def _of_program(part: Part, suitability: Suitability) -> list[tuple[float, str]]
     if part.is_drums or part.program is None:
         return []
     weight = suitability.programs.get(part.program, 0.0)
-    return [(weight, f"program {part.program} is {PROGRAM_NAMES[part.program]}")] if weight else []
+    return [(weight, f"its sound is {PROGRAM_NAMES[part.program]}, program {part.program}")] if weight else []
 
 
 def _of_name(part: Part, suitability: Suitability) -> list[tuple[float, str]]:

@@ -8,6 +8,7 @@ from reina.music.controls import Control, ControlKind
 from reina.music.document.schema import score_schema
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.music.events import Listener, NoteEvent, NoteEventEmitter
+from reina.music.findings import Finding, findings_of
 from reina.music.key_signature import KeySignature
 from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.metre import BarPosition, MetreMap, TimeSignature
@@ -24,6 +25,7 @@ __all__ = [
     "ClockState",
     "Control",
     "ControlKind",
+    "Finding",
     "KeySignature",
     "Limits",
     "Listener",
@@ -44,6 +46,7 @@ __all__ = [
     "TempoMap",
     "TimeSignature",
     "WarningLog",
+    "findings_of",
     "read_score",
     "score_schema",
 ]

@@ -50,6 +50,27 @@ class Warned(WireModel):
     message: str
 
 
+class Finding(WireModel):
+    """What a musician is told of one kind of warning, or of who plays what, counted."""
+
+    kind: str
+    """A stable name; with `count` and `values` all that another language's words need."""
+    about: Literal["choice", "playing", "file", "song", "show"]
+    """Who plays what; what became of a part; the score's file; the recording; the show."""
+    weight: Literal["cut", "repaired", "note"]
+    """Music is missing; something was set right; good to know."""
+    count: int
+    """How many things it is about."""
+    values: dict[str, str | int]
+    """What the words hold beside the count."""
+    text: str
+    """The words, in English, without a full stop."""
+    player: int | None
+    """The place in the cast of the player whom it concerns; null for nobody."""
+    details: list[Warned]
+    """The warnings, one by one; of very many the first."""
+
+
 class PartSummary(WireModel):
     """One part of a score."""
 
@@ -126,6 +147,8 @@ class Session(WireModel):
     """Everybody who plays: part, instrument, player and the like beside it are the first one's."""
     notes: int
     warnings: list[Warned]
+    findings: list[Finding]
+    """The warnings as a musician is told of them, after who plays what and why."""
     song: SongState
     links: SessionLinks
 

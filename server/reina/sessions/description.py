@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from reina.instruments import PartRanking
-    from reina.music import ClockState, Score, ScoreWarning
+    from reina.music import ClockState, Finding, Score, ScoreWarning
     from reina.sessions.production import Production
 
 NOT_PLAYED = "nobody plays this part"
@@ -48,6 +48,23 @@ def warned(warnings: Iterable[ScoreWarning]) -> list[resources.Warned]:
     return [
         resources.Warned(kind=warning.kind, place=warning.place, message=warning.message)
         for warning in warnings
+    ]
+
+
+def found(findings: Iterable[Finding]) -> list[resources.Finding]:
+    """Findings in their order."""
+    return [
+        resources.Finding(
+            kind=finding.kind,
+            about=finding.about,
+            weight=finding.weight,
+            count=finding.count,
+            values=dict(finding.values),
+            text=finding.text,
+            player=finding.player,
+            details=warned(finding.details),
+        )
+        for finding in findings
     ]
 
 

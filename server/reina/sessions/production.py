@@ -6,9 +6,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
+from reina.instruments import (
+    Cast,
+    CastError,
+    casting_reasons,
+    choice_findings,
+    spoken_name,
+    unplayed_parts,
+)
 from reina.instruments.player import SEATS, SEATS_FOR, plan_glances
-from reina.music import NotInScoreError
+from reina.music import NotInScoreError, findings_of
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
@@ -31,7 +38,7 @@ if TYPE_CHECKING:
         UnplayedPart,
     )
     from reina.instruments.player import Seat
-    from reina.music import Score, ScoreWarning
+    from reina.music import Finding, Score, ScoreWarning
     from reina.sessions.stage import Stage
 
 
@@ -167,6 +174,27 @@ class Production:
         """What was repaired in the score, and what became of the players' parts."""
         played = (warning for performer in self.performers for warning in performer.played.warnings)
         return (*self.score.warnings, *played)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """The same as a musician is told of it, after who plays what."""
+        castings = self.cast.castings
+        reasons = [
+            next(choice.reasons for choice in ranking if choice.part == casting.part)
+            for casting, ranking in zip(castings, self.rankings, strict=True)
+        ]
+        played = (
+            finding
+            for number, one in enumerate(self.performers)
+            for finding in findings_of(
+                one.played.warnings, player=number, instrument=spoken_name(one.instrument.name)
+            )
+        )
+        return (
+            *choice_findings(self.score, castings, self.stage.kinds, reasons),
+            *played,
+            *findings_of(self.score.warnings),
+        )
 
     @property
     def has_default_show(self) -> bool:

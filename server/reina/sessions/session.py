@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.music import ClockError, ClockState, MusicClock
+from reina.music import ClockError, ClockState, MusicClock, ScoreWarning, findings_of
 from reina.performance import TAIL_S
 from reina.protocol import resources
 from reina.protocol.links import rendering_href, session_links, stream_links
@@ -17,6 +17,7 @@ from reina.sessions.audience import Audience
 from reina.sessions.description import (
     NoteTable,
     cast_summary,
+    found,
     lead_fields,
     part_choices,
     part_summaries,
@@ -132,6 +133,9 @@ class Session:
     def resource(self) -> resources.Session:
         """What the HTTP interface says of it."""
         score, lead = self.production.score, self.production.cast.lead
+        song = self.record.song.warnings if self.record.song else ()
+        of_song = [ScoreWarning(warning.kind, warning.place, warning.message) for warning in song]
+        of_show = show_warnings(self.production, self.clock.duration_s)
         return resources.Session(
             id=self.id,
             title=self.record.title,
@@ -149,18 +153,15 @@ class Session:
             choices=part_choices(self.production.rankings[0]),
             cast=cast_summary(self.production),
             notes=len(score.notes),
-            warnings=[
-                *warned(self.production.warnings),
-                *(self.record.song.warnings if self.record.song else ()),
-                *self.show_warnings(),
-            ],
+            warnings=[*warned(self.production.warnings), *song, *warned(of_show)],
+            findings=found([*self.production.findings, *findings_of(of_song), *findings_of(of_show)]),
             song=self.song_state(),
             links=session_links(self.id),
         )
 
     def show_warnings(self) -> list[resources.Warned]:
         """What of its show has no effect in this piece."""
-        return show_warnings(self.production, self.clock.duration_s)
+        return warned(show_warnings(self.production, self.clock.duration_s))
 
     def transport(self) -> TransportState:
         """The clock as it is now."""

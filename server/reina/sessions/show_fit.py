@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.protocol.resources import Warned
+from reina.music import ScoreWarning
 from reina.show import Track
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ LATE = 1e-6
 """Seconds after the end that are a rounding and no keyframe too late."""
 
 
-def show_warnings(production: Production, duration_s: float) -> list[Warned]:
+def show_warnings(production: Production, duration_s: float) -> list[ScoreWarning]:
     """What of the show has no effect in this piece.
 
     Args:
@@ -35,13 +35,13 @@ def show_warnings(production: Production, duration_s: float) -> list[Warned]:
     ]
 
 
-def _unknown(show: Show) -> Iterator[Warned]:
+def _unknown(show: Show) -> Iterator[ScoreWarning]:
     for path in show.unknown_parameters:
         message = "no parameter of this name is known here; its track is kept as it came and has no effect"
-        yield Warned(kind="show-unknown-parameter", place=path, message=message)
+        yield ScoreWarning("show-unknown-parameter", path, message)
 
 
-def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[Warned]:
+def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[ScoreWarning]:
     for track in show.tracks:
         if not isinstance(track, Track):
             continue
@@ -50,15 +50,15 @@ def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterato
             count = f"{late} of its {len(track.keyframes)} keyframes"
             verb = "stands" if late == 1 else "stand"
             message = f"{count} {verb} {_beyond(track.time, time_map, duration_s)} and will not be reached"
-            yield Warned(kind="show-keyframes-after-the-end", place=track.parameter, message=message)
+            yield ScoreWarning("show-keyframes-after-the-end", track.parameter, message, late)
 
 
-def _late_markers(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[Warned]:
+def _late_markers(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[ScoreWarning]:
     late = _late([marker.time for marker in show.markers], show.time, time_map, duration_s)
     if late:
         names = ", ".join(marker.name for marker in show.markers[len(show.markers) - late :])
         message = f"these stand {_beyond(show.time, time_map, duration_s)}: {names}"
-        yield Warned(kind="show-markers-after-the-end", place="markers", message=message)
+        yield ScoreWarning("show-markers-after-the-end", "markers", message, late)
 
 
 def _late(times: list[float], unit: TimeUnit, time_map: TimeMap, duration_s: float) -> int:
@@ -71,7 +71,7 @@ def _beyond(unit: TimeUnit, time_map: TimeMap, duration_s: float) -> str:
     return f"after the end, which is at {end:.4g} {unit}"
 
 
-def _never_answers(production: Production) -> Iterator[Warned]:
+def _never_answers(production: Production) -> Iterator[ScoreWarning]:
     plan = production.show_plan
     for track in production.show.tracks:
         if not isinstance(track, Track) or track.events is None:
@@ -83,4 +83,4 @@ def _never_answers(production: Production) -> Iterator[Warned]:
         part, parts = track.events.where.part, len(production.score.parts)
         if part is not None and part >= parts:
             message += f": it names part {part}, and the parts are 0 to {parts - 1}"
-        yield Warned(kind="show-never-answers", place=track.parameter, message=message)
+        yield ScoreWarning("show-never-answers", track.parameter, message)

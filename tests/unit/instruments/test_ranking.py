@@ -69,7 +69,7 @@ def test_by_program():
     score = score_of(TUNE, TUNE, TUNE, programs=[0, 56, 40])
     ranking = TRUMPET.rank_parts(score)
     assert ranking[0].part == 1
-    assert any("program 56 is Trumpet" in reason for reason in ranking[0].reasons)
+    assert any("its sound is Trumpet, program 56" in reason for reason in ranking[0].reasons)
 
 
 def test_by_name():
@@ -82,7 +82,7 @@ def test_by_name():
 def test_by_range_and_one_note_at_a_time_where_nothing_is_said():
     ranking = TRUMPET.rank_parts(score_of(CHORDS, BASS, TUNE))
     assert [entry.part for entry in ranking] == [2, 0, 1]
-    assert "100% of its notes sound alone (+2.0)" in ranking[0].reasons
+    assert "100% one note at a time (+2.0)" in ranking[0].reasons
 
 
 def test_a_name_goes_before_a_program_and_the_first_desk_before_the_second():

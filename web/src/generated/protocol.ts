@@ -245,6 +245,8 @@ export interface Session {
   cast: CastSummary
   notes: number
   warnings: Warned[]
+  /** The warnings as a musician is told of them, after who plays what and why. */
+  findings: Finding[]
   song: SongState
   links: SessionLinks
 }
@@ -688,6 +690,26 @@ export interface Fault {
   detail: string
   /** The place in the input. */
   location: string | null
+}
+
+/** What a musician is told of one kind of warning, or of who plays what, counted. */
+export interface Finding {
+  /** A stable name; with count and values all that another language's words need. */
+  kind: string
+  /** Who plays what; what became of a part; the score's file; the recording; the show. */
+  about: "choice" | "playing" | "file" | "song" | "show"
+  /** Music is missing; something was set right; good to know. */
+  weight: "cut" | "repaired" | "note"
+  /** How many things it is about. */
+  count: number
+  /** What the words hold beside the count. */
+  values: Record<string, string | number>
+  /** The words, in English, without a full stop. */
+  text: string
+  /** The place in the cast of the player whom it concerns; null for nobody. */
+  player: number | null
+  /** The warnings, one by one; of very many the first. */
+  details: Warned[]
 }
 
 /** An instrument that somebody can play. */

@@ -1,4 +1,4 @@
-import { Panels } from "./panels.svelte";
+import { Panels, type PiecePlace } from "./panels.svelte";
 import { nextRate } from "./rates";
 import { phrasesOf } from "./overview";
 import type { Reina } from "./reina.svelte";
@@ -9,10 +9,13 @@ import { shortcutOf, type Action } from "./shortcuts";
 import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames, type Quality } from "./storage";
 import { SHORTEST_LOOP_S } from "../timeline/loop-span";
+import { arrivalOf, worthKnowing, type OctaveOffer } from "./findings";
 import { CAMERA_PRESETS, type CameraView, type PicturePoint, type Place, type ShowCamera } from "../scene";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
+/** How many players' parts are offered in another octave at once. */
+const OCTAVES_OFFERED = 2;
 /** How far one key press takes the camera: an angle, radians, and a share of its distance. */
 const ORBIT_STEP = Math.PI / 36;
 const DOLLY_STEP = 0.92;
@@ -114,6 +117,7 @@ export class Deck {
 
   constructor(reina: Reina) {
     this.reina = reina;
+    reina.arrived = (view) => this.#tellArrival(view);
   }
 
   /** Do what a control or a key asks for. */
@@ -181,9 +185,56 @@ export class Deck {
     remember({ quality });
   }
 
+  /** Open the piece's panel at a place in it. */
+  openPiece(place: PiecePlace): void {
+    this.panels.sought = place;
+    this.panels.toggle("piece", true);
+  }
+
   nameNotes(noteNames: NoteNames): void {
     this.noteNames = noteNames;
     remember({ noteNames });
+  }
+
+  /** Say who plays what of a score that was just opened, and what can be done about it. */
+  #tellArrival(view: SessionView): void {
+    const { title, detail, drumsAlone, lines, offers } = arrivalOf(view.session);
+    const several = view.cast.castings.length > 1;
+    const { castings } = view.cast;
+    const covered = this.panels.coversStage;
+    const octaves = offers.slice(0, OCTAVES_OFFERED).map((offer) => ({
+      label: several ? `Move player ${offer.player + 1} ${offer.move}` : `Move ${offer.move}`,
+      run: () => this.#fitOctave(view, offer),
+    }));
+    const change = drumsAlone
+      ? { label: "Open another file", run: () => this.run("open") }
+      : several
+        ? { label: "Change who plays", run: () => this.openPiece("cast") }
+        : { label: "Change the part", run: () => this.openPiece("part") };
+    const known = worthKnowing(view.session.findings).length > 0;
+    const details = known ? [{ label: "Details", run: () => this.openPiece("findings") }] : [];
+    this.reina.word(title, detail, {
+      lines,
+      actions: [...octaves, change, ...details],
+      // On a phone it would lie over what was opened since.
+      over: () =>
+        this.reina.view !== view ||
+        view.cast.castings !== castings ||
+        this.helpOpen ||
+        (this.panels.coversStage && !covered),
+    });
+  }
+
+  async #fitOctave(view: SessionView, { player, move }: OctaveOffer): Promise<void> {
+    await view.cast.change(player, { octave_fit: true });
+    if (view.cast.castings[player]?.octave_fit !== true) {
+      if (view.cast.refusal !== null) this.reina.problem("It cannot be moved", view.cast.refusal.words);
+      return;
+    }
+    this.reina.word(`Moved ${move}`, "", {
+      actions: [{ label: "Undo", run: () => view.cast.change(player, { octave_fit: false }) }],
+      over: () => this.reina.view !== view || view.cast.castings[player]?.octave_fit !== true,
+    });
   }
 
   #escape(): boolean {

@@ -35,6 +35,11 @@ export class Notices {
   /** What is shown is that the server did not answer. */
   #unanswered = false;
 
+  /** What is shown stays until it is answered. */
+  get waits(): boolean {
+    return this.current !== null && this.current.kind !== "word";
+  }
+
   say(kind: Notice["kind"], title: string, detail = "", options: NoticeOptions = {}): void {
     const { lines = [], actions = [], over = never } = options;
     this.#unanswered = false;

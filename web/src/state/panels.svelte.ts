@@ -14,10 +14,15 @@ export type Panel = keyof typeof PLACES;
 
 const PANELS = Object.keys(PLACES) as Panel[];
 
+/** Places in the piece's panel that one may be led to. */
+export type PiecePlace = "cast" | "part" | "findings";
+
 /** Which panels are open. */
 export class Panels {
   /** The window has room for one panel at a time. */
   narrow = $state(false);
+  /** Where in the piece's panel to go; null once there. */
+  sought = $state<PiecePlace | null>(null);
   #open = $state.raw<readonly Panel[]>(PANELS.filter((panel) => remembered().panels.includes(panel)));
 
   isOpen(panel: Panel): boolean {

@@ -3,6 +3,7 @@ import type { Example, InstrumentList, ShowParameter } from "../generated/protoc
 import { controlToken } from "../pieces/links";
 import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
+import { arrivalOf } from "./findings";
 import { Notices, type NoticeOptions } from "./notices.svelte";
 import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
@@ -26,6 +27,8 @@ export class Reina {
   /** What the page is busy with, in a few words; null when with nothing. */
   busy = $state<string | null>(null);
   readonly notices = new Notices();
+  /** Called with the session of a score that was just uploaded. */
+  arrived: ((view: SessionView) => void) | null = null;
   parameters = $state.raw<readonly ShowParameter[]>([]);
   examples = $state.raw<readonly Example[]>([]);
   /** What a cast can be made of; null until the server has said it. */
@@ -114,7 +117,8 @@ export class Reina {
       else if (song !== undefined) await this.#askAboutSong(song);
       else if (show !== undefined) await this.putShow(show);
       const [first] = unusable;
-      if (first !== undefined && (this.notices.current === null || score === undefined)) {
+      // What went wrong with the score, or is asked of it, goes before.
+      if (first !== undefined && (score === undefined || !this.notices.waits)) {
         const lines = unusable.slice(1).map(({ file, told }) => `${file.name}: ${told.name}`);
         this.problem(`${first.file.name} cannot be used: it is ${first.told.name}`, first.told.advice, { lines });
       }
@@ -134,12 +138,16 @@ export class Reina {
       ...(song === undefined ? {} : { song }),
       ...(show === undefined ? {} : { show }),
     }));
-    if (!made || aside.length === 0) return;
     const { view } = this;
+    if (!made || view === null) return;
+    if (aside.length === 0) {
+      this.arrived?.(view);
+      return;
+    }
     this.notices.say(
       "question",
       `This is ${score.name}`,
-      `${namesOf(aside)} came with it, and one is played at a time.`,
+      `${arrivalOf(view.session).title}. ${namesOf(aside)} came with it, and one is played at a time.`,
       {
         actions: aside.slice(0, OFFERED).map((file) => ({
           label: `Open ${file.name}`,

@@ -27,7 +27,7 @@ from reina.instruments.played import Line, PlayedPart
 from reina.instruments.player.engagement import Engagement
 from reina.instruments.ranking import PartRanking, rank_parts
 from reina.kinematics import Curve, MotionCurves
-from reina.music.arrays import read_only
+from reina.music.arrays import IntArray, read_only
 from reina.music.score import Score
 from reina.music.warnings import WarningLog
 from reina.notation import keys_of, named
@@ -115,18 +115,22 @@ class ValvedBrass(Instrument):
                 "written_pitch",
                 place,
                 f"read as written for {self.title}: it sounds {_semitones(transposition)}",
+                things=abs(transposition),
+                values={"side": "lower" if transposition < 0 else "higher"} if transposition else {},
             )
         pitches = score.notes.sounding_pitch[notes_of_parts(score, (part, *joined))].astype(np.int64)
         octaves = fitting_octaves(pitches + transposition, self.model.lowest, self.model.highest)
+        told: dict[str, str | int] = {"side": "up" if octaves > 0 else "down"}
         if octaves and octave_fit:
             transposition += 12 * octaves
-            log.add("octave_fit", place, f"moved by {_octaves(octaves)} to come into range")
-        elif octaves:
-            log.add(
-                "octave_fit_possible",
-                place,
-                f"moved by {_octaves(octaves)}, more of its notes would be in range",
-            )
+            message = f"moved by {_octaves(octaves)} to come into range"
+            log.add("octave_fit", place, message, things=abs(octaves), values=told)
+        elif octaves and not score.parts[part].is_drums:
+            message = f"moved by {_octaves(octaves)}, more of its notes would be in range"
+            moved = pitches + transposition
+            out, left = self._beyond(moved), self._beyond(moved + 12 * octaves)
+            told |= {"notes": len(pitches), "out": out, "left": left}
+            log.add("octave_fit_possible", place, message, things=abs(octaves), values=told)
         line = playable_line(score, part, transposition, log, joined_parts=joined, playable=self.model.chart)
         above = self.model.written_above_sounding
         spelled = spell_line(score, line, keys_of(score), moved=transposition, written_above_sounding=above)
@@ -138,7 +142,8 @@ class ValvedBrass(Instrument):
         for note in np.flatnonzero(~fingering.playable).tolist():
             index = line.note_index[note]
             where = f"part {score.notes.part[index]}, note {index} at {line.onset_s[note]:.3f} s"
-            log.add("not_playable", where, fingering.reasons[note])
+            side = "below" if line.sounding_pitch[note] < self.model.lowest else "above"
+            log.add("not_playable", where, fingering.reasons[note], values={"side": side})
         return BrassPart(part, transposition, line, fingering, log.warnings(), joined_parts=joined)
 
     def show_fingering(self, fingering: NoteFingering) -> str:
@@ -244,6 +249,10 @@ class ValvedBrass(Instrument):
         if not long or sharp < SLIDE_FROM_CENTS:
             return 0.0
         return self.model.tube.slide_for(pitch, choice.valves)
+
+    def _beyond(self, pitches: IntArray) -> int:
+        """How many pitches, MIDI numbers as they sound, it does not have."""
+        return int(np.count_nonzero((pitches < self.model.lowest) | (pitches > self.model.highest)))
 
     def _out_of_range(self, pitch: int) -> str:
         below = pitch < self.model.lowest

@@ -124,6 +124,7 @@ def _choose_sequence(
             "sequences",
             "byte 8",
             f"the file holds {count} sequences; the first was read, the others can be chosen",
+            things=count,
         )
     chosen = sequence or 0
     return [with_notes[chosen]], chosen, len(with_notes)
@@ -194,7 +195,8 @@ def _tell_of_pairs(messages: Messages, pairs: Pairs, tracks: Sequence[Track], lo
     if len(pairs.stray):
         count, first = len(pairs.stray), int(pairs.stray[0])
         place = f"track {tracks[int(messages.track[first])].number}, tick {messages.tick[first]}"
-        log.add("stray_note_off", place, f"{count} note-offs end no note, the first here; they were left out")
+        message = f"{count} note-offs end no note, the first here; they were left out"
+        log.add("stray_note_off", place, message, things=count)
 
 
 def _tell(

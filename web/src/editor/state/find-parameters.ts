@@ -64,8 +64,9 @@ export function findParameters<T extends Described>(parameters: readonly T[], so
 
 /** Index in FITS of the best fit; -1 for none. */
 function rankOf({ path, documentation, type }: Described, word: string): number {
-  const inPath = shownPath(path).toLowerCase().split(" ");
-  const called = inPath.flatMap((each) => SYNONYMS[each] ?? []);
+  const words = path.toLowerCase().split(/[_/]/);
+  const inPath = [...words, ...shownPath(path).toLowerCase().split(" ")];
+  const called = words.flatMap((each) => SYNONYMS[each] ?? []);
   const fits: Record<Fit, boolean> = {
     whole: inPath.includes(word),
     start: inPath.some((each) => each.startsWith(word)),

@@ -1,3 +1,4 @@
+import { shownWord } from "./names";
 import { HEADER_SIZE, type Manifest, type ShowParameter } from "../../generated/protocol";
 
 /** What a parameter's value is called in a show's JSON, read from the floats of the frame on screen. */
@@ -55,7 +56,7 @@ export function typedNumber(shown: number, unit: string): number {
 
 /** A parameter's path, or the rest of one, as words. */
 export function shownPath(path: string): string {
-  return path.replaceAll("_", " ").replaceAll("/", " ");
+  return path.split(/[_/]/).map(shownWord).join(" ");
 }
 
 /** A unit as it is written behind a number. */
