@@ -1,0 +1,93 @@
+"""A score as a recording of it goes."""
+
+import numpy as np
+import pytest
+from tests.integration.scores import duet, scale
+
+from reina.music import Score, TempoMap, TimeWarp, read_score, retimed
+from reina.music.arrays import FloatArray
+
+
+def warp(places: list[tuple[float, float]], absent: list[tuple[float, float]] | None = None) -> TimeWarp:
+    score_s, song_s = np.array(places).T
+    return TimeWarp(score_s, song_s, np.array(absent or [], dtype=np.float64).reshape(-1, 2))
+
+
+@pytest.fixture
+def score() -> Score:
+    """Sixteen eighths at 120: a note each quarter of a second, four seconds in all."""
+    return read_score(scale(16), filename="scale.mid")
+
+
+def falls(score: Score) -> FloatArray:
+    return score.tempo_map.seconds(score.notes.onset_beats)
+
+
+def test_notes_bars_and_beats_move_together(score: Score):
+    heard = retimed(score, warp([(0, 3.2), (2, 5.2), (4, 9.2)]))
+    assert heard.notes.onset_s[:3] == pytest.approx([3.2, 3.45, 3.7])
+    assert heard.notes.onset_s[8:11] == pytest.approx([5.2, 5.7, 6.2])
+    assert heard.notes.duration_s[8:] == pytest.approx(0.5)
+    assert heard.notes.onset_beats.tolist() == score.notes.onset_beats.tolist()
+    assert falls(heard) == pytest.approx(heard.notes.onset_s)
+    assert heard.tempo_map.seconds(heard.metre_map.bar_lines(8.0)) == pytest.approx([3.2, 5.2])
+    assert heard.duration_s == pytest.approx(9.2)
+    assert [round(tempo.beats_per_minute) for tempo in heard.tempo_map.tempos[:2]] == [120, 60]
+    assert heard.tempo_map.beats(0.0) == pytest.approx(-6.4), (
+        "what is heard before the music has its beats too"
+    )
+
+
+def test_beyond_what_was_found_a_second_lasts_a_second(score: Score):
+    heard = retimed(score, warp([(1, 2), (2, 4)]))
+    assert heard.notes.onset_s[[0, 4, 8, 12]] == pytest.approx([1, 2, 4, 5])
+    assert falls(heard) == pytest.approx(heard.notes.onset_s)
+
+
+def test_bars_that_are_not_heard_have_no_notes_and_no_time(score: Score):
+    heard = retimed(score, warp([(0, 0), (1, 1), (3, 1), (4, 2)], [(1, 3)]))
+    assert heard.notes.onset_beats.tolist() == [*score.notes.onset_beats[:4], *score.notes.onset_beats[12:]]
+    assert heard.notes.onset_s == pytest.approx(np.arange(8) * 0.25)
+    assert heard.tempo_map.seconds(np.array([2.0, 6.0])) == pytest.approx([1, 1], abs=1e-5)
+    assert falls(heard) == pytest.approx(heard.notes.onset_s, abs=1e-5)
+
+
+def test_a_note_that_is_held_into_what_is_not_heard_ends_there():
+    long = read_score(scale(2, beats=4.0), filename="scale.mid")
+    heard = retimed(long, warp([(0, 0), (1, 1), (2, 1), (4, 3)], [(1, 2)]))
+    assert heard.notes.onset_s == pytest.approx([0, 1])
+    assert heard.notes.duration_s == pytest.approx([1, 2])
+
+
+def test_the_written_tempo_stays_and_controllers_move(score: Score):
+    heard = retimed(score, warp([(0, 1), (4, 9)]))
+    assert heard.written_tempo_map is score.tempo_map
+    assert score.written_tempo_map is score.tempo_map
+    again = retimed(heard, warp([(0, 0), (9, 9)]))
+    assert again.written_tempo_map is score.tempo_map
+    assert [control.onset_s for control in heard.controls] == pytest.approx(
+        [1 + 2 * control.onset_s for control in score.controls]
+    )
+    assert heard.controls
+
+
+def test_as_it_is_written_it_stays_as_it_is():
+    score = read_score(duet(), filename="duet.mid")
+    heard = retimed(score, warp([(0, 0), (1, 1)]))
+    for name, column in vars(score.notes).items():
+        assert getattr(heard.notes, name) == pytest.approx(column, abs=1e-12), name
+    assert heard.duration_s == pytest.approx(score.duration_s)
+
+
+@pytest.mark.parametrize(
+    ("beats", "seconds", "said"),
+    [
+        ([0, 1], [1, 1], "ascend"),
+        ([0, 1, 1], [0, 1, 2], "ascend"),
+        ([1, 2], [0, 1], "beat 0"),
+        ([0], [0], "two places"),
+    ],
+)
+def test_a_tempo_map_goes_through_places_that_ascend(beats: list[float], seconds: list[float], said: str):
+    with pytest.raises(ValueError, match=said):
+        TempoMap.through(beats, seconds)
