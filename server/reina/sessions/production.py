@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, CastError, casting_reasons, unplayed_parts
 from reina.instruments.player import SEATS, SEATS_FOR, plan_glances
-from reina.music import NotInScoreError
+from reina.music import NotInScoreError, retimed
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
         UnplayedPart,
     )
     from reina.instruments.player import Seat
-    from reina.music import Score, ScoreWarning
+    from reina.music import Score, ScoreWarning, TimeWarp
     from reina.sessions.stage import Stage
 
 
@@ -56,7 +56,8 @@ class Production:
         stage: What it is played on.
         registry: Everything that its show can move.
         cast: Who plays what, each casting with its part.
-        score: What is played.
+        written_score: What is played, in the time of its file.
+        score: The same as it is heard: in the time of the song.
         rankings: Of each player the parts that suit the instrument, best first.
         show: The show around it.
         show_plan: The show, made ready.
@@ -67,6 +68,7 @@ class Production:
     stage: Stage
     registry: ParameterRegistry
     cast: Cast
+    written_score: Score
     score: Score
     rankings: tuple[tuple[PartRanking, ...], ...]
     show: Show
@@ -76,7 +78,12 @@ class Production:
 
     @classmethod
     def plan(
-        cls, stage: Stage, score: Score, show: Show | None = None, cast: Cast | None = None
+        cls,
+        stage: Stage,
+        score: Score,
+        show: Show | None = None,
+        cast: Cast | None = None,
+        warp: TimeWarp | None = None,
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -86,6 +93,8 @@ class Production:
             show: The show around it; when None, one is written from the form of the music.
             cast: Who plays what, or that the score is to say so; the trumpeter the part that suits best when
                 None.
+            warp: Where the score is heard in the song; where it is written when None. Who plays what does not
+                depend on it.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
@@ -94,24 +103,26 @@ class Production:
         cast = cast or Cast()
         if cast.is_to_be_found:
             cast = stage.found_cast(score, cast.sequence)
-        castings, played, rankings = _prepare(stage, score, cast)
+        heard = score if warp is None else retimed(score, warp)
+        castings, played, rankings = _prepare(stage, score, heard, cast)
         registry = stage.registry(tuple(casting.instrument for casting in castings))
         seats = _seats(cast)
         glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, score, part, registry, looks)
+            stage.performer(casting, number, seat, heard, part, registry, looks)
             for number, (casting, seat, part, looks) in enumerate(
                 zip(castings, seats, played, glances, strict=True)
             )
         ]
-        show = _show_for(score, played, seats) if show is None else rebound(show, registry)
-        show_plan = show.plan(registry, time_map(score), triggers=triggers(score, played))
-        performance = Performance(performers, show_plan, duration_s=score.duration_s)
+        show = _show_for(heard, played, seats) if show is None else rebound(show, registry)
+        show_plan = show.plan(registry, time_map(heard), triggers=triggers(heard, played))
+        performance = Performance(performers, show_plan, duration_s=heard.duration_s)
         return cls(
             stage=stage,
             registry=registry,
             cast=replace(cast, castings=castings),
-            score=score,
+            written_score=score,
+            score=heard,
             rankings=rankings,
             show=show,
             show_plan=show_plan,
@@ -147,12 +158,12 @@ class Production:
     @cached_property
     def casting_reasons(self) -> tuple[tuple[str, ...], ...]:
         """Why there is each player."""
-        return casting_reasons(self.score, self.cast, self.stage.kinds)
+        return casting_reasons(self.written_score, self.cast, self.stage.kinds)
 
     @cached_property
     def unplayed(self) -> tuple[UnplayedPart, ...]:
         """The parts that nobody plays, and why."""
-        return unplayed_parts(self.score, self.cast, self.stage.kinds)
+        return unplayed_parts(self.written_score, self.cast, self.stage.kinds)
 
     @property
     def sounding(self) -> tuple[PlayedParts, ...]:
@@ -199,7 +210,7 @@ def rebound(show: Show, registry: ParameterRegistry) -> Show:
 
 
 def _prepare(
-    stage: Stage, score: Score, cast: Cast
+    stage: Stage, score: Score, heard: Score, cast: Cast
 ) -> tuple[tuple[Casting, ...], tuple[PlayedPart, ...], tuple[tuple[PartRanking, ...], ...]]:
     """Complete each casting by its part, and have the parts played."""
     several = len(cast.castings) > 1
@@ -219,7 +230,7 @@ def _prepare(
             taken.add(part)
         try:
             played = instrument.play(
-                score,
+                heard,
                 part,
                 casting.transposition,
                 written=casting.written,
