@@ -16,7 +16,7 @@ from reina.sound.alignment.onsets import WINDOW_S as ONSET_WINDOW_S
 from reina.sound.alignment.onsets import chords_of, refine_onsets
 from reina.sound.alignment.path import Likeness, Path, Rules, best_path
 from reina.sound.alignment.score_bands import Times, score_energies
-from reina.sound.alignment.segments import BentTime, Stretch, band_around, bend_to, stretches_of
+from reina.sound.alignment.segments import BentTime, Stretch, band_around, bend_as_a_whole, bend_to, stretches_of
 
 FRAMES_PER_S = 50
 WINDOW_S = 0.17
@@ -25,7 +25,10 @@ COARSE_FRAMES = 10
 MOST_COARSE = 4000
 REACH_S = 1.0
 COARSE_THRESHOLD = FINE_THRESHOLD = 0.7
-STEP_COSTS = (0.1, 0.0, 0.1, 0.3)
+COARSE_COSTS = (0.1, 0.0, 0.1, 0.3)
+STEADY_FRAMES = 5
+STEADY_COSTS = (0.35, 0.0, 0.35, 1.0)
+FINE_COSTS = (0.4, 0.0, 0.4, 1.2)
 GAP_S = 2.0
 """A gap costs what so many seconds of music earn."""
 UNTRANSPOSED_BONUS = 1.1
@@ -53,6 +56,8 @@ class _Heard:
     onset_s: Times
     heard_s: Times
     clarity: Times
+    knots: Times
+    line: Times
 
 
 def align(samples: Floats, rate: int, score: Score, progress: Progress | None = None) -> Alignment:
@@ -71,6 +76,9 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     stretches = stretches_of(path, frame_s, centred=True)
     if not stretches:
         return Alignment.identity(score.duration_s, song_duration_s, is_same_music=False)
+    stretches, frame_s = _steadier(recording, notes, stretches, score.duration_s, transposition)
+    if not stretches:
+        return Alignment.identity(score.duration_s, song_duration_s, is_same_music=False)
     bent = bend_to(stretches, score.duration_s)
     fine = _fine(recording, notes, bent, stretches, transposition, frame_s)
     tell(0.6)
@@ -85,7 +93,8 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     )
     risen = rises(sharp)
     tell(0.85)
-    heard = [_place(notes, stretch, risen, transposition) for stretch in fine]
+    beats_s = score.tempo_map.seconds(np.arange(0.0, np.ceil(score.duration_beats) + 1))
+    heard = [_place(notes, stretch, risen, transposition, beats_s) for stretch in fine]
     tell(0.95)
     return _map(score, song_duration_s, fine, heard, transposition, tuning_cents)
 
@@ -116,7 +125,7 @@ def _whole(recording: Floats, score: Floats, tell: Progress) -> tuple[int, Path,
     count = max(COARSE_FRAMES, -(-max(len(recording), len(score)) // MOST_COARSE))
     frame_s = count / FRAMES_PER_S
     coarse_recording, coarse_score = pooled(recording, count), pooled(score, count)
-    rules = Rules(STEP_COSTS, GAP_S / frame_s)
+    rules = Rules(COARSE_COSTS, GAP_S / frame_s)
     best: tuple[float, int, Path] | None = None
     for number, semitones in enumerate(TRANSPOSITIONS):
         moved = transposed(coarse_score, semitones)
@@ -128,6 +137,28 @@ def _whole(recording: Floats, score: Floats, tell: Progress) -> tuple[int, Path,
         tell(0.25 + 0.2 * (number + 1) / len(TRANSPOSITIONS))
     assert best is not None
     return best[1], best[2], frame_s
+
+
+def _steadier(
+    recording: Floats, notes: Tones, stretches: list[Stretch], duration_s: float, transposition: int
+) -> tuple[list[Stretch], float]:
+    """The way through the whole anew, by shorter frames, the score at the recording's tempo as a whole.
+
+    Another tempo than that of the whole then has its price, so that what is repeated is not played at half
+    the tempo instead.
+    """
+    bent = bend_as_a_whole(stretches, duration_s)
+    bent_score = transposed(
+        _score_features(notes, bent.bend(notes.onset_s), bent.bend(notes.end_s), float(bent.bent_s[-1])),
+        transposition,
+    )
+    count = max(STEADY_FRAMES, -(-max(len(recording), len(bent_score)) // MOST_COARSE))
+    frame_s = count / FRAMES_PER_S
+    coarse_recording, coarse_score = pooled(recording, count), pooled(bent_score, count)
+    likeness = Likeness.by_chance(coarse_recording, coarse_score, COARSE_THRESHOLD)
+    path = best_path(coarse_recording, coarse_score, likeness, Rules(STEADY_COSTS, GAP_S / frame_s))
+    found = stretches_of(path, frame_s, centred=True)
+    return [Stretch(stretch.song_s, bent.straighten(stretch.score_s)) for stretch in found], frame_s
 
 
 def _fine(
@@ -147,22 +178,23 @@ def _fine(
         reach_s=max(REACH_S, 5 * frame_s),
     )
     likeness = Likeness.by_chance(recording, bent_score, FINE_THRESHOLD)
-    path = best_path(recording, bent_score, likeness, Rules(STEP_COSTS, GAP_S * FRAMES_PER_S), band)
+    path = best_path(recording, bent_score, likeness, Rules(FINE_COSTS, GAP_S * FRAMES_PER_S), band)
     found = stretches_of(path, 1 / FRAMES_PER_S, centred=False)
     return [Stretch(stretch.song_s, bent.straighten(stretch.score_s)) for stretch in found]
 
 
-def _place(notes: Tones, stretch: Stretch, risen: Floats, transposition: int) -> _Heard:
+def _place(notes: Tones, stretch: Stretch, risen: Floats, transposition: int, beats_s: Times) -> _Heard:
     """The chords of a stretch, each where it begins in the recording."""
+    begin, end = float(stretch.score_s[0]), float(stretch.score_s[-1])
+    inner = beats_s[(beats_s > begin + 0.02) & (beats_s < end - 0.02)]
+    knots = np.concatenate(([begin], inner, [end]))
     slack = 1.5 / FRAMES_PER_S
     inside = np.flatnonzero(
         (notes.onset_s >= stretch.score_s[0] - slack) & (notes.onset_s <= stretch.score_s[-1] + slack)
     )
     onset_s = notes.onset_s[inside]
     group, firsts = chords_of(onset_s)
-    places, first_at = np.unique(stretch.score_s, return_index=True)
     chord_s = onset_s[firsts]
-    expected_s = np.interp(chord_s, places, stretch.song_s[first_at])
     pitches: list[NDArray[np.int64]] = []
     unpitched = np.zeros(len(firsts), dtype=np.bool_)
     ends = np.append(firsts[1:], len(onset_s))
@@ -171,8 +203,14 @@ def _place(notes: Tones, stretch: Stretch, risen: Floats, transposition: int) ->
         drums = notes.is_drum[members]
         unpitched[chord] = bool(drums.any())
         pitches.append(notes.pitch[members][~drums] + transposition)
-    heard_s, clarity = refine_onsets(risen, expected_s, pitches, unpitched)
-    return _Heard(chord_s, heard_s, clarity)
+    places, first_at = np.unique(stretch.score_s, return_index=True)
+    line = np.interp(knots, places, stretch.song_s[first_at])
+    heard_s = clarity = chord_s
+    for _ in range(2):
+        expected_s = np.interp(chord_s, knots, line)
+        heard_s, clarity = refine_onsets(risen, expected_s, pitches, unpitched)
+        line = fit_beats(knots, chord_s, heard_s, clarity)
+    return _Heard(chord_s, heard_s, clarity, knots, line)
 
 
 def _map(
@@ -183,14 +221,9 @@ def _map(
     transposition: int,
     tuning_cents: float,
 ) -> Alignment:
-    beats_s = score.tempo_map.seconds(np.arange(0.0, np.ceil(score.duration_beats) + 1))
     points: list[MapPoint] = []
-    for stretch, chords in zip(stretches, heard, strict=True):
-        begin, end = float(stretch.score_s[0]), float(stretch.score_s[-1])
-        inner = beats_s[(beats_s > begin + 0.02) & (beats_s < end - 0.02)]
-        knots = np.concatenate(([begin], inner, [end]))
-        line = fit_beats(knots, chords.onset_s, chords.heard_s, chords.clarity)
-        points += [MapPoint(a, b, 1.0) for a, b in zip(knots.tolist(), np.clip(line, 0, song_duration_s).tolist(), strict=True)]
+    for h in heard:
+        points += [MapPoint(a, b, 1.0) for a, b in zip(h.knots.tolist(), np.clip(h.line, 0, song_duration_s).tolist(), strict=True)]
     out: list[MapPoint] = []
     gaps: list[Gap] = []
     for p in points:

@@ -55,12 +55,13 @@ def band_energies(
 
 
 def rises(energies: Floats, frames: int = 1) -> Floats:
-    """By how much each band rises over `frames` frames on either side, (F, BANDS); 0 where it falls."""
-    risen = np.zeros_like(energies)
-    width = 2 * frames
-    if len(energies) > width:
-        risen[frames:-frames] = np.maximum(0, energies[width:] - energies[:-width])
-    return risen
+    """By how much each band rises over `frames` frames on either side, (F, BANDS); 0 where it falls.
+
+    Before the first frame there was silence.
+    """
+    padded = np.pad(energies, ((frames, frames), (0, 0)))
+    padded[len(padded) - frames :] = energies[-1]
+    return np.maximum(0, padded[2 * frames :] - padded[: -2 * frames])
 
 
 def tuning_of(samples: Floats, rate: int) -> float:

@@ -16,6 +16,8 @@ SAME_TIME_S = 0.02
 FIRM_S, LOOSE_PER_S = 0.012, 0.08
 """How far a note may move against the one before it at the price of one: some milliseconds, and more the
 later it follows (a share of what lies between)."""
+HALF = 0.5
+FROM_HALF = 2.0
 EVIDENCE = 3.0
 """Price of no rise at all where the strongest is near."""
 FAR = 0.6
@@ -71,7 +73,7 @@ def refine_onsets(
     prices = EVIDENCE * clarity[:, None] * (1 - evidence / np.maximum(strongest, 1e-9)[:, None])
     prices += FAR * (offsets / REACH) ** 2
     chosen = _cheapest_chain(prices, offsets / FRAMES_PER_S, expected_s)
-    placed = np.rint(expected_s * FRAMES_PER_S) + offsets[chosen] + _vertex(evidence, chosen)
+    placed = np.rint(expected_s * FRAMES_PER_S) + offsets[chosen] + _begins(evidence, chosen)
     peak = evidence[np.arange(len(chosen)), chosen] / np.maximum(strongest, 1e-9)
     contrast = 1 - evidence.mean(axis=1) / np.maximum(strongest, 1e-9)
     return placed / FRAMES_PER_S, clarity * peak * np.clip(contrast * 1.5, 0, 1)
@@ -96,11 +98,18 @@ def _cheapest_chain(prices: Times, offsets_s: Times, expected_s: Times) -> NDArr
     return chosen
 
 
-def _vertex(evidence: Times, chosen: NDArray[np.int64]) -> Times:
-    """By which part of a frame the peak lies off the chosen one."""
-    rows = np.arange(len(chosen))
-    inner = np.clip(chosen, 1, evidence.shape[1] - 2)
-    before, here, after = (evidence[rows, inner + step] for step in (-1, 0, 1))
-    curve = before - 2 * here + after
-    vertex = 0.5 * (before - after) / np.where(curve < -1e-9, curve, -np.inf)
-    return np.where((inner == chosen) & (np.abs(vertex) <= 1), vertex, 0.0)
+def _begins(evidence: Times, chosen: NDArray[np.int64]) -> Times:
+    """How many frames from the chosen one what rises there has risen half as fast as at its fastest.
+
+    A slow attack rises fastest long after the note begins.
+    """
+    begins = np.zeros(len(chosen))
+    for chord, at in enumerate(chosen.tolist()):
+        row = evidence[chord].tolist()
+        half = HALF * row[at]
+        place = at
+        while place > 0 and row[place - 1] > half:
+            place -= 1
+        if place > 0 and row[place] > row[place - 1]:
+            begins[chord] = place - (row[place] - half) / (row[place] - row[place - 1]) - at
+    return begins + FROM_HALF

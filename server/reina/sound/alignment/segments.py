@@ -76,8 +76,23 @@ class BentTime:
         return np.interp(bent_s, self.bent_s, self.score_s)
 
 
+def bend_as_a_whole(stretches: list[Stretch], score_duration_s: float) -> BentTime:
+    """Bend a score's time to the median tempo of stretches."""
+    _, slopes = _tempos(stretches)
+    whole_s = score_duration_s + 2 * GRID_S
+    return BentTime(np.array([0.0, whole_s]), np.array([0.0, whole_s * float(np.median(slopes))]))
+
+
 def bend_to(stretches: list[Stretch], score_duration_s: float) -> BentTime:
     """Bend a score's time to the tempo of stretches; where none is, to that of those beside."""
+    places, slopes = _tempos(stretches)
+    grid = np.arange(0.0, score_duration_s + 2 * GRID_S, GRID_S)
+    slope = np.interp(grid, places, slopes)
+    return BentTime(grid, np.concatenate(([0.0], np.cumsum(slope[:-1] * GRID_S))))
+
+
+def _tempos(stretches: list[Stretch]) -> tuple[Times, Times]:
+    """Places of the score, and how long a second of it lasts there."""
     places: list[Times] = []
     slopes: list[Times] = []
     for stretch in stretches:
@@ -87,9 +102,7 @@ def bend_to(stretches: list[Stretch], score_duration_s: float) -> BentTime:
         passed = np.interp(high, stretch.song_s, stretch.score_s) - np.interp(low, stretch.song_s, stretch.score_s)
         slopes.append(np.clip((high - low) / np.maximum(passed, 1e-3), SLOWEST, FASTEST))
         places.append(np.interp(centres, stretch.song_s, stretch.score_s))
-    grid = np.arange(0.0, score_duration_s + 2 * GRID_S, GRID_S)
-    slope = np.interp(grid, np.concatenate(places), np.concatenate(slopes))
-    return BentTime(grid, np.concatenate(([0.0], np.cumsum(slope[:-1] * GRID_S))))
+    return np.concatenate(places), np.concatenate(slopes)
 
 
 def band_around(
