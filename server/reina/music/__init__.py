@@ -13,7 +13,7 @@ from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.metre import BarPosition, MetreMap, TimeSignature
 from reina.music.notes import Note, Notes
 from reina.music.read import read_score
-from reina.music.retime import TimeWarp, retimed
+from reina.music.retime import SongTimes, retimed
 from reina.music.score import Part, Score
 from reina.music.tempo import Tempo, TempoMap
 from reina.music.warnings import ScoreWarning, WarningLog
@@ -40,11 +40,11 @@ __all__ = [
     "ScoreError",
     "ScoreLimitError",
     "ScoreWarning",
+    "SongTimes",
     "Span",
     "Tempo",
     "TempoMap",
     "TimeSignature",
-    "TimeWarp",
     "WarningLog",
     "read_score",
     "retimed",

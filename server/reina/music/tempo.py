@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from reina.music.arrays import FloatArray, read_only
 
 DEFAULT_SECONDS_PER_BEAT = 0.5
+SAME_TEMPO = 1e-9
+"""Lengths of a beat that differ by a smaller share are the same: what is found from places is rounded."""
 
 
 @dataclass(frozen=True)
@@ -89,8 +91,10 @@ class TempoMap:
         steps, lasts = np.diff(at_beats), np.diff(at_seconds)
         if not (np.all(steps > 0) and np.all(lasts > 0) and np.isfinite(lasts.sum() + steps.sum())):
             raise ValueError("beats and seconds must ascend")
+        lengths = lasts / steps
+        changes = np.concatenate(([True], np.abs(np.diff(lengths)) > SAME_TEMPO * lengths[1:]))
         made = cls.__new__(cls)
-        made._keep(at_beats[:-1], lasts / steps, at_seconds[:-1])
+        made._keep(at_beats[:-1][changes], lengths[changes], at_seconds[:-1][changes])
         return made
 
     @property

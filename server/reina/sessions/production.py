@@ -31,7 +31,7 @@ if TYPE_CHECKING:
         UnplayedPart,
     )
     from reina.instruments.player import Seat
-    from reina.music import Score, ScoreWarning, TimeWarp
+    from reina.music import Score, ScoreWarning, SongTimes
     from reina.sessions.stage import Stage
 
 
@@ -83,7 +83,7 @@ class Production:
         score: Score,
         show: Show | None = None,
         cast: Cast | None = None,
-        warp: TimeWarp | None = None,
+        alignment: SongTimes | None = None,
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -93,8 +93,8 @@ class Production:
             show: The show around it; when None, one is written from the form of the music.
             cast: Who plays what, or that the score is to say so; the trumpeter the part that suits best when
                 None.
-            warp: Where the score is heard in the song; where it is written when None. Who plays what does not
-                depend on it.
+            alignment: Where the score is heard in the song; where it is written when None. Who plays what does
+                not depend on it.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
@@ -103,7 +103,7 @@ class Production:
         cast = cast or Cast()
         if cast.is_to_be_found:
             cast = stage.found_cast(score, cast.sequence)
-        heard = score if warp is None else retimed(score, warp)
+        heard = score if alignment is None else retimed(score, alignment)
         castings, played, rankings = _prepare(stage, score, heard, cast)
         registry = stage.registry(tuple(casting.instrument for casting in castings))
         seats = _seats(cast)

@@ -1,16 +1,39 @@
 """A score as a recording of it goes."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from tests.integration.scores import duet, scale
 
-from reina.music import Score, TempoMap, TimeWarp, read_score, retimed
-from reina.music.arrays import FloatArray
+from reina.music import Score, TempoMap, read_score, retimed
+from reina.music.arrays import BoolArray, FloatArray
 
 
-def warp(places: list[tuple[float, float]], absent: list[tuple[float, float]] | None = None) -> TimeWarp:
-    score_s, song_s = np.array(places).T
-    return TimeWarp(score_s, song_s, np.array(absent or [], dtype=np.float64).reshape(-1, 2))
+@dataclass(frozen=True)
+class Heard:
+    """Places that are heard, in straight lines between them, and stretches that are not heard."""
+
+    places: tuple[tuple[float, float], ...]
+    absent: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def bends_s(self) -> FloatArray:
+        return np.array([score_s for score_s, _ in self.places])
+
+    def song_times(self, score_s: FloatArray, /) -> FloatArray:
+        known, values = np.array(self.places).T
+        beyond = np.minimum(score_s - known[0], 0.0) + np.maximum(score_s - known[-1], 0.0)
+        return np.interp(score_s, known, values) + beyond
+
+    def is_heard(self, score_s: FloatArray, /) -> BoolArray:
+        return ~np.any(
+            [(score_s >= begin) & (score_s < end) for begin, end in ((0, 0), *self.absent)], axis=0
+        )
+
+
+def warp(places: list[tuple[float, float]], absent: list[tuple[float, float]] | None = None) -> Heard:
+    return Heard(tuple(places), tuple(absent or []))
 
 
 @pytest.fixture
@@ -50,6 +73,12 @@ def test_bars_that_are_not_heard_have_no_notes_and_no_time(score: Score):
     assert heard.notes.onset_s == pytest.approx(np.arange(8) * 0.25)
     assert heard.tempo_map.seconds(np.array([2.0, 6.0])) == pytest.approx([1, 1], abs=1e-5)
     assert falls(heard) == pytest.approx(heard.notes.onset_s, abs=1e-5)
+
+
+def test_music_that_the_score_has_not_leaves_the_tempo_before_it_as_it_is(score: Score):
+    heard = retimed(score, warp([(0, 0), (2, 2), (2.0001, 14.0001), (4, 16)]))
+    assert heard.notes.onset_s[[4, 7, 9]] == pytest.approx([1, 1.75, 14.25])
+    assert heard.tempo_map.seconds(np.array([2.0, 3.0, 3.9, 4.5])) == pytest.approx([1, 1.5, 1.95, 14.25])
 
 
 def test_a_note_that_is_held_into_what_is_not_heard_ends_there():
