@@ -16,23 +16,21 @@ SAME_TIME_S = 0.02
 FIRM_S, LOOSE_PER_S = 0.012, 0.08
 """How far a note may move against the one before it at the price of one: some milliseconds, and more the
 later it follows (a share of what lies between)."""
-HALF = 0.5
-FROM_HALF = 2.0
+HALF = 0.25
+FROM_HALF = 2.5
 EVIDENCE = 3.0
 """Price of no rise at all where the strongest is near."""
 FAR = 0.6
 """Price of the edge of what is looked at."""
 
 
-def chords_of(onset_s: Times) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Which notes begin together: the group of each of (N,) sorted onsets, and the first note of each group."""
+def chords_of(onset_s: Times) -> NDArray[np.int64]:
+    """The first note of each chord, indices: notes that begin together, of (N,) onsets that never fall."""
     firsts: list[int] = []
-    group = np.empty(len(onset_s), dtype=np.int64)
     for index, onset in enumerate(onset_s.tolist()):
         if not firsts or onset - onset_s[firsts[-1]] > SAME_TIME_S:
             firsts.append(index)
-        group[index] = len(firsts) - 1
-    return group, np.array(firsts, dtype=np.int64)
+    return np.array(firsts, dtype=np.int64)
 
 
 def refine_onsets(

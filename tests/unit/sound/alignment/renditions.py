@@ -37,7 +37,7 @@ class Rendition:
         tempo: How long a second of the score lasts: `(mean, depth)`; a depth of 0 is the same everywhere.
         sudden: Whether the tempo jumps every eight seconds of the score and is not bent smoothly.
         lead_in_s: Silence before.
-        count_in: How many clicks stand before the first note, within the lead-in.
+        count_in: How many clicks, one a beat, stand before the first note, within the lead-in.
         tail_s: Applause after.
         noise_db: Level of noise beside that of the music; None without.
         reverberation_s: Time in which it dies away by 60 dB; 0 without.
@@ -117,7 +117,8 @@ def record(rendition: Rendition) -> Recording:
         heard &= (onset_s < begin_s) | (onset_s >= end_s)
         onset_s = np.where(onset_s >= end_s, onset_s + length_s, onset_s)
         sound = _joined(sound[: _at(end_s)], sound[_at(begin_s) :])
-    sound = _framed(sound, rendition, random)
+    beat_s = float(np.interp(score.tempo_map.seconds(1.0), warp_score, warp_song))
+    sound = _framed(sound, rendition, beat_s, random)
     onset_s = np.where(heard, onset_s + rendition.lead_in_s, np.nan)
     return Recording(_with_wrong_notes(score, rendition.wrong, random), sound, onset_s, rendition)
 
@@ -221,12 +222,12 @@ def _reverberated(sound: Sound, time_s: float, random: np.random.Generator) -> S
     return np.fft.irfft(np.fft.rfft(sound, size) * np.fft.rfft(tail, size), size).astype(np.float32)
 
 
-def _framed(sound: Sound, rendition: Rendition, random: np.random.Generator) -> Sound:
+def _framed(sound: Sound, rendition: Rendition, beat_s: float, random: np.random.Generator) -> Sound:
     """What is before the music, after it and beneath it."""
     level = float(np.sqrt(np.mean(sound**2)))
     before = np.zeros(_at(rendition.lead_in_s), dtype=np.float32)
     for click in range(rendition.count_in):
-        at = _at(rendition.lead_in_s - 0.5 * (rendition.count_in - click))
+        at = _at(rendition.lead_in_s - beat_s * (rendition.count_in - click))
         length = RATE // 20
         decay = np.exp(-np.arange(length) / (RATE / 100))
         before[at : at + length] += (6 * level * decay * random.standard_normal(length)).astype(np.float32)
