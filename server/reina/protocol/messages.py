@@ -40,6 +40,20 @@ class SongState(WireModel):
     """Null for an uploaded song, and until a rendered one is planned."""
 
 
+class AlignmentState(WireModel):
+    """How far a session's score is in time with its song."""
+
+    status: Literal["none", "searching", "found", "unlike", "failed"]
+    """`none`: the song is rendered from the score, or is not decoded by the server; `unlike`: it is other music, and
+    both begin at 0."""
+    progress: float
+    """0 to 1; 1 once something is known."""
+    confidence: float | None
+    """0 to 1, how sure it is on the whole; null until something is known."""
+    detail: str | None
+    """Why it failed."""
+
+
 class StreamLinks(WireModel):
     """Where a viewer finds what the stream does not carry."""
 
@@ -61,6 +75,7 @@ class Hello(Manifest):
     """Song time at which the clock stops: the player has settled, and the song is over."""
     links: StreamLinks
     song: SongState
+    alignment: AlignmentState
     transport: TransportState
 
 
@@ -123,6 +138,15 @@ class SongReady(WireModel):
     song: SongState
 
 
+class AlignmentChanged(AlignmentState):
+    """The search for the score in the song went on or came to an end, or somebody put something right.
+
+    Where it moves the music `score_changed` comes too.
+    """
+
+    type: Literal["alignment_changed"] = "alignment_changed"
+
+
 class NoteOn(WireNote):
     """A note of the played part begins (or sounds already, after a seek into it)."""
 
@@ -163,7 +187,16 @@ class Ping(WireModel):
 
 
 ServerMessage = Annotated[
-    Hello | Transport | ShowChanged | ScoreChanged | SongReady | NoteOn | NoteOff | Pong | StreamError,
+    Hello
+    | Transport
+    | ShowChanged
+    | ScoreChanged
+    | SongReady
+    | AlignmentChanged
+    | NoteOn
+    | NoteOff
+    | Pong
+    | StreamError,
     Field(discriminator="type"),
 ]
 ViewerMessage = Ping
