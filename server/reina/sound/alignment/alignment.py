@@ -170,6 +170,12 @@ class Alignment:
         values, known = self._map()
         return _interpolated(song_s, known, values)
 
+    def confidence_at(self, score_s: NDArray[Any] | Sequence[float]) -> Times:
+        """How surely places of the score are heard where the map has them: (N,), 0..1."""
+        known = np.array([point.score_s for point in self.points])
+        values = np.array([point.confidence for point in self.points])
+        return np.where(self.is_heard(score_s), np.interp(score_s, known, values), 0.0)
+
     def is_heard(self, score_s: NDArray[Any] | Sequence[float]) -> NDArray[np.bool_]:
         """Whether the recording has what stands at places of the score: (N,) bool.
 

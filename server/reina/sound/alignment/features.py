@@ -39,6 +39,11 @@ def frame_features(energies: Floats, risen: Floats, frames_per_s: float) -> Floa
     return (np.hstack((sounding, BEGINNINGS * begun)) / np.hypot(1, BEGINNINGS)).astype(np.float32)
 
 
+def activity(features: Floats) -> NDArray[np.float32]:
+    """(F,) how much sounds in each frame: 0 in silence, near 1 in music."""
+    return np.linalg.norm(features[:, SOUNDING], axis=1) * np.float32(np.hypot(1, BEGINNINGS))
+
+
 def tones_of(bands: Floats) -> Floats:
     """(F, 12) the bands of each tone of the octave together, C first."""
     tones = np.zeros((len(bands), TONES), dtype=np.float32)

@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reina.sound.alignment.bands import Floats
-from reina.sound.alignment.features import BEGINNINGS, SOUNDING
+from reina.sound.alignment.features import activity
 
 UNHEARD = -1
 """What stands in a path for a frame of the recording that is at no place of the score."""
 LARGEST_STEP = 3
 FROM_GAP = 4
-MOST = 6.0
+MOST, QUIET = 6.0, np.float32(0.3)
+"""A frame earns at most so much by its activity beyond quiet: that silence is like silence proves nothing."""
 NEVER = np.float32(-1e9)
 
 
@@ -48,7 +49,13 @@ class Path:
     reward: float
 
 
-def best_path(recording: Floats, score: Floats, likeness: "Likeness", rules: Rules, band: NDArray[np.int64] | None = None) -> Path:
+def best_path(
+    recording: Floats,
+    score: Floats,
+    likeness: "Likeness",
+    rules: Rules,
+    band: NDArray[np.int64] | None = None,
+) -> Path:
     """Find the way that earns most.
 
     Args:
@@ -74,7 +81,7 @@ def best_path(recording: Floats, score: Floats, likeness: "Likeness", rules: Rul
     indices = np.arange(columns, dtype=np.int32)
     before_low, before_high = int(band[0, 0]), int(band[0, 1])
     end = columns - 1
-    most = MOST * np.maximum(0, np.linalg.norm(recording[:, SOUNDING], axis=1) * np.hypot(1, BEGINNINGS) - 0.3)
+    most = MOST * np.maximum(0, activity(recording) - QUIET)
     for row in range(rows):
         low, high = int(band[row, 0]), int(band[row, 1])
         # A gap reaches what comes into the band from the last that was in it.

@@ -19,6 +19,27 @@ SHORTEST_S = 1.5
 
 
 @dataclass(frozen=True, eq=False)
+class BentTime:
+    """The score's time, made longer and shorter so that it goes on as the recording does.
+
+    Attributes:
+        score_s: (K,) rising.
+        bent_s: (K,) rising.
+    """
+
+    score_s: Times
+    bent_s: Times
+
+    def bend(self, score_s: Times) -> Times:
+        """Score time to bent time."""
+        return np.interp(score_s, self.score_s, self.bent_s)
+
+    def straighten(self, bent_s: Times) -> Times:
+        """Bent time to score time."""
+        return np.interp(bent_s, self.bent_s, self.score_s)
+
+
+@dataclass(frozen=True, eq=False)
 class Stretch:
     """A stretch in which both go on together.
 
@@ -29,6 +50,10 @@ class Stretch:
 
     song_s: Times
     score_s: Times
+
+    def straightened(self, bent: BentTime) -> "Stretch":
+        """The same with the score's own time, where that of this one is bent."""
+        return Stretch(self.song_s, bent.straighten(self.score_s))
 
 
 def stretches_of(path: Path, frame_s: float, *, centred: bool) -> list[Stretch]:
@@ -53,27 +78,6 @@ def stretches_of(path: Path, frame_s: float, *, centred: bool) -> list[Stretch]:
         if stretch.score_s[-1] - stretch.score_s[0] >= SHORTEST_S:
             found.append(stretch)
     return found
-
-
-@dataclass(frozen=True, eq=False)
-class BentTime:
-    """The score's time, made longer and shorter so that it goes on as the recording does.
-
-    Attributes:
-        score_s: (K,) rising.
-        bent_s: (K,) rising.
-    """
-
-    score_s: Times
-    bent_s: Times
-
-    def bend(self, score_s: Times) -> Times:
-        """Score time to bent time."""
-        return np.interp(score_s, self.score_s, self.bent_s)
-
-    def straighten(self, bent_s: Times) -> Times:
-        """Bent time to score time."""
-        return np.interp(bent_s, self.bent_s, self.score_s)
 
 
 def bend_as_a_whole(stretches: list[Stretch], score_duration_s: float) -> BentTime:
