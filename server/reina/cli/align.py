@@ -58,7 +58,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 def lines(score: Score, alignment: Alignment) -> Iterable[str]:
     """What was found, in plain words."""
-    lengths = f"{length_of_time(score.duration_s)} of score, {length_of_time(alignment.song_duration_s)} of sound"
+    lengths = (
+        f"{length_of_time(score.duration_s)} of score, {length_of_time(alignment.song_duration_s)} of sound"
+    )
     yield f"{score.title}  {lengths}"
     if not alignment.is_same_music:
         yield "This recording is not the music of this score, or too unlike it; both are left to begin at 0."

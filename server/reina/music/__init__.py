@@ -13,7 +13,7 @@ from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.metre import BarPosition, MetreMap, TimeSignature
 from reina.music.notes import Note, Notes
 from reina.music.read import read_score
-from reina.music.retime import SongTimes, retimed
+from reina.music.retime import SongTimes, from_second_zero, retimed
 from reina.music.score import Part, Score
 from reina.music.tempo import Tempo, TempoMap
 from reina.music.warnings import ScoreWarning, WarningLog
@@ -46,6 +46,7 @@ __all__ = [
     "TempoMap",
     "TimeSignature",
     "WarningLog",
+    "from_second_zero",
     "read_score",
     "retimed",
     "score_schema",

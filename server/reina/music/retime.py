@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from reina.music.metre import MetreMap
 from reina.music.notes import Notes
 from reina.music.tempo import TempoMap
 
@@ -68,6 +69,51 @@ def retimed(score: Score, heard: SongTimes) -> Score:
         controls=tuple(controls),
         duration_s=float(np.max(moved.onset_s + moved.duration_s, initial=0.0)),
         written_tempos=score.written_tempo_map,
+    )
+
+
+def from_second_zero(score: Score) -> Score:
+    """Return a score whose beat 0 is second 0, as files have it: bars of rest come before what is heard later.
+
+    They have the first metre, and as near its tempo as whole bars allow. A pickup ends the last of them.
+    """
+    begins_s = score.tempo_map.seconds(0.0)
+    if begins_s < MIN_STEP_S:
+        return score
+    metre = score.metre_map
+    pickup = metre.pickup_beats
+    signatures = metre.signatures
+    if pickup > 0 and len(signatures) > 1 and signatures[1].onset_beats == pickup:
+        # The pickup is written as a metre of its own.
+        signatures = (replace(signatures[1], onset_beats=0.0), *signatures[2:])
+    bar = signatures[0].bar_beats
+    bars = max(1, round((begins_s / float(score.tempo_map.seconds_per_beat[0]) + pickup) / bar))
+    lead = bars * bar - pickup
+    beats = np.concatenate((score.tempo_map.onset_beats, [score.duration_beats + 1.0]))
+    notes = score.notes
+    moved = Notes.from_columns(
+        **{field.name: getattr(notes, field.name) for field in fields(notes)}
+        | {"onset_beats": notes.onset_beats + lead}
+    )
+    return replace(
+        score,
+        notes=moved,
+        tempo_map=TempoMap.through(
+            np.concatenate(([0.0], beats + lead)), np.concatenate(([0.0], score.tempo_map.seconds(beats)))
+        ),
+        metre_map=MetreMap(
+            [
+                replace(each, onset_beats=each.onset_beats + lead if each.onset_beats > 0 else 0.0)
+                for each in signatures
+            ]
+        ),
+        controls=tuple(
+            control._replace(onset_beats=control.onset_beats + lead) for control in score.controls
+        ),
+        key_signatures=tuple(
+            replace(key, onset_beats=key.onset_beats + lead if key.onset_beats > 0 else 0.0)
+            for key in score.key_signatures
+        ),
     )
 
 

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter
 
+from reina.protocol.alignment import AlignmentState
 from reina.protocol.manifest import Manifest
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
@@ -38,20 +39,6 @@ class SongState(WireModel):
     """0 to 1; 1 once it is ready."""
     segments: SongSegments | None
     """Null for an uploaded song, and until a rendered one is planned."""
-
-
-class AlignmentState(WireModel):
-    """How far a session's score is in time with its song."""
-
-    status: Literal["none", "searching", "found", "unlike", "failed"]
-    """`none`: the song is rendered from the score, or is not decoded by the server; `unlike`: it is other music, and
-    both begin at 0."""
-    progress: float
-    """0 to 1; 1 once something is known."""
-    confidence: float | None
-    """0 to 1, how sure it is on the whole; null until something is known."""
-    detail: str | None
-    """Why it failed."""
 
 
 class StreamLinks(WireModel):

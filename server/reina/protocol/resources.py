@@ -7,7 +7,8 @@ from pydantic import BeforeValidator, Field, Json
 from reina.curves.value_types import TypeName
 from reina.instruments import MAX_PLAYERS
 from reina.instruments.note_fingerings import Side
-from reina.protocol.messages import AlignmentState, ShowState, SongState
+from reina.protocol.alignment import AlignmentState
+from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
 from reina.show.document import ShowHead, ShowKeyframe, ShowTrack

@@ -93,8 +93,8 @@ class Production:
             show: The show around it; when None, one is written from the form of the music.
             cast: Who plays what, or that the score is to say so; the trumpeter the part that suits best when
                 None.
-            alignment: Where the score is heard in the song; where it is written when None. Who plays what does
-                not depend on it.
+            alignment: Where the score is heard in the song; where it is written when None. Who plays what
+                does not depend on it.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.

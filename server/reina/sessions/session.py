@@ -95,7 +95,7 @@ class Session:
 
     @property
     def is_idle(self) -> bool:
-        """Whether it can be unloaded: nobody watches or edits, nothing is looked for, nothing plays but a loop."""
+        """Whether it can be unloaded: nobody watches or edits, no search is on, nothing plays but a loop."""
         clock = self.clock.state()
         plays_on = clock.playing and clock.loop is None
         busy = self.editing.locked() or self.alignment.is_searching

@@ -7,7 +7,7 @@ import logging
 from typing import TYPE_CHECKING, Literal
 
 from reina.errors import InputError
-from reina.protocol.messages import AlignmentState
+from reina.protocol.alignment import AlignmentState
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable

@@ -43,6 +43,9 @@ if TYPE_CHECKING:
 SONG_CACHE_BYTES = 2_000_000_000
 """How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
 
+UNDECODED = frozenset({"audio/mp4", "audio/webm"})
+"""What only browsers decode."""
+
 LOADED = 32
 """How many sessions are kept in memory; beyond that, the idle ones that were asked for least recently are put
 away."""
@@ -251,7 +254,7 @@ class SessionStore:
             step: What is known -> what is to be known. What it raises is raised on, and nothing is changed.
         """
         async with self._edit(session):
-            alignment = step(session.alignment.alignment)
+            alignment = await asyncio.to_thread(step, session.alignment.alignment)
             if alignment == session.alignment.alignment:
                 return
             production, kept = await self._plan_other(session, session.record.cast, alignment)
@@ -261,11 +264,16 @@ class SessionStore:
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
             await asyncio.to_thread(self._folders.write_alignment, session.id, alignment)
 
-    def search_alignment(self, session: Session) -> None:
-        """Look for a session's score in its song, in the background; a rendered song is in time already."""
+    def search_alignment(self, session: Session) -> bool:
+        """Look for a session's score in its song, in the background.
+
+        Returns:
+            Whether there is a song to look in: a rendered one is in time already, and M4A and WebM are not
+            decoded.
+        """
         song = session.record.song
         if song is None or song.media_type in UNDECODED:
-            return
+            return False
 
         async def found(alignment: Alignment) -> None:
             def beside_what_people_said(known: Alignment | None) -> Alignment:
@@ -283,6 +291,7 @@ class SessionStore:
             found=found,
             tell=session.tell_alignment,
         )
+        return True
 
     async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Take a session's show one step on or back, and keep it; edits of a session follow one another.
@@ -450,9 +459,7 @@ class SessionStore:
         notes: NoteMessages,
         alignment: Alignment | None = None,
     ) -> Session:
-        session = Session(
-            record, production, kept, notes, self._song, now=self._now, alignment=alignment
-        )
+        session = Session(record, production, kept, notes, self._song, now=self._now, alignment=alignment)
         self._sessions[session.id] = session
         self._make_room()
         return session

@@ -1,13 +1,14 @@
 """A score as a recording of it goes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from tests.integration.scores import duet, scale
 
-from reina.music import Score, TempoMap, read_score, retimed
+from reina.music import MetreMap, Score, TempoMap, TimeSignature, from_second_zero, read_score, retimed
 from reina.music.arrays import BoolArray, FloatArray
+from reina.music.midi import write_midi
 
 
 @dataclass(frozen=True)
@@ -106,6 +107,27 @@ def test_as_it_is_written_it_stays_as_it_is():
     for name, column in vars(score.notes).items():
         assert getattr(heard.notes, name) == pytest.approx(column, abs=1e-12), name
     assert heard.duration_s == pytest.approx(score.duration_s)
+
+
+def test_what_is_heard_later_has_bars_of_rest_before_it_in_a_file(score: Score):
+    heard = retimed(score, warp([(0, 3.2), (4, 7.2)]))
+    whole = from_second_zero(heard)
+    assert whole.tempo_map.seconds(0.0) == 0
+    assert whole.notes.onset_beats == pytest.approx(score.notes.onset_beats + 8)
+    assert falls(whole) == pytest.approx(heard.notes.onset_s)
+    assert whole.metre_map.bar_lines(16.0).tolist() == [0, 4, 8, 12]
+    again = read_score(write_midi(whole), filename="whole.mid")
+    assert again.notes.onset_s == pytest.approx(heard.notes.onset_s, abs=1e-3)
+    assert from_second_zero(score) is score
+
+
+def test_a_pickup_ends_the_bars_of_rest():
+    metre = MetreMap([TimeSignature(0, 1, 4), TimeSignature(1, 3, 4), TimeSignature(7, 4, 4)])
+    score = replace(read_score(scale(24), filename="scale.mid"), metre_map=metre)
+    whole = from_second_zero(retimed(score, warp([(0, 2.4), (4, 6.4)])))
+    assert whole.metre_map.bar_lines(16.0).tolist() == [0, 3, 6, 9, 12]
+    assert whole.notes.onset_beats[0] == 5
+    assert [signature.numerator for signature in whole.metre_map.signatures] == [3, 4]
 
 
 @pytest.mark.parametrize(

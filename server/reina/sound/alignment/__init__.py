@@ -5,6 +5,7 @@ from reina.sound.alignment.alignment import Alignment, AlignmentError, Anchor, G
 from reina.sound.alignment.document import (
     AlignmentDocument,
     alignment_of,
+    document_of,
     read_alignment,
     write_alignment,
 )
@@ -18,6 +19,7 @@ __all__ = [
     "MapPoint",
     "align",
     "alignment_of",
+    "document_of",
     "read_alignment",
     "write_alignment",
 ]

@@ -190,6 +190,16 @@ class Alignment:
                 heard &= ~within
         return heard
 
+    @property
+    def moves(self) -> bool:
+        """Whether anything is known that moves the score: it was found, or a person has put something right."""
+        return self.is_same_music or bool(self.anchors) or self.offset_s != 0
+
+    @property
+    def bends_s(self) -> Times:
+        """(P,) seconds of the score between which it is heard evenly, never falling."""
+        return self._map()[0]
+
     def with_anchors(self, anchors: Sequence[Anchor]) -> Alignment:
         """The same with other anchors, in any order.
 

@@ -1,76 +1,31 @@
 """An alignment as a JSON document, version 1."""
 
-from typing import Annotated, Literal
-
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ValidationError
 
 from reina.curves.faults import fault_words
+from reina.protocol.alignment import AlignmentDocument
 from reina.sound.alignment.alignment import Alignment, AlignmentError, Anchor, Gap, MapPoint
 from reina.system.json_text import json_text, read_json
-
-MAX_POINTS = 100_000
-MAX_ANCHORS = 10_000
-
-Seconds = Annotated[float, Field(allow_inf_nan=False, ge=-1e6, le=1e6)]
-Length = Annotated[float, Field(allow_inf_nan=False, gt=0, le=1e6)]
-Share = Annotated[float, Field(ge=0, le=1)]
-
-
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
-
-
-class PointDocument(_Model):
-    """A place of the score and where it is heard, as `MapPoint`."""
-
-    score_s: Seconds
-    song_s: Seconds
-    confidence: Share = 1.0
-
-
-class GapDocument(_Model):
-    """What one of both leaves out, as `Gap`."""
-
-    score_from_s: Seconds
-    score_to_s: Seconds
-    song_from_s: Seconds
-    song_to_s: Seconds
-
-
-class AnchorDocument(_Model):
-    """A place of the score that a person has put where they hear it, as `Anchor`."""
-
-    score_s: Seconds
-    song_s: Seconds
-
-
-class AlignmentDocument(_Model):
-    """Where each place of a score is heard in a recording, as `Alignment`."""
-
-    version: Literal[1] = 1
-    points: Annotated[list[PointDocument], Field(max_length=MAX_POINTS)]
-    score_duration_s: Length
-    song_duration_s: Length
-    gaps: Annotated[list[GapDocument], Field(max_length=MAX_POINTS)] = []
-    is_same_music: bool = True
-    transposition: Annotated[int, Field(ge=-6, le=6)] = 0
-    tuning_cents: Annotated[float, Field(ge=-50, le=50)] = 0.0
-    count_in: Annotated[int, Field(ge=0)] = 0
-    sounds_after: bool = False
-    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
-    offset_s: Seconds = 0.0
 
 
 def write_alignment(alignment: Alignment) -> bytes:
     """An alignment as JSON text; times to a tenth of a millisecond."""
-    document = {
+    return json_text(_fields(alignment))
+
+
+def document_of(alignment: Alignment) -> AlignmentDocument:
+    """An alignment as its document, checked already; times to a tenth of a millisecond."""
+    return AlignmentDocument.model_validate(_fields(alignment))
+
+
+def _fields(alignment: Alignment) -> dict[str, object]:
+    return {
         "version": 1,
         **{name: getattr(alignment, name) for name in AlignmentDocument.model_fields if name != "version"},
         "points": [_rounded(point) for point in alignment.points],
         "gaps": [_rounded(gap) for gap in alignment.gaps],
         "anchors": [vars(anchor) for anchor in alignment.anchors],
     }
-    return json_text(document)
 
 
 def read_alignment(text: bytes) -> Alignment:

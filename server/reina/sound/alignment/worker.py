@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.sound.alignment.align import align
-from reina.sound.alignment.recording import read_recording
+from reina.sound.recording.mono import read_mono
 from reina.system.own_process import bound_memory, end_with_parent, take_output, yield_to_server
 from reina.system.parcel import receive, send
 
@@ -35,7 +35,7 @@ def main() -> int:
     score: Score = receive(sys.stdin.buffer)
     threading.Thread(target=end_with_parent, daemon=True).start()
     try:
-        samples, rate = read_recording(Path(sys.argv[1]))
+        samples, rate = read_mono(Path(sys.argv[1]).read_bytes())
         found = align(samples, rate, score, lambda share: send(told, share))
     except InputError as error:
         send(told, error)
