@@ -152,6 +152,10 @@ def test_other_music_stays_at_zero_and_may_be_moved_by_hand(client: httpx.Client
     assert before == pytest.approx([0.25 * number for number in range(16)])
     assert made.change("PUT", "/alignment", json={"offset_s": 1.0}).status_code == 200
     assert notes(made)[0]["onset_s"] == pytest.approx(1.0)
+    away = made.change("PUT", "/alignment", json={"offset_s": -5.9})
+    assert away.status_code == 422
+    assert "no note of the score would be heard" in away.json()["detail"]
+    assert notes(made)[0]["onset_s"] == pytest.approx(1.0), "what stood stays"
     assert made.change("POST", "/alignment/search").status_code == 202
     assert state(made)["alignment"]["offset_s"] == 1.0, "what was put right stays"
     assert made.change("PUT", "/alignment", json={}).status_code == 200

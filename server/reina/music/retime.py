@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from reina.music.errors import ScoreError
 from reina.music.metre import MetreMap
 from reina.music.notes import Notes
 from reina.music.tempo import TempoMap
@@ -46,9 +47,14 @@ def retimed(score: Score, heard: SongTimes) -> Score:
     Args:
         score: The score, in its own seconds.
         heard: Where its seconds are heard.
+
+    Raises:
+        ScoreError: None of its notes is heard.
     """
     notes = score.notes
     kept = heard.is_heard(notes.onset_s)
+    if not np.any(kept):
+        raise ScoreError("no note of the score would be heard: all of it lies outside the recording")
     onset_s = heard.song_times(notes.onset_s)
     end_s = heard.song_times(notes.onset_s + notes.duration_s)
     columns = {field.name: getattr(notes, field.name) for field in fields(notes)}
@@ -73,7 +79,7 @@ def retimed(score: Score, heard: SongTimes) -> Score:
 
 
 def from_second_zero(score: Score) -> Score:
-    """Return a score whose beat 0 is second 0, as files have it: bars of rest come before what is heard later.
+    """Return a score whose beat 0 is second 0, as in files: what is heard later begins with bars of rest.
 
     They have the first metre, and as near its tempo as whole bars allow. A pickup ends the last of them.
     """
