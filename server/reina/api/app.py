@@ -11,6 +11,7 @@ from fastapi import FastAPI
 
 import reina
 from reina.api import (
+    alignment,
     cast,
     catalogue,
     curves,
@@ -97,6 +98,7 @@ def create_app(
         frames,
         export,
         song,
+        alignment,
         show,
         show_edits,
         curves,

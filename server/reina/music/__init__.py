@@ -14,6 +14,7 @@ from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.metre import BarPosition, MetreMap, TimeSignature
 from reina.music.notes import Note, Notes
 from reina.music.read import read_score
+from reina.music.retime import SongTimes, from_second_zero, retimed
 from reina.music.score import Part, Score
 from reina.music.tempo import Tempo, TempoMap
 from reina.music.warnings import ScoreWarning, WarningLog
@@ -41,12 +42,15 @@ __all__ = [
     "ScoreError",
     "ScoreLimitError",
     "ScoreWarning",
+    "SongTimes",
     "Span",
     "Tempo",
     "TempoMap",
     "TimeSignature",
     "WarningLog",
     "findings_of",
+    "from_second_zero",
     "read_score",
+    "retimed",
     "score_schema",
 ]

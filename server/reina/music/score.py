@@ -50,6 +50,7 @@ class Score:
         sequence: Which of the file's sequences this is, counted from 0; a file of format 2 may hold several.
         sequences: How many it holds.
         key_signatures: As the file has them, by their beat; none where it says nothing of a key.
+        written_tempos: The file's own tempos, where `tempo_map` is that of a recording.
     """
 
     title: str
@@ -63,6 +64,12 @@ class Score:
     sequence: int = 0
     sequences: int = 1
     key_signatures: tuple[KeySignature, ...] = ()
+    written_tempos: TempoMap | None = None
+
+    @property
+    def written_tempo_map(self) -> TempoMap:
+        """Beats and seconds as the file has them."""
+        return self.written_tempos or self.tempo_map
 
     @property
     def duration_beats(self) -> float:

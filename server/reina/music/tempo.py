@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, overload
+from typing import Any, Self, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from reina.music.arrays import FloatArray, read_only
 
 DEFAULT_SECONDS_PER_BEAT = 0.5
+SAME_TEMPO = 1e-9
+"""Lengths of a beat that differ by a smaller share are the same: what is found from places is rounded."""
 
 
 @dataclass(frozen=True)
@@ -30,9 +32,9 @@ class Tempo:
 class TempoMap:
     """The piecewise linear, strictly increasing map between beats (quarter notes) and seconds.
 
-    Beat 0 is second 0. Before beat 0 the first tempo holds, after the last change the last one. A ramp is
-    many small steps: each is one segment here, and the seconds of its ends are kept, so that no error adds up
-    along it.
+    Beat 0 is second 0, but in a map `through` other places. Before beat 0 the first tempo holds, after the
+    last change the last one. A ramp is many small steps: each is one segment here, and the seconds of its
+    ends are kept, so that no error adds up along it.
     """
 
     def __init__(self, onset_beats: ArrayLike = (0.0,), seconds_per_beat: ArrayLike = (0.5,)) -> None:
@@ -60,10 +62,40 @@ class TempoMap:
         last_at_its_beat = np.append(beats[1:] != beats[:-1], True)
         beats, lengths = beats[last_at_its_beat], lengths[last_at_its_beat]
         changes = np.concatenate(([True], lengths[1:] != lengths[:-1]))
-        self._beats: FloatArray = read_only(beats[changes])
-        self._lengths: FloatArray = read_only(lengths[changes])
-        passed = np.diff(self._beats) * self._lengths[:-1]
-        self._seconds: FloatArray = read_only(np.concatenate(([0.0], np.cumsum(passed))))
+        beats, lengths = beats[changes], lengths[changes]
+        passed = np.diff(beats) * lengths[:-1]
+        self._keep(beats, lengths, np.concatenate(([0.0], np.cumsum(passed))))
+
+    def _keep(self, beats: FloatArray, lengths: FloatArray, seconds: FloatArray) -> None:
+        self._beats: FloatArray = read_only(beats)
+        self._lengths: FloatArray = read_only(lengths)
+        self._seconds: FloatArray = read_only(seconds)
+
+    @classmethod
+    def through(cls, beats: ArrayLike, seconds: ArrayLike) -> Self:
+        """Make a map through places; before the first and after the last the tempo beside it holds.
+
+        Args:
+            beats: (K,) at least two, ascending, the first of them 0.
+            seconds: (K,) where they fall, ascending; the first may be any.
+
+        Raises:
+            ValueError: If there are fewer than two, or beats or seconds do not ascend.
+        """
+        at_beats = np.asarray(beats, dtype=np.float64)
+        at_seconds = np.asarray(seconds, dtype=np.float64)
+        if at_beats.shape != at_seconds.shape or at_beats.ndim != 1 or len(at_beats) < 2:
+            raise ValueError(f"two places or more are needed, not {at_beats.shape} and {at_seconds.shape}")
+        if at_beats[0] != 0:
+            raise ValueError(f"the first place is beat 0, not beat {at_beats[0]}")
+        steps, lasts = np.diff(at_beats), np.diff(at_seconds)
+        if not (np.all(steps > 0) and np.all(lasts > 0) and np.isfinite(lasts.sum() + steps.sum())):
+            raise ValueError("beats and seconds must ascend")
+        lengths = lasts / steps
+        changes = np.concatenate(([True], np.abs(np.diff(lengths)) > SAME_TEMPO * lengths[1:]))
+        made = cls.__new__(cls)
+        made._keep(at_beats[:-1][changes], lengths[changes], at_seconds[:-1][changes])
+        return made
 
     @property
     def onset_beats(self) -> FloatArray:

@@ -74,7 +74,7 @@ def write_part(score: Score, onset_s: FloatArray, end_s: FloatArray, pitches: In
         measures=tuple(measures_of(bars, rhythm)),
         trills={trill.first: trill for trill in trills},
         swing=rhythm.swing,
-        tempo_marks=tempo_marks(tempo_map, until),
+        tempo_marks=tempo_marks(score.written_tempo_map, until),
     )
 
 

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter
 
+from reina.protocol.alignment import AlignmentState
 from reina.protocol.manifest import Manifest
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
@@ -61,6 +62,7 @@ class Hello(Manifest):
     """Song time at which the clock stops: the player has settled, and the song is over."""
     links: StreamLinks
     song: SongState
+    alignment: AlignmentState
     transport: TransportState
 
 
@@ -123,6 +125,15 @@ class SongReady(WireModel):
     song: SongState
 
 
+class AlignmentChanged(AlignmentState):
+    """The search for the score in the song went on or came to an end, or somebody put something right.
+
+    Where it moves the music `score_changed` comes too.
+    """
+
+    type: Literal["alignment_changed"] = "alignment_changed"
+
+
 class NoteOn(WireNote):
     """A note of the played part begins (or sounds already, after a seek into it)."""
 
@@ -163,7 +174,16 @@ class Ping(WireModel):
 
 
 ServerMessage = Annotated[
-    Hello | Transport | ShowChanged | ScoreChanged | SongReady | NoteOn | NoteOff | Pong | StreamError,
+    Hello
+    | Transport
+    | ShowChanged
+    | ScoreChanged
+    | SongReady
+    | AlignmentChanged
+    | NoteOn
+    | NoteOff
+    | Pong
+    | StreamError,
     Field(discriminator="type"),
 ]
 ViewerMessage = Ping

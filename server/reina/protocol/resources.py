@@ -7,6 +7,7 @@ from pydantic import BeforeValidator, Field, Json
 from reina.curves.value_types import TypeName
 from reina.instruments import MAX_PLAYERS
 from reina.instruments.note_fingerings import Side
+from reina.protocol.alignment import AlignmentState
 from reina.protocol.messages import ShowState, SongState
 from reina.protocol.model import WireModel
 from reina.protocol.notes import WireNote
@@ -150,6 +151,7 @@ class Session(WireModel):
     findings: list[Finding]
     """The warnings as a musician is told of them, after who plays what and why."""
     song: SongState
+    alignment: AlignmentState
     links: SessionLinks
 
 

@@ -9,15 +9,19 @@ from typing import TYPE_CHECKING
 
 from reina.sessions.record import SESSION_ID, SessionRecord
 from reina.sessions.session_index import INDEX, Entry, SessionIndex
+from reina.sound.alignment.document import read_alignment, write_alignment
 from reina.system.atomic_write import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Generator
     from pathlib import Path
 
+    from reina.sound.alignment.alignment import Alignment
+
 RECORD = "session.json"
 SCORE = "score"
 SHOW = "show.json"
+ALIGNMENT = "alignment.json"
 
 
 class SessionFolders:
@@ -79,6 +83,21 @@ class SessionFolders:
         """Replace a session's record."""
         write_atomically(self.folder(record.id) / RECORD, record.model_dump_json(indent=2).encode())
         self._note(record)
+
+    def alignment(self, session_id: str) -> Alignment | None:
+        """Where a session's score is heard in its song; None where that is not known."""
+        try:
+            return read_alignment((self.folder(session_id) / ALIGNMENT).read_bytes())
+        except FileNotFoundError:
+            return None
+
+    def write_alignment(self, session_id: str, alignment: Alignment | None) -> None:
+        """Keep where a session's score is heard in its song, or forget it."""
+        file = self.folder(session_id) / ALIGNMENT
+        if alignment is None:
+            file.unlink(missing_ok=True)
+        else:
+            write_atomically(file, write_alignment(alignment))
 
     def write_index(self) -> None:
         """Keep the index for the next start."""

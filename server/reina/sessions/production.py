@@ -15,7 +15,7 @@ from reina.instruments import (
     unplayed_parts,
 )
 from reina.instruments.player import SEATS, SEATS_FOR, plan_glances
-from reina.music import NotInScoreError, findings_of
+from reina.music import NotInScoreError, findings_of, retimed
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
         UnplayedPart,
     )
     from reina.instruments.player import Seat
-    from reina.music import Finding, Score, ScoreWarning
+    from reina.music import Finding, Score, ScoreWarning, SongTimes
     from reina.sessions.stage import Stage
 
 
@@ -63,7 +63,8 @@ class Production:
         stage: What it is played on.
         registry: Everything that its show can move.
         cast: Who plays what, each casting with its part.
-        score: What is played.
+        written_score: What is played, in the time of its file.
+        score: The same as it is heard: in the time of the song.
         rankings: Of each player the parts that suit the instrument, best first.
         show: The show around it.
         show_plan: The show, made ready.
@@ -74,6 +75,7 @@ class Production:
     stage: Stage
     registry: ParameterRegistry
     cast: Cast
+    written_score: Score
     score: Score
     rankings: tuple[tuple[PartRanking, ...], ...]
     show: Show
@@ -83,7 +85,12 @@ class Production:
 
     @classmethod
     def plan(
-        cls, stage: Stage, score: Score, show: Show | None = None, cast: Cast | None = None
+        cls,
+        stage: Stage,
+        score: Score,
+        show: Show | None = None,
+        cast: Cast | None = None,
+        alignment: SongTimes | None = None,
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -93,6 +100,8 @@ class Production:
             show: The show around it; when None, one is written from the form of the music.
             cast: Who plays what, or that the score is to say so; the trumpeter the part that suits best when
                 None.
+            alignment: Where the score is heard in the song; where it is written when None. Who plays what
+                does not depend on it.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
@@ -101,24 +110,26 @@ class Production:
         cast = cast or Cast()
         if cast.is_to_be_found:
             cast = stage.found_cast(score, cast.sequence)
-        castings, played, rankings = _prepare(stage, score, cast)
+        heard = score if alignment is None else retimed(score, alignment)
+        castings, played, rankings = _prepare(stage, score, heard, cast)
         registry = stage.registry(tuple(casting.instrument for casting in castings))
         seats = _seats(cast)
         glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, score, part, registry, looks)
+            stage.performer(casting, number, seat, heard, part, registry, looks)
             for number, (casting, seat, part, looks) in enumerate(
                 zip(castings, seats, played, glances, strict=True)
             )
         ]
-        show = _show_for(score, played, seats) if show is None else rebound(show, registry)
-        show_plan = show.plan(registry, time_map(score), triggers=triggers(score, played))
-        performance = Performance(performers, show_plan, duration_s=score.duration_s)
+        show = _show_for(heard, played, seats) if show is None else rebound(show, registry)
+        show_plan = show.plan(registry, time_map(heard), triggers=triggers(heard, played))
+        performance = Performance(performers, show_plan, duration_s=heard.duration_s)
         return cls(
             stage=stage,
             registry=registry,
             cast=replace(cast, castings=castings),
-            score=score,
+            written_score=score,
+            score=heard,
             rankings=rankings,
             show=show,
             show_plan=show_plan,
@@ -154,12 +165,12 @@ class Production:
     @cached_property
     def casting_reasons(self) -> tuple[tuple[str, ...], ...]:
         """Why there is each player."""
-        return casting_reasons(self.score, self.cast, self.stage.kinds)
+        return casting_reasons(self.written_score, self.cast, self.stage.kinds)
 
     @cached_property
     def unplayed(self) -> tuple[UnplayedPart, ...]:
         """The parts that nobody plays, and why."""
-        return unplayed_parts(self.score, self.cast, self.stage.kinds)
+        return unplayed_parts(self.written_score, self.cast, self.stage.kinds)
 
     @property
     def sounding(self) -> tuple[PlayedParts, ...]:
@@ -227,7 +238,7 @@ def rebound(show: Show, registry: ParameterRegistry) -> Show:
 
 
 def _prepare(
-    stage: Stage, score: Score, cast: Cast
+    stage: Stage, score: Score, heard: Score, cast: Cast
 ) -> tuple[tuple[Casting, ...], tuple[PlayedPart, ...], tuple[tuple[PartRanking, ...], ...]]:
     """Complete each casting by its part, and have the parts played."""
     several = len(cast.castings) > 1
@@ -247,7 +258,7 @@ def _prepare(
             taken.add(part)
         try:
             played = instrument.play(
-                score,
+                heard,
                 part,
                 casting.transposition,
                 written=casting.written,

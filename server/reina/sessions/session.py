@@ -11,7 +11,7 @@ from reina.music import ClockError, ClockState, MusicClock, ScoreWarning, findin
 from reina.performance import TAIL_S
 from reina.protocol import resources
 from reina.protocol.links import rendering_href, session_links, stream_links
-from reina.protocol.messages import Hello, ScoreChanged, ShowChanged, SongReady, StreamError
+from reina.protocol.messages import AlignmentChanged, Hello, ScoreChanged, ShowChanged, SongReady, StreamError
 from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
 from reina.sessions.audience import Audience
 from reina.sessions.description import (
@@ -29,6 +29,7 @@ from reina.sessions.note_messages import NoteMessages
 from reina.sessions.show_fit import show_warnings
 from reina.sessions.show_revision import changed_paths
 from reina.sessions.song import Song, song_state
+from reina.sessions.song_alignment import SongAlignment
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from reina.sessions.record import SessionRecord
     from reina.sessions.show_revision import ShowRevision
     from reina.sessions.viewer import Viewer
+    from reina.sound.alignment.alignment import Alignment
 
 FIRST_S = 0.3
 """Seconds of frames that are evaluated before a change: what is sent at once, and a margin."""
@@ -58,6 +60,7 @@ class Session:
         notes: `note_messages` of the production.
         song: Makes its sound; called when the rest is ready, and whenever the sound is another.
         now: Server time, seconds; never goes back.
+        alignment: What is known of where the score is heard in the song.
     """
 
     def __init__(
@@ -69,8 +72,10 @@ class Session:
         song: Callable[[Session], Song],
         *,
         now: Callable[[], float],
+        alignment: Alignment | None = None,
     ) -> None:
         self.record = record
+        self.alignment = SongAlignment(alignment)
         self.production = production
         self.show_revision = show_revision
         self.editing = asyncio.Lock()
@@ -91,14 +96,16 @@ class Session:
 
     @property
     def is_idle(self) -> bool:
-        """Whether it can be unloaded: nobody watches or edits, and nothing plays but an endless loop."""
+        """Whether it can be unloaded: nobody watches or edits, no search is on, nothing plays but a loop."""
         clock = self.clock.state()
         plays_on = clock.playing and clock.loop is None
-        return not len(self.audience) and not self.editing.locked() and not plays_on
+        busy = self.editing.locked() or self.alignment.is_searching
+        return not len(self.audience) and not busy and not plays_on
 
     def close(self) -> None:
         """End what is under way: viewers and the rendering of the song."""
         self.audience.dismiss()
+        self.alignment.close()
         self.song.close()
 
     # What is said of it
@@ -127,6 +134,7 @@ class Session:
             duration_s=self.clock.duration_s,
             links=stream_links(self.id, {skeleton.rig for skeleton in manifest.skeletons}),
             song=self.song_state(),
+            alignment=self.alignment.state(),
             transport=transport_state(state or self.clock.state()),
         )
 
@@ -156,6 +164,7 @@ class Session:
             warnings=[*warned(self.production.warnings), *song, *warned(of_show)],
             findings=found([*self.production.findings, *findings_of(of_song), *findings_of(of_show)]),
             song=self.song_state(),
+            alignment=self.alignment.state(),
             links=session_links(self.id),
         )
 
@@ -253,6 +262,7 @@ class Session:
         if another_piece:
             self.clock.set_loop(None)
             self.clock.seek(0.0)
+        if self.clock.duration_s != self._duration_s():
             self.clock.set_duration(self._duration_s())
         if another_layout:
             self.audience.announce(self.hello())
@@ -267,6 +277,26 @@ class Session:
                 song=self.song_state(),
             )
         )
+
+    async def change_alignment(
+        self, production: Production, show_revision: ShowRevision, alignment: Alignment | None
+    ) -> None:
+        """Play the same where it is heard in the song.
+
+        Args:
+            production: The same in another time.
+            show_revision: The show that it plays: another where the show goes with the time of the music.
+            alignment: Where the score is heard.
+        """
+        self.alignment.alignment = alignment
+        if show_revision is not self.show_revision:
+            await self.change_show(production, show_revision)
+        await self.change_cast(self.record, production)
+        self.tell_alignment()
+
+    def tell_alignment(self) -> None:
+        """Tell the audience how far score and song are in time with one another."""
+        self.audience.announce(AlignmentChanged(**dict(self.alignment.state())))
 
     def renew_song(self) -> None:
         """Make the sound anew, for what is played now."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 import shutil
 from collections import OrderedDict
 from contextlib import asynccontextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
@@ -23,6 +24,7 @@ from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
+from reina.sound.alignment.aligner import Aligner
 from reina.sound.recording.decoder import SongDecoder
 from reina.system.atomic_write import write_atomically
 
@@ -35,10 +37,14 @@ if TYPE_CHECKING:
     from reina.sessions.session_index import Entry
     from reina.sessions.stage import Stage
     from reina.show import ShowHistory
+    from reina.sound.alignment.alignment import Alignment
     from reina.sound.renderer import SongRenderer
 
 SONG_CACHE_BYTES = 2_000_000_000
 """How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
+
+UNDECODED = frozenset({"audio/mp4", "audio/webm"})
+"""What only browsers decode."""
 
 LOADED = 32
 """How many sessions are kept in memory; beyond that, the idle ones that were asked for least recently are put
@@ -92,6 +98,7 @@ class SessionStore:
         song_cache_bytes: How large the rendered songs may be together.
         decoder: Tells what uploaded songs are.
         reader: Reads scores and shows.
+        aligner: Finds scores in uploaded songs.
     """
 
     def __init__(
@@ -105,12 +112,14 @@ class SessionStore:
         song_cache_bytes: int = SONG_CACHE_BYTES,
         decoder: SongDecoder | None = None,
         reader: Reader | None = None,
+        aligner: Aligner | None = None,
     ) -> None:
         self.stage = stage
         self.reader = reader or Reader(stage)
         self.decoder = decoder or SongDecoder()
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
+        self._aligner = aligner or Aligner()
         self._now = now
         self._most_loaded = loaded
         self._song_cache_bytes = song_cache_bytes
@@ -162,9 +171,10 @@ class SessionStore:
                 raise ShowError(f"this is {sent.name}, not a show") from error
             await asyncio.to_thread(show_file.unlink)
             production = await asyncio.to_thread(production.with_show, show)
-        return self._admit(
-            *await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
-        ), token
+        made = await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
+        session = self._admit(*made)
+        self.search_alignment(session)
+        return session, token
 
     async def get(self, session_id: str) -> Session | None:
         """A session, loaded if need be; None where there is none."""
@@ -216,7 +226,10 @@ class SessionStore:
             record, kept = session.record.model_copy(update=changes), session.show_revision
             wanted = recast(record.cast) if recast else record.cast
             if wanted != record.cast:
-                production, kept = await self._plan_other(session, wanted)
+                another_piece = wanted.sequence not in {None, session.production.score.sequence}
+                # Another piece is heard elsewhere, if at all.
+                alignment = None if another_piece else session.alignment.alignment
+                production, kept = await self._plan_other(session, wanted, alignment)
                 before, after = session.production.score.title, production.score.title
                 titled = {"title": after} if title is None and record.title == before else {}
                 record = record.model_copy(update={"cast": production.cast, **titled})
@@ -224,8 +237,61 @@ class SessionStore:
                 if kept is not session.show_revision:
                     await session.change_show(production, kept)
                     await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+                if another_piece:
+                    session.alignment.alignment = None
+                    await asyncio.to_thread(self._folders.write_alignment, session.id, None)
+                    self.search_alignment(session)
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
+
+    async def change_alignment(
+        self, session: Session, step: Callable[[Alignment | None], Alignment | None]
+    ) -> None:
+        """Say anew where a session's score is heard in its song; edits of a session follow one another.
+
+        Args:
+            session: Whose.
+            step: What is known -> what is to be known. What it raises is raised on, and nothing is changed.
+        """
+        async with self._edit(session):
+            alignment = await asyncio.to_thread(step, session.alignment.alignment)
+            if alignment == session.alignment.alignment:
+                return
+            production, kept = await self._plan_other(session, session.record.cast, alignment)
+            other_show = kept is not session.show_revision
+            await session.change_alignment(production, kept, alignment)
+            if other_show:
+                await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+            await asyncio.to_thread(self._folders.write_alignment, session.id, alignment)
+
+    def search_alignment(self, session: Session) -> bool:
+        """Look for a session's score in its song, in the background.
+
+        Returns:
+            Whether there is a song to look in: a rendered one is in time already, and M4A and WebM are not
+            decoded.
+        """
+        song = session.record.song
+        if song is None or song.media_type in UNDECODED:
+            return False
+
+        async def found(alignment: Alignment) -> None:
+            def beside_what_people_said(known: Alignment | None) -> Alignment:
+                if known is None:
+                    return alignment
+                return replace(alignment, anchors=known.anchors, offset_s=known.offset_s)
+
+            with contextlib.suppress(SessionEndedError):
+                await self.change_alignment(session, beside_what_people_said)
+
+        session.alignment.search(
+            self._aligner,
+            self._folders.folder(session.id) / song.file,
+            session.production.written_score,
+            found=found,
+            tell=session.tell_alignment,
+        )
+        return True
 
     async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Take a session's show one step on or back, and keep it; edits of a session follow one another.
@@ -275,6 +341,7 @@ class SessionStore:
         for session in list(self._sessions.values()):
             self._unload(session)
         await self._renderer.aclose()
+        await self._aligner.aclose()
         await self.reader.aclose()
         for tasks in (self._pruning, self._putting_away.values()):
             if tasks:
@@ -335,30 +402,49 @@ class SessionStore:
                 raise
             return None
         # Ended while it was read: it must not come back.
-        return self._admit(*read) if session_id in self._folders else None
+        if session_id not in self._folders:
+            return None
+        *rest, alignment = read
+        session = self._admit(*rest, alignment=alignment)
+        if alignment is None:
+            # It was still being looked for when the server ended.
+            self.search_alignment(session)
+        return session
 
-    async def _read(self, session_id: str) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
+    async def _read(
+        self, session_id: str
+    ) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages, Alignment | None]:
         folder = self._folders.folder(session_id)
         record = await asyncio.to_thread(self._folders.record, session_id)
-        planned = await self._plan(folder / SCORE, record.score_filename, record.cast)
+        alignment = await asyncio.to_thread(self._folders.alignment, session_id)
+        planned = await self._plan(folder / SCORE, record.score_filename, record.cast, alignment)
         show = await self.reader.show(await asyncio.to_thread((folder / SHOW).read_bytes), planned.registry)
 
-        def prepared() -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
+        def prepared() -> tuple[SessionRecord, Production, ShowRevision, NoteMessages, Alignment | None]:
             production = planned.with_show(show)
-            return record, production, ShowRevision.begin(show), note_messages(production)
+            return record, production, ShowRevision.begin(show), note_messages(production), alignment
 
         return await asyncio.to_thread(prepared)
 
-    async def _plan(self, score: Path, filename: str | None, cast: Cast) -> Production:
+    async def _plan(
+        self, score: Path, filename: str | None, cast: Cast, alignment: Alignment | None = None
+    ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it."""
-        return await self.reader.production(score, filename=filename, cast=cast)
+        heard = alignment if alignment is not None and alignment.moves else None
+        return await self.reader.production(score, filename=filename, cast=cast, alignment=heard)
 
-    async def _plan_other(self, session: Session, wanted: Cast) -> tuple[Production, ShowRevision]:
-        """Plan another cast in place of the session's."""
+    async def _plan_other(
+        self, session: Session, wanted: Cast, alignment: Alignment | None
+    ) -> tuple[Production, ShowRevision]:
+        """Plan another cast, or the same heard elsewhere, in place of the session's."""
         before, kept = session.production, session.show_revision
         path = self._folders.folder(session.id) / SCORE
-        planned = await self._plan(path, session.record.score_filename, wanted)
-        another = planned.score.sequence != before.score.sequence or planned.seats != before.seats
+        planned = await self._plan(path, session.record.score_filename, wanted, alignment)
+        another = (
+            planned.score.sequence != before.score.sequence
+            or planned.seats != before.seats
+            or alignment != session.alignment.alignment
+        )
         if not another or not await asyncio.to_thread(lambda: before.has_default_show):
             planned = await asyncio.to_thread(planned.with_show, before.show)
         if planned.show is not kept.show:
@@ -366,9 +452,14 @@ class SessionStore:
         return planned, kept
 
     def _admit(
-        self, record: SessionRecord, production: Production, kept: ShowRevision, notes: NoteMessages
+        self,
+        record: SessionRecord,
+        production: Production,
+        kept: ShowRevision,
+        notes: NoteMessages,
+        alignment: Alignment | None = None,
     ) -> Session:
-        session = Session(record, production, kept, notes, self._song, now=self._now)
+        session = Session(record, production, kept, notes, self._song, now=self._now, alignment=alignment)
         self._sessions[session.id] = session
         self._make_room()
         return session

@@ -3,6 +3,7 @@
 import os
 import sys
 from collections.abc import Callable
+from typing import BinaryIO
 
 NICENESS = 5
 """They yield to the server, whose frames are due."""
@@ -41,6 +42,13 @@ def follow_parent(take: Callable[[int], None]) -> None:
         for line in lines:
             take(int(line))
     os._exit(2)
+
+
+def take_output() -> BinaryIO:
+    """Standard output for answers alone: what a library prints goes to standard error."""
+    told = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    return told
 
 
 def bound_memory(most_bytes: int) -> None:

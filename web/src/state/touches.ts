@@ -26,6 +26,8 @@ export const TOUCHES: readonly TouchPlace[] = [
     place: "The music",
     touches: [
       { shown: "Tap the line", says: "Go to that place; drag along it to search" },
+      { shown: "Hold, then drag", says: "Along the line: play it in a loop; a tap on the loop ends it" },
+      { shown: "Pinch", says: "Zoom the line" },
       { shown: "Tap a note", says: "Why it is fingered so" },
       { shown: "Tap the part", says: "On paper: go to that note" },
     ],
@@ -37,6 +39,7 @@ export const TOUCHES: readonly TouchPlace[] = [
       { shown: "Pinch", says: "Zoom the time" },
       { shown: "Tap a keyframe", says: "Choose it; Values shows what it holds" },
       { shown: "Drag a keyframe", says: "Move it" },
+      { shown: "Hold", says: "A menu of what can be done there" },
       { shown: "Hold, then drag", says: "Choose all keyframes in a box" },
       { shown: "Tap the ruler", says: "Go to that time" },
     ],

@@ -56,7 +56,9 @@ class Mute:
         muted = score.notes.program[line.note_index] == MUTED_TRUMPET
         changes = np.flatnonzero(np.diff(muted)) + 1
         self._from_s: FloatArray = np.concatenate(([0.0], line.end_s[changes - 1]))
-        self._scored: FloatArray = np.concatenate((muted[:1], muted[changes])).astype(np.float64)
+        # Of a line without notes, too, there is a beginning.
+        begins = muted[:1] if len(muted) else [False]
+        self._scored: FloatArray = np.concatenate((begins, muted[changes])).astype(np.float64)
         path = prefix + MUTE_CHOICE.path
         self._column = registry.layout()[path][0] if path in registry else None
 

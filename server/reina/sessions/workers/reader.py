@@ -9,7 +9,7 @@ from typing import cast as typed
 
 from reina.curves.shown import shown
 from reina.instruments.as_played import score_as_played
-from reina.music import read_score
+from reina.music import from_second_zero, read_score
 from reina.music.midi import write_midi
 from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
 from reina.sessions.production import Production, read_show
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from reina.curves import Parameter, ParameterRegistry
     from reina.instruments import Cast
+    from reina.music import SongTimes
     from reina.sessions.stage import Stage
     from reina.show import Track
     from reina.show.time_map import TimeUnit
@@ -51,19 +52,22 @@ class Reader:
         self._stage = stage
         self._pool = pool or WorkerPool(shared_of(stage))
 
-    async def production(self, path: Path, *, filename: str | None, cast: Cast) -> Production:
+    async def production(
+        self, path: Path, *, filename: str | None, cast: Cast, alignment: SongTimes | None = None
+    ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it.
 
         Args:
             path: The score's file.
             filename: What its sender called it.
             cast: Who plays what, and which of its sequences.
+            alignment: Where it is heard in the song.
 
         Raises:
             InputError: It cannot be read, or not be played so.
         """
         size = await asyncio.to_thread(_weight, path)
-        return await self._read(size, read_and_plan, self._stage, path, filename, cast)
+        return await self._read(size, read_and_plan, self._stage, path, filename, cast, alignment)
 
     async def show(self, data: bytes, registry: ParameterRegistry) -> Show:
         """Read a show from JSON text.
@@ -93,7 +97,7 @@ class Reader:
     async def midi(self, production: Production) -> bytes:
         """Write the score of a production as its players play it, as a MIDI file."""
         played = [performer.played for performer in production.performers]
-        score = await asyncio.to_thread(score_as_played, production.score, played)
+        score = await asyncio.to_thread(lambda: from_second_zero(score_as_played(production.score, played)))
         return await self._read(MIDI_BYTES * len(score.notes), write_midi, score)
 
     async def aclose(self) -> None:
@@ -119,10 +123,12 @@ def _weight(path: Path) -> int:
     return path.stat().st_size * (PACKED if packed else 1)
 
 
-def read_and_plan(stage: Stage, path: Path, filename: str | None, cast: Cast) -> Production:
+def read_and_plan(
+    stage: Stage, path: Path, filename: str | None, cast: Cast, alignment: SongTimes | None = None
+) -> Production:
     """What `Reader.production` does."""
     score = read_score(path.read_bytes(), filename=filename, sequence=cast.sequence)
-    return Production.plan(stage, score, cast=cast)
+    return Production.plan(stage, score, cast=cast, alignment=alignment)
 
 
 def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:

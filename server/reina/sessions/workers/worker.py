@@ -14,7 +14,7 @@ import traceback
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from reina.errors import InputError
-from reina.system.own_process import bound_memory, yield_to_server
+from reina.system.own_process import bound_memory, take_output, yield_to_server
 from reina.system.parcel import receive, send
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ MAX_MEMORY_BYTES = 4_000_000_000
 
 def main() -> int:
     """Work until the process is ended."""
-    asked, told = sys.stdin.buffer, _take_output()
+    asked, told = sys.stdin.buffer, take_output()
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
     shared: tuple[object, ...] = receive(asked)
@@ -63,13 +63,6 @@ def _listen(
             work.put(receive(asked, shared))
         except EOFError:
             os._exit(2)
-
-
-def _take_output() -> BinaryIO:
-    """Standard output for answers alone: what a library prints goes to standard error."""
-    told = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    return told
 
 
 if __name__ == "__main__":

@@ -18,9 +18,13 @@ from reina.sound.recording.facts import BrokenAudioError
 from reina.sound.recording.peaks import PeakMeter, Peaks
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterable
+    from collections.abc import Callable, Generator, Iterable
+
+    from numpy.typing import NDArray
 
     from reina.sound.recording.stream import SoundStream, Splice
+
+    Listener = Callable[[NDArray[np.float32], int], None]
 
 LONGEST_S = 4 * 3600.0
 """A song may last as long as a score: a small file can hold days of silence."""
@@ -70,10 +74,15 @@ class _Reading(soundfile.SoundFile):
         return False
 
 
-def decode(streams: Iterable[SoundStream]) -> Decoded:
+def decode(streams: Iterable[SoundStream], listener: Listener | None = None) -> Decoded:
     """Decode streams that follow one another, in the memory that a block takes, whatever they claim.
 
     It ends before a stream of another sample rate or number of channels, as Chromium does.
+
+    Args:
+        streams: What is decoded.
+        listener: Is given every block that is decoded: ``(F, C)`` float32, which is overwritten afterwards,
+            and samples a second. What encoders add at the end is among it, beyond the length that is returned.
 
     Raises:
         BrokenAudioError: There is no sound in them.
@@ -95,7 +104,7 @@ def decode(streams: Iterable[SoundStream]) -> Decoded:
                 elif (file.samplerate, file.channels) != (decoded.sample_rate, decoded.channels):
                     decoded.other_form = f"{file.samplerate} samples a second, {file.channels} channels"
                     break
-                stopped_after = _decode_stream(stream, file, meter, decoded)
+                stopped_after = _decode_stream(stream, file, meter, decoded, listener)
             if stopped_after is not None and stream.resume and (rest := stream.resume(stopped_after)):
                 decoded.damaged_s.append(decoded.duration_s)
                 waiting.appendleft(rest)
@@ -119,7 +128,11 @@ def _check(file: soundfile.SoundFile) -> None:
 
 
 def _decode_stream(
-    stream: SoundStream, file: soundfile.SoundFile, meter: PeakMeter, decoded: Decoded
+    stream: SoundStream,
+    file: soundfile.SoundFile,
+    meter: PeakMeter,
+    decoded: Decoded,
+    listener: Listener | None,
 ) -> int | None:
     """Decode to the end, or to where the decoder stops for good; after how many frames, in that case."""
     rate, begin_s = file.samplerate, decoded.duration_s
@@ -144,6 +157,8 @@ def _decode_stream(
         skip -= skipped
         frames += count - skipped
         meter.take(buffer[skipped:count])
+        if listener is not None:
+            listener(buffer[skipped:count], rate)
         decoded.duration_s = begin_s + frames / rate
         if decoded.duration_s > LONGEST_S:
             raise InputError(f"the song lasts over {LONGEST_S / 3600:.0f} hours; at most so much is played")

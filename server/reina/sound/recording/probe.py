@@ -108,7 +108,7 @@ def probe_recording(data: Data) -> tuple[AudioInfo, Peaks | None]:
     if not len(data):
         raise InputError(f"the song is an empty file; an audio file ({SUPPORTED}) is expected")
     start = skip_tags(data)
-    audio_format = _recognize(data, start)
+    audio_format = recognize(data, start)
     try:
         facts, peaks, warnings = _read(audio_format, data, start)
     except BrokenAudioError as error:
@@ -126,7 +126,12 @@ def probe_recording(data: Data) -> tuple[AudioInfo, Peaks | None]:
     return info, peaks
 
 
-def _recognize(data: Data, start: int) -> AudioFormat:
+def recognize(data: Data, start: int) -> AudioFormat:
+    """The format of a file whose tags end at `start`.
+
+    Raises:
+        InputError: It is no audio that is known.
+    """
     head = data[start : start + HEAD_BYTES]
     for audio_format in FORMATS:
         if audio_format.recognizes(head):

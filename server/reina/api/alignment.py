@@ -1,0 +1,93 @@
+"""Where a session's score is heard in its song."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body
+from pydantic import Discriminator, Tag
+
+from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.body import BoundedRoute
+from reina.api.http.problems import ProblemError
+from reina.protocol.alignment import Alignment as AlignmentResource
+from reina.protocol.alignment import AlignmentCorrections, AlignmentDocument
+from reina.sessions.session import Session
+from reina.sound.alignment import Alignment, Anchor, alignment_of, document_of
+
+router = APIRouter(tags=["alignment"], route_class=BoundedRoute)
+
+
+def _kind(body: Any) -> str:
+    return "document" if isinstance(body, dict) and "points" in body else "corrections"
+
+
+Fields = Annotated[
+    Annotated[AlignmentCorrections, Tag("corrections")] | Annotated[AlignmentDocument, Tag("document")],
+    Discriminator(_kind),
+]
+EXAMPLES = [{"offset_s": 0.12}, {"anchors": [{"score_s": 8.0, "song_s": 9.25}]}]
+
+
+@router.get("/sessions/{session_id}/alignment")
+async def get_alignment(session: Watched) -> AlignmentResource:
+    """Whether the score is in time with the song, how sure that is, and the whole map."""
+    return _resource(session)
+
+
+@router.put("/sessions/{session_id}/alignment")
+async def put_alignment(
+    session: Controlled, fields: Annotated[Fields, Body(examples=EXAMPLES)], store: Store
+) -> AlignmentResource:
+    """Put right where the score is heard, or put in place what was kept of it; everybody sees it at once.
+
+    Anchors and offset stand beside what was found, and replace those that were there; `{}` takes back all that
+    was put right. A document with `points` replaces what was found too.
+    """
+    if session.record.song is None:
+        raise _no_song()
+
+    def put(known: Alignment | None) -> Alignment:
+        if isinstance(fields, AlignmentDocument):
+            return alignment_of(fields)
+        anchors = [Anchor(**anchor.model_dump()) for anchor in fields.anchors]
+        return (known or _unknown(session)).with_anchors(anchors).with_offset(fields.offset_s)
+
+    await store.change_alignment(session, put)
+    return _resource(session)
+
+
+@router.post("/sessions/{session_id}/alignment/search", status_code=202)
+async def search_alignment(session: Controlled, store: Store) -> AlignmentResource:
+    """Look for the score in the song anew; what was put right by hand stays."""
+    if session.record.song is None:
+        raise _no_song()
+    if not store.search_alignment(session):
+        raise ProblemError(
+            409,
+            "undecoded-song",
+            "The server does not decode this song",
+            f"{session.record.song.media_type} is decoded by browsers alone: send WAV, FLAC, MP3 or Ogg to "
+            "have the score found in it, or put anchors",
+        )
+    return _resource(session)
+
+
+def _resource(session: Session) -> AlignmentResource:
+    known = session.alignment.alignment
+    return AlignmentResource(
+        **dict(session.alignment.state()), alignment=None if known is None else document_of(known)
+    )
+
+
+def _unknown(session: Session) -> Alignment:
+    score_s = session.production.written_score.duration_s
+    song_s = session.record.song.duration_s if session.record.song else None
+    return Alignment.identity(score_s, song_s or score_s, is_same_music=False)
+
+
+def _no_song() -> ProblemError:
+    return ProblemError(
+        409,
+        "no-recording",
+        "There is no recording",
+        "the song is rendered from the score and in time with it; upload a recording to align both",
+    )

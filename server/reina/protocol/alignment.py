@@ -1,0 +1,90 @@
+"""Where a score is heard in its song: the document, version 1, and what is told of it."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from reina.protocol.model import WireModel
+
+MAX_POINTS = 100_000
+MAX_ANCHORS = 10_000
+
+Seconds = Annotated[float, Field(allow_inf_nan=False, ge=-1e6, le=1e6)]
+Length = Annotated[float, Field(allow_inf_nan=False, gt=0, le=1e6)]
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+class _Model(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class PointDocument(_Model):
+    """A place of the score and where it is heard, as `MapPoint`."""
+
+    score_s: Seconds
+    song_s: Seconds
+    confidence: Share = 1.0
+
+
+class GapDocument(_Model):
+    """What one of both leaves out, as `Gap`."""
+
+    score_from_s: Seconds
+    score_to_s: Seconds
+    song_from_s: Seconds
+    song_to_s: Seconds
+
+
+class AnchorDocument(_Model):
+    """A place of the score that a person has put where they hear it, as `Anchor`."""
+
+    score_s: Seconds
+    song_s: Seconds
+
+
+class AlignmentDocument(_Model):
+    """Where each place of a score is heard in a recording, as `Alignment`."""
+
+    version: Literal[1] = 1
+    points: Annotated[list[PointDocument], Field(max_length=MAX_POINTS)]
+    score_duration_s: Length
+    song_duration_s: Length
+    gaps: Annotated[list[GapDocument], Field(max_length=MAX_POINTS)] = []
+    is_same_music: bool = True
+    transposition: Annotated[int, Field(ge=-6, le=6)] = 0
+    tuning_cents: Annotated[float, Field(ge=-50, le=50)] = 0.0
+    count_in: Annotated[int, Field(ge=0)] = 0
+    sounds_after: bool = False
+    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
+    offset_s: Seconds = 0.0
+
+
+class AlignmentState(WireModel):
+    """How far a session's score is in time with its song."""
+
+    status: Literal["none", "searching", "found", "unlike", "failed"]
+    """`none`: the song is rendered from the score, or is not decoded by the server; `unlike`: it is other
+    music, and both begin at 0."""
+    progress: float
+    """0 to 1; 1 once something is known."""
+    confidence: float | None
+    """0 to 1, how sure it is on the whole; null until something is known."""
+    detail: str | None
+    """Why it failed."""
+
+
+class Alignment(AlignmentState):
+    """Where a session's score is heard in its song."""
+
+    alignment: AlignmentDocument | None
+    """What was found and what people put right: a document that can be kept, and put into a session of the
+    same score and song. Null until something is known."""
+
+
+class AlignmentCorrections(WireModel):
+    """What a person puts right in an alignment."""
+
+    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
+    """Places of the score that are put where they are heard; what was found goes through them."""
+    offset_s: Seconds = 0.0
+    """By how much everything is heard later, seconds."""

@@ -1,0 +1,106 @@
+"""A session's song in time with its score: the search for it, what was found, and what people put right."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from typing import TYPE_CHECKING, Literal
+
+from reina.errors import InputError
+from reina.protocol.alignment import AlignmentState
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+    from pathlib import Path
+
+    from reina.music import Score
+    from reina.sound.alignment.aligner import Aligner
+    from reina.sound.alignment.alignment import Alignment
+
+TOLD_STEP = 0.05
+"""Progress that is told is so much further than what was told before."""
+
+_log = logging.getLogger(__name__)
+
+Status = Literal["none", "searching", "found", "unlike", "failed"]
+
+
+class SongAlignment:
+    """What is known of where the score is heard in the song.
+
+    Attributes:
+        alignment: What was found and put right; None until then.
+        progress: Of a search that is under way, 0..1.
+        error: Why the last search came to nothing.
+    """
+
+    def __init__(self, alignment: Alignment | None = None) -> None:
+        self.alignment = alignment
+        self.progress = 0.0
+        self.error: str | None = None
+        self._search: asyncio.Task[None] | None = None
+
+    @property
+    def is_searching(self) -> bool:
+        """Whether a search is under way."""
+        return self._search is not None and not self._search.done()
+
+    def state(self) -> AlignmentState:
+        """What viewers are told of it."""
+        found = self.alignment
+        status: Status = "none"
+        if self.is_searching:
+            status = "searching"
+        elif found is not None:
+            status = "found" if found.is_same_music else "unlike"
+        elif self.error is not None:
+            status = "failed"
+        return AlignmentState(
+            status=status,
+            progress=self.progress if self.is_searching else float(found is not None),
+            confidence=None if found is None else round(found.confidence, 3),
+            detail=self.error,
+        )
+
+    def search(
+        self,
+        aligner: Aligner,
+        song: Path,
+        score: Score,
+        *,
+        found: Callable[[Alignment], Awaitable[None]],
+        tell: Callable[[], None],
+    ) -> None:
+        """Look for the score in the song, in the background; a search that is under way is given up.
+
+        Args:
+            aligner: Does it.
+            song: The recording.
+            score: As it is written.
+            found: Called with what was found.
+            tell: Called when there is more to tell: progress, and the end.
+        """
+        self.close()
+        self.progress, self.error = 0.0, None
+        told = 0.0
+
+        def follow(share: float) -> None:
+            nonlocal told
+            self.progress = share
+            if share >= told + TOLD_STEP:
+                told = share
+                tell()
+
+        async def run() -> None:
+            try:
+                await found(await aligner.align(song, score, follow))
+            except InputError as error:
+                self.error = str(error)
+
+        self._search = asyncio.create_task(run())
+        self._search.add_done_callback(lambda task: None if task.cancelled() else tell())
+
+    def close(self) -> None:
+        """Give up a search that is under way."""
+        if self._search is not None:
+            self._search.cancel()
