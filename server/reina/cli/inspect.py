@@ -28,7 +28,7 @@ from reina.sessions.stage import Stage
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument(
-        "file", type=Path, metavar="FILE", help="a MIDI file or a JSON score, gzip'd or zipped too"
+        "file", type=Path, metavar="FILE", help="a MIDI file, MusicXML or a JSON score, gzip'd or zipped too"
     )
     parser.add_argument("--json", action="store_true", help="print JSON and not tables")
     parser.add_argument("--instrument", choices=sorted(INSTRUMENTS), default="trumpet", help="what plays it")

@@ -10,6 +10,7 @@ from reina.music.key_signature import KeySignature
 from reina.music.metre import MetreMap
 from reina.music.notes import Notes
 from reina.music.tempo import TempoMap
+from reina.music.texts import ScoreText
 from reina.music.warnings import ScoreWarning
 
 
@@ -50,6 +51,7 @@ class Score:
         sequence: Which of the file's sequences this is, counted from 0; a file of format 2 may hold several.
         sequences: How many it holds.
         key_signatures: As the file has them, by their beat; none where it says nothing of a key.
+        texts: Lyrics, markers and other words, by their time.
     """
 
     title: str
@@ -63,6 +65,7 @@ class Score:
     sequence: int = 0
     sequences: int = 1
     key_signatures: tuple[KeySignature, ...] = ()
+    texts: tuple[ScoreText, ...] = ()
 
     @property
     def duration_beats(self) -> float:

@@ -1,0 +1,22 @@
+"""The container of compressed MusicXML, which names its document."""
+
+from defusedxml.common import DefusedXmlException
+from defusedxml.ElementTree import ParseError, fromstring
+
+MUSICXML_TYPES = frozenset(
+    {"", "application/vnd.recordare.musicxml+xml", "application/vnd.recordare.musicxml"}
+)
+
+
+def document_path(data: bytes) -> str | None:
+    """Return the path in the archive of the document that a container names; None if it names none."""
+    try:
+        root = fromstring(data)
+    except (ParseError, DefusedXmlException, ValueError, LookupError):
+        return None
+    for element in root.iter():
+        if str(element.tag).rpartition("}")[2] != "rootfile":
+            continue
+        if element.get("media-type", "").strip() in MUSICXML_TYPES and element.get("full-path"):
+            return element.get("full-path")
+    return None
