@@ -47,7 +47,8 @@ class Notes:
         sounding_pitch: (N,) int16, MIDI number as sounded.
         velocity: (N,) float64 in 0..1.
         program: (N,) int16, General MIDI program that sounds it, counted from 0; -1 if the file says none.
-        tongued: (N,) int8, 1 where a note is begun anew, 0 where a slur leads to it, -1 if the file says neither.
+        tongued: (N,) int8, 1 where a note is begun anew, 0 where a slur leads to it, -1 if the file says
+            neither.
     """
 
     part: NDArray[np.int32]

@@ -11,9 +11,8 @@ class ScoreText:
     """A text at a time.
 
     Attributes:
-        kind: ``lyric`` is a syllable that is sung there: the last one of a word ends with a space or a line feed,
-            a line feed ends a line, two end a verse. ``marker`` is a rehearsal mark, a section's name. ``text``
-            is anything else.
+        kind: ``lyric`` is a syllable that is sung there: a space stands between words, a line feed ends a
+            line, two end a verse. ``marker`` is a rehearsal mark or a section's name, ``text`` anything else.
         onset_s: When, seconds.
         onset_beats: When, quarter notes from the score's beginning.
         text: The text.

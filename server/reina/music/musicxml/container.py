@@ -3,9 +3,8 @@
 from defusedxml.common import DefusedXmlException
 from defusedxml.ElementTree import ParseError, fromstring
 
-MUSICXML_TYPES = frozenset(
-    {"", "application/vnd.recordare.musicxml+xml", "application/vnd.recordare.musicxml"}
-)
+TYPE = "application/vnd.recordare.musicxml"
+MUSICXML_TYPES = frozenset({"", TYPE, f"{TYPE}+xml"})
 
 
 def document_path(data: bytes) -> str | None:

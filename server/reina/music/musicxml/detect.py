@@ -7,7 +7,12 @@ LOOKED_AT_BYTES = 65_536
 """Comments and processing instructions may stand before a document's first element."""
 
 _ROOT = re.compile(r"<(?:!DOCTYPE\s+|[\w.-]{1,30}:)?score-(?:partwise|timewise)\b")
-_UTF_16 = ((codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"), (b"<\0", "utf-16-le"), (b"\0<", "utf-16-be"))  # fmt: skip
+_UTF_16 = (
+    (codecs.BOM_UTF16_LE, "utf-16-le"),
+    (codecs.BOM_UTF16_BE, "utf-16-be"),
+    (b"<\0", "utf-16-le"),
+    (b"\0<", "utf-16-be"),
+)
 
 
 def is_musicxml(data: bytes) -> bool:

@@ -1,7 +1,8 @@
 """The bytes of a MusicXML document into its head and its measures, one by one.
 
-A measure of a part is handed on as soon as it is closed and forgotten then, so that the document as a whole is
-never held as a tree. A document of either kind (``score-partwise``, ``score-timewise``) comes as such cells.
+A measure of a part is handed on as soon as it is closed and forgotten then, so that the document as a whole
+is never held as a tree. A document of either kind (``score-partwise``, ``score-timewise``) comes as such
+cells.
 """
 
 from __future__ import annotations
@@ -191,8 +192,8 @@ class _Target:
         depth = len(self._open)
         if self._held > MAX_HELD or depth > MAX_DEPTH:
             raise ScoreLimitError(
-                f"one measure holds more than {MAX_HELD:,} elements, or {MAX_DEPTH} within one another; that is "
-                "no music",
+                f"one measure holds more than {MAX_HELD:,} elements, or {MAX_DEPTH} within one another; that "
+                "is no music",
                 location=f"line {self.line_of()}",
             )
         if depth == 0:

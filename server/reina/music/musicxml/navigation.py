@@ -40,9 +40,9 @@ class _Ending:
 def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: WarningLog) -> list[int]:
     """Return the measures in the order in which they are played.
 
-    A repeat is not made again after a jump, unless it says so or stands in the coda; of endings the last one is
-    taken then. A jump is made once. "To Coda" and "Fine" hold at the end of the measure that they stand in, and
-    after a jump alone.
+    A repeat is not made again after a jump, unless it says so or stands in the coda; of endings the last one
+    is taken then. A jump is made once. "To Coda" and "Fine" hold at the end of the measure that they stand
+    in, and after a jump alone.
 
     Args:
         measures: The measures as they are written.

@@ -10,7 +10,6 @@ from reina.music.key_signature import MAX_ACCIDENTALS
 from reina.music.musicxml import tables
 from reina.music.musicxml.directions import read_barline, read_direction, read_sound
 from reina.music.musicxml.element import Element, number_of, whole_of
-from reina.music.musicxml.instruments import ScoreInstrument, ScorePart
 from reina.music.musicxml.model import (
     Hairpin,
     KeyMark,
@@ -23,6 +22,7 @@ from reina.music.musicxml.state import MAX_BEATS, PartState, loudness_of, times_
 
 if TYPE_CHECKING:
     from reina.music.musicxml.document import Cell
+    from reina.music.musicxml.instruments import ScoreInstrument, ScorePart
     from reina.music.warnings import WarningLog
 
 MAX_DIVISIONS = 1_000_000
@@ -274,7 +274,7 @@ class PartReader(PartState):
             self.log.add(
                 "unknown_drum",
                 self.where(element),
-                f"nothing says which drum this is ({instrument.name or 'no name'}); it sounds as a snare drum",
+                f"nothing says which drum this is ({instrument.name or 'no name'}); a snare drum is played",
             )
             return tables.SNARE
         return key

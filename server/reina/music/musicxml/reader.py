@@ -16,7 +16,6 @@ from reina.music.key_signature import KeySignature, in_order
 from reina.music.musicxml.document import Cell, Head, read_document
 from reina.music.musicxml.dynamics import velocities_of
 from reina.music.musicxml.instruments import score_part
-from reina.music.musicxml.model import WrittenMeasure
 from reina.music.musicxml.navigation import playing_order
 from reina.music.musicxml.part_reader import PartReader
 from reina.music.musicxml.playing import PlayedNote, play_notes
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
 
     from reina.music.limits import Limits
     from reina.music.metre import MetreMap
-    from reina.music.musicxml.model import Source, WrittenPart
+    from reina.music.musicxml.model import Source, WrittenMeasure, WrittenPart
     from reina.music.tempo import TempoMap
 
 LONGEST_TITLE = 200
@@ -115,8 +114,8 @@ def _pieces(name: str, notes: Sequence[PlayedNote]) -> list[_Piece]:
     ]
 
 
-def _velocities(part: WrittenPart, timeline: Timeline) -> list[float]:
-    return velocities_of(part, timeline.written_beats)
+def _played(part: WrittenPart, timeline: Timeline) -> list[PlayedNote]:
+    return play_notes(part.notes, velocities_of(part, timeline.written_beats), timeline)
 
 
 def _check_played(parts: Sequence[WrittenPart], timeline: Timeline, limits: Limits) -> None:

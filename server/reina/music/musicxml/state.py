@@ -110,7 +110,7 @@ def times_of(element: Element) -> frozenset[int]:
 
 
 def loudness_of(text: str) -> float | None:
-    """Return the velocity, 0..1, of a percentage as MusicXML's attribute ``dynamics`` has it; None of none."""
+    """Return the velocity, 0..1, of a percentage as MusicXML's attribute ``dynamics`` has it, or None."""
     percent = number_of(text)
     if percent is None or percent < 0:
         return None

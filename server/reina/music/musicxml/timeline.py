@@ -89,7 +89,7 @@ class Timeline:
         return unrolled
 
     def metre_map(self) -> MetreMap:
-        """Return the metres as played; a measure of another length than its metre's begins a bar all the same."""
+        """Return the metres as played; what follows a measure of another length begins a bar all the same."""
         signatures: list[TimeSignature] = []
         pickup = 0.0
         now: tuple[int, int] | None = None

@@ -17,29 +17,26 @@ B_FLAT = "<transpose><diatonic>-1</diatonic><chromatic>-2</chromatic></transpose
 
 
 def note(name: str, beats: float = 1.0, *, inner: str = "", before: str = "", attributes: str = "") -> str:
-    """A note by its name (``F#4``, ``Bb3``; ``r`` is a rest), `inner` after its duration, `before` its pitch."""
+    """A note by its name (``F#4``, ``Bb3``; ``r`` is a rest), with `before` its pitch and `inner` at its end."""
     length = f"<duration>{beats * DIVISIONS:g}</duration>"
     if "<grace" in before:
         length = ""
     kind = f"<type>{TYPES[beats]}</type>" if beats in TYPES else ""
     what = "<rest/>" if name == "r" else pitch(name)
     voice = "" if "<voice>" in inner else "<voice>1</voice>"
-    return f"<note {attributes}>{before}{what}{length}{_ties(inner)}{voice}{kind}{_rest(inner)}</note>\n"
+    return f"<note {attributes}>{before}{what}{length}{_ties(inner)}{voice}{kind}{inner}</note>\n"
 
 
 def pitch(name: str) -> str:
     """``<pitch>`` of a name."""
     step, octave = name[0], name[-1]
     alter = {"#": 1, "b": -1}.get(name[1:-1])
-    return f"<pitch><step>{step}</step>{'' if alter is None else f'<alter>{alter}</alter>'}<octave>{octave}</octave></pitch>"
+    altered = "" if alter is None else f"<alter>{alter}</alter>"
+    return f"<pitch><step>{step}</step>{altered}<octave>{octave}</octave></pitch>"
 
 
 def _ties(inner: str) -> str:
     return "".join(f'<tie type="{kind}"/>' for kind in ("stop", "start") if f'<tied type="{kind}"/>' in inner)
-
-
-def _rest(inner: str) -> str:
-    return inner
 
 
 def notations(inner: str) -> str:
@@ -118,7 +115,8 @@ def listed(
         f"<midi-program>{program}</midi-program></midi-instrument>"
     )
     if inner is None:
-        inner = f'<score-instrument id="{identity}-I1"><instrument-name>{name}</instrument-name></score-instrument>'
+        inner = f'<score-instrument id="{identity}-I1"><instrument-name>{name}</instrument-name>'
+        inner += "</score-instrument>"
         inner += midi if program is not None else ""
     return f'<score-part id="{identity}"><part-name>{name}</part-name>{inner}</score-part>\n'
 
