@@ -70,9 +70,7 @@ def read_musicxml(data: bytes, *, title: str, limits: Limits) -> Score:
     pieces = [
         piece
         for reader, part in zip(readers.values(), parts, strict=True)
-        for piece in _pieces(
-            reader.listed.name, play_notes(part.notes, _velocities(part, timeline), timeline)
-        )
+        for piece in _pieces(reader.listed.name, _played(part, timeline))
     ]
     return _assemble(
         pieces,

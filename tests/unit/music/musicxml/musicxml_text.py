@@ -17,7 +17,7 @@ B_FLAT = "<transpose><diatonic>-1</diatonic><chromatic>-2</chromatic></transpose
 
 
 def note(name: str, beats: float = 1.0, *, inner: str = "", before: str = "", attributes: str = "") -> str:
-    """A note by its name (``F#4``, ``Bb3``; ``r`` is a rest), with `before` its pitch and `inner` at its end."""
+    """A note by its name (``F#4``, ``Bb3``; ``r`` is a rest), `before` its pitch and `inner` after."""
     length = f"<duration>{beats * DIVISIONS:g}</duration>"
     if "<grace" in before:
         length = ""
