@@ -25,8 +25,8 @@ class Line:
         phrase: (M,) number of the phrase, from 0; a new one begins after a rest long enough to breathe in.
         dropped: indices into the score's notes of the part's notes that are not played.
         shortened: indices into the score's notes of those that end earlier than written.
-        tongued: (M,) int8 as `Notes.tongued`: 1, or 0 under a slur, -1 where the score says neither; None where
-            it says nothing of any.
+        tongued: (M,) int8 as `Notes.tongued`: 1, or 0 under a slur, -1 where the score says neither; None
+            where it says nothing of any.
     """
 
     note_index: IntArray

@@ -12,7 +12,6 @@ import numpy as np
 
 from reina.instruments.brass.fingering import brass_fingering
 from reina.instruments.brass.strokes import plan_strokes
-from reina.music.notes import UNSAID
 from reina.instruments.player.phrasing import (
     Phrases,
     in_order,
@@ -21,6 +20,7 @@ from reina.instruments.player.phrasing import (
     plan_breath,
     plan_phrasing,
 )
+from reina.music.notes import UNSAID
 
 if TYPE_CHECKING:
     from reina.instruments.played import PlayedPart

@@ -118,7 +118,7 @@ class _NotePlayer:
                 else:
                     voice.last = [before]
                 return True
-        tied.clear()
+        tied[:] = [before for before in tied if before.written_end > onset]
         return False
 
     def _ornament(self, voice: _Voice, onset: float, duration: float) -> float:
