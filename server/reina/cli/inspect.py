@@ -16,6 +16,7 @@ from reina.cli.score_tables import (
     section,
     table,
     warning_lines,
+    words_lines,
 )
 from reina.errors import InputError, ReinaError
 from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score
@@ -144,6 +145,7 @@ def _lines(
     yield from table(("beat", "metre"), metres)
     yield from section("Key")
     yield from table(("beat", "sounds", "written", "because"), _keys(score, instrument, played))
+    yield from words_lines(score)
     yield from section(f"Parts, the best for {instrument.name} first")
     yield from table(
         ("", "part", "name", "program", "notes", "score", "because"), _parts(score, rankings, played)

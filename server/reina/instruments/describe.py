@@ -9,7 +9,9 @@ from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
 from reina.instruments.note_names import NoteNames
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
+from reina.music.lyrics import lyric_lines
 from reina.music.score import Score
+from reina.music.texts import ScoreText
 from reina.notation import keys_of
 
 
@@ -81,12 +83,19 @@ def describe_score(
         ],
         "pickup_beats": score.metre_map.pickup_beats,
         "bar_lines_s": score.tempo_map.seconds(bar_lines).tolist(),
+        "lyrics": [{"start_s": line.start_s, "text": line.text} for line in lyric_lines(score.texts)],
+        "markers": [_text(text) for text in score.texts if text.kind == "marker"],
+        "texts": [_text(text) for text in score.texts if text.kind == "text"],
         "notes": describe_notes(score, instrument, played, part),
         "warnings": [
             {"kind": warning.kind, "place": warning.place, "message": warning.message}
             for warning in (*score.warnings, *played.warnings)
         ],
     }
+
+
+def _text(text: ScoreText) -> dict[str, Any]:
+    return {"onset_beats": text.onset_beats, "onset_s": text.onset_s, "text": text.text}
 
 
 def describe_notes(

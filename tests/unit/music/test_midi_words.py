@@ -6,6 +6,7 @@ from tests.unit.music.midi_bytes import meta, midi, name, off, on, tempo
 
 from reina.music import Score, read_score
 from reina.music.lyrics import lyric_lines
+from reina.music.midi import write_midi
 from reina.music.texts import ScoreText
 
 NOTES = [on(0, 60), off(4800, 60)]
@@ -67,6 +68,13 @@ def test_markers_cues_and_texts_of_any_track():
     assert told(score, "marker") == [(1.0, "Verse")]
     assert told(score, "text") == [(1.0, "lights"), (1.0, "by hand")]
     assert lines(score) == []
+
+
+def test_words_are_written_again():
+    score = read_score(kar((480, "\\Hel"), (480, "lo"), (480, " world"), (480, "/Good")))
+    again = read_score(write_midi(score))
+    assert lines(again) == lines(score) == ["Hello world", "Good"]
+    assert again.texts == score.texts
 
 
 def test_a_file_without_words_has_none():
