@@ -145,12 +145,13 @@ def _endings(measures: Sequence[WrittenMeasure]) -> dict[int, _Ending]:
 
     def close() -> None:
         total = max((max(passes) for _, _, passes in group), default=1)
-        if len(group) == 1 and measures[group[0][1]].backward:
-            total += 1
+        # A first ending alone is left out the last time; any other ending alone is no choice at all.
+        skipped = len(group) == 1 and measures[group[0][1]].backward > 0 and 1 in group[0][2]
+        total += skipped
         named = frozenset[int]().union(*(passes for _, _, passes in group))
         for number, (begin, end, passes) in enumerate(group):
             is_last = number == len(group) - 1
-            found[begin] = _Ending(passes, end, total, is_last, is_last and number > 0, named)
+            found[begin] = _Ending(passes, end, total, is_last, is_last and not skipped, named)
         group.clear()
 
     at = 0

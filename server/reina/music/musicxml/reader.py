@@ -72,6 +72,8 @@ def read_musicxml(data: bytes, *, title: str, limits: Limits) -> Score:
         for reader, part in zip(readers.values(), parts, strict=True)
         for piece in _pieces(reader.listed.name, _played(part, timeline))
     ]
+    if not pieces:
+        raise ScoreError("no note of the document is played", location=f"{len(measures)} measures")
     return _assemble(
         pieces,
         title=_title(head) or title,

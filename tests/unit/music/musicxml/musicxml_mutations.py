@@ -75,8 +75,8 @@ def musicxml_seeds() -> tuple[bytes, ...]:
     second = "<backup><duration>48</duration></backup>" + note("C4", 4, inner="<voice>2</voice>")
     melody = measures(
         attributes(fifths=2, extra=B_FLAT) + tempo(100) + dynamic("p") + wedge("crescendo") + graces
-        + note("C5", inner=slur("start") + sung) + note("D5", inner=slur("stop")) + note("E5", 2, inner=tied("start"))
-        + second,
+        + note("C5", inner=slur("start") + sung) + note("D5", inner=slur("stop"))
+        + note("E5", 2, inner=tied("start")) + second,
         REPEAT_BEGINS + wedge("stop") + dynamic("f") + note("E5", 2, inner=tied("stop"))
         + note("G5", before="<chord/>") + note("F5", 2, inner=articulations("staccato", "accent")),
         ending("1", "start") + words("con sord.") + note("G5", 4)

@@ -141,6 +141,7 @@ def test_what_is_wrong_inside_is_told_with_its_line() -> None:
             document(measures(attributes() + note("r", 4))),
             "1 measures: the document is MusicXML and holds no",
         ),
+        (document(measures(note("C4", attributes='time-only="2"'))), "no note of the document is played"),
         (b"<opus><!-- <score-partwise --></opus>", "the document is <opus>"),
         (b"<score-partwise>" + b"<a>" * 200, "within one another"),
     ],
