@@ -55,6 +55,10 @@ def slur(*kinds: str, number: int = 1) -> str:
     return notations("".join(f'<slur type="{kind}" number="{number}"/>' for kind in kinds))
 
 
+def lyric(syllabic: str, text: str, more: str = "", verse: int = 1) -> str:
+    return f'<lyric number="{verse}"><syllabic>{syllabic}</syllabic><text>{text}</text>{more}</lyric>'
+
+
 def attributes(metre: str = "4/4", fifths: int = 0, extra: str = "", divisions: int = DIVISIONS) -> str:
     beats, kind = metre.split("/")
     return (
