@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tests.mutations import mutate
+from tests.unit.music.musicxml.musicxml_mutations import musicxml_seeds, mutate_musicxml
 from tests.unit.music.mutations import json_seeds, midi_seeds, mutate_json, mutate_midi
 from tests.unit.sessions.score_checks import check_score_played, stage
 from tests.unit.show import show_mutations
@@ -66,6 +67,7 @@ def _mutate_motion(data: bytes, rng: random.Random) -> bytes:
 
 KINDS = {
     "midi": Kind(_midi, mutate_midi, check_score_played, stage),
+    "musicxml": Kind(musicxml_seeds, mutate_musicxml, check_score_played, stage),
     "json": Kind(_json, mutate_json, check_score_played, stage),
     "bvh": Kind(motion.seeds, _mutate_motion, motion.check_bvh),
     "show": Kind(show_mutations.seeds, show_mutations.mutate_show, show_mutations.check_show),

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from fuzz_kinds import Kind
 
-NAMES = ("midi", "json", "bvh", "show", "recording")
+NAMES = ("midi", "musicxml", "json", "bvh", "show", "recording")
 LONGEST_S = 1.0
 MAX_BYTES = 64 * 2**20
 LARGEST = 64 * 1024

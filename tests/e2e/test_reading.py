@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.integration.scores import duet, song, sung
+from tests.unit.music.musicxml import musicxml_text as xml
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,6 +22,15 @@ PHONE = (390, 700)
 NARROW = (420, 500)
 """The strip of next notes has its own line in a narrow window."""
 REPAIRED = ("repaired.mid", "audio/midi", b"junk" + duet()[:-3])
+SONG = xml.document(
+    xml.measures(
+        xml.attributes(extra=xml.B_FLAT) + xml.words("softly")
+        + xml.note("C5", 2, inner=xml.lyric("begin", "Hal")) + xml.note("D5", 2, inner=xml.lyric("end", "lo,")),
+        xml.note("E5", 4, inner=xml.lyric("single", "you", "<end-line/>")),
+        xml.direction("<rehearsal>Refrain</rehearsal>") + xml.note("F5", 4, inner=xml.lyric("single", "la")),
+        xml.note("G5", 4),
+    )
+)  # fmt: skip
 WRITTEN = [("G4", "open"), ("A4", "1 and 2"), ("B4", "2"), ("C5", "open")]
 SOUNDING = ["F4", "G4", "A4", "B♭4"]
 STRIP = """() => [...document.querySelectorAll("ol.notes li")].map((note) => [
@@ -113,6 +123,26 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
     touches = page.get_by_role("region", name="Touches")
     touches.get_by_text("Look around the player").wait_for()
     assert touches.locator("kbd").count() == 0, "a phone has no keys"
+def test_the_words_of_musicxml_stand_at_the_timeline(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(size=NARROW).open_files(("song.mxl", "", xml.compressed(SONG)))
+    page = opened.page
+    lyrics = page.get_by_label("Lyrics", exact=True)
+
+    def seek(song_time_s: float) -> None:
+        path = f"/api/v1/sessions/{opened.session}/transport"
+        body = {"action": "seek", "song_time_s": song_time_s}
+        opened.until_at_rest(client.post(path, json=body, headers=opened.headers).json())
+
+    assert [note[0] for note in page.evaluate(STRIP)][:2] == ["C5", "D5"], "as written for a B♭ trumpet"
+    seek(1.1)
+    assert lyrics.inner_text() == "Hallo, you"
+    assert lyrics.locator(".sung").all_inner_texts() == ["Hal"]
+    assert lyrics.locator(".now").inner_text().strip() == "lo,"
+    page.get_by_role("button", name="Refrain, bar 3").click()
+    opened.until("Math.abs(window.reina.songTime - 4) < 0.01")
+    assert lyrics.inner_text() == "la"
+    marks = page.get_by_role("group", name="Marks in the piece")
+    assert [text for text in marks.locator(".word").all_inner_texts() if text] == ["softly", "Refrain"]
 
 
 def test_the_page_tells_what_is_amiss_with_a_song_and_a_show(visit: Visit, client: httpx.Client) -> None:

@@ -53,7 +53,8 @@ BROKEN: dict[str, tuple[dict[str, Any], int, str, str]] = {
     "JSON of the wrong shape": ({"score": ("a.json", b'{"hello": 1}')}, 422, "score-unreadable", ""),
     "broken JSON": ({"score": ("a.json", b'{"notes": [')}, 422, "score-unreadable", "JSON"),
     "no tracks": ({"score": ("a.json", b'{"tracks": null}')}, 422, "score-unreadable", "tracks: is null"),
-    "MusicXML": ({"score": ("a.xml", b"<score-partwise>")}, 422, "score-unreadable", "this is MusicXML"),
+    "broken MusicXML": ({"score": ("a.xml", b"<score-partwise>")}, 422, "score-unreadable", "breaks off"),
+    "MuseScore": ({"score": ("a.mscx", b"<museScore>")}, 422, "score-unreadable", "export it as MusicXML"),
     "a recording as the score": ({"score": ("a.mp3", b"ID3\4")}, 422, "score-unreadable", "MP3 recording"),
     "a damaged gzip'd score": (
         {"score": ("a.mid.gz", gzip.compress(MIDI)[:-9])},

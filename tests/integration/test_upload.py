@@ -13,6 +13,16 @@ from typing import TYPE_CHECKING
 import pytest
 from tests.integration.scores import duet, scale, show, song, sung
 from tests.integration.server import upload
+from tests.unit.music.musicxml.musicxml_text import (
+    B_FLAT,
+    attributes,
+    compressed,
+    direction,
+    document,
+    measures,
+    note,
+    words,
+)
 
 from reina.cli import main
 
@@ -89,6 +99,31 @@ def test_compressed_scores_are_opened(client: httpx.Client) -> None:
         assert [warning["kind"] for warning in session.body["warnings"]] == ["unpacked"]
         assert len(client.get(f"{session.path}/score").json()["notes"]) == 16
         session.change("DELETE").raise_for_status()
+
+
+def test_musicxml_becomes_a_session_with_its_words(client: httpx.Client) -> None:
+    sung = '<lyric number="1"><syllabic>{}</syllabic><text>{}</text></lyric>'
+    mark = direction("<rehearsal>A</rehearsal>")
+    score = document(
+        measures(
+            attributes(extra=B_FLAT) + words("Allegro") + note("C5", 2, inner=sung.format("begin", "Hal")),
+            mark + note("D5", 4, inner=sung.format("end", "lo")),
+        )
+    )
+    body = upload(client, compressed(score), "Hallo.mxl").body
+    assert (body["title"], body["notes"]) == ("Hallo", 2)
+    told = client.get(f"/api/v1/sessions/{body['id']}/score").json()
+    assert [one["sounding_pitch"] for one in told["notes"]] == [70, 72]
+    assert [one["written_pitch"] for one in told["notes"]] == [72, 74]
+    assert told["lyrics"] == [
+        {
+            "start_s": 0.0,
+            "end_s": 5.0,
+            "syllables": [{"onset_s": 0.0, "text": "Hal"}, {"onset_s": 1.0, "text": "lo"}],
+        }
+    ]
+    assert told["markers"] == [{"onset_s": 1.0, "onset_beats": 2.0, "text": "A"}]
+    assert told["texts"] == [{"onset_s": 0.0, "onset_beats": 0.0, "text": "Allegro"}]
 
 
 def test_the_notes_come_with_their_fingering(client: httpx.Client) -> None:

@@ -145,7 +145,10 @@ async def create_session(request: Request, response: Response, store: Store) -> 
 def _draft(folder: Path, upload: Upload) -> Draft:
     if "score" not in upload.files:
         raise ProblemError(
-            422, "no-score", "The form has no score", "send a MIDI or JSON file as the form's part `score`"
+            422,
+            "no-score",
+            "The form has no score",
+            "send a MIDI, MusicXML or JSON file as the form's part `score`",
         )
     try:
         fields = resources.SessionFields.model_validate_strings(upload.fields)

@@ -17,6 +17,7 @@ from reina.cli.score_tables import (
     section,
     table,
     warning_lines,
+    words_lines,
 )
 from reina.errors import InputError, ReinaError
 from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, score_findings
@@ -29,7 +30,7 @@ from reina.sessions.stage import Stage
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument(
-        "file", type=Path, metavar="FILE", help="a MIDI file or a JSON score, gzip'd or zipped too"
+        "file", type=Path, metavar="FILE", help="a MIDI file, MusicXML or a JSON score, gzip'd or zipped too"
     )
     parser.add_argument("--json", action="store_true", help="print JSON and not tables")
     parser.add_argument("--instrument", choices=sorted(INSTRUMENTS), default="trumpet", help="what plays it")
@@ -147,6 +148,7 @@ def _lines(
     yield from table(("beat", "metre"), metres)
     yield from section("Key")
     yield from table(("beat", "sounds", "written", "because"), _keys(score, instrument, played))
+    yield from words_lines(score)
     yield from section(f"Parts, the best for {instrument.name} first")
     yield from table(
         ("", "part", "name", "program", "notes", "score", "because"), _parts(score, rankings, played)

@@ -2,8 +2,11 @@
 
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from reina.instruments import Instrument, NoteNames, PlayedPart
 from reina.music import Finding, Score, ScoreWarning
+from reina.music.lyrics import lyric_lines
 
 REST = "–"
 
@@ -31,6 +34,23 @@ def warning_lines(warnings: Sequence[ScoreWarning]) -> Iterable[str]:
     """A section of warnings."""
     yield from section(f"Warnings: {len(warnings) or 'none'}")
     yield from table(("kind", "place", "what"), [(w.kind, w.place, w.message) for w in warnings])
+
+
+def words_lines(score: Score) -> Iterable[str]:
+    """Sections of marks and other words, and of the lines of lyrics; nothing where there are none."""
+    positions = score.metre_map.positions(np.array([text.onset_beats for text in score.texts]))
+    words = [
+        (str(place.bar), f"{place.beat:g}", f"{text.onset_s:.3f}", text.kind, text.text)
+        for text, place in zip(score.texts, positions, strict=True)
+        if text.kind != "lyric"
+    ]
+    if words:
+        yield from section("Words")
+        yield from table(("bar", "beat", "second", "kind", "text"), words)
+    sung = [(f"{line.start_s:.3f}", line.text) for line in lyric_lines(score.texts)]
+    if sung:
+        yield from section("Lyrics")
+        yield from table(("second", "line"), sung)
 
 
 def fingering_lines(score: Score, instrument: Instrument, played: PlayedPart) -> Iterable[str]:

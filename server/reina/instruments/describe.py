@@ -13,8 +13,10 @@ from reina.instruments.note_names import NoteNames
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
 from reina.music.findings import Finding, findings_of
-from reina.music.score import Score
 from reina.music.warnings import ScoreWarning
+from reina.music.lyrics import lyric_lines
+from reina.music.score import Score
+from reina.music.texts import ScoreText
 from reina.notation import keys_of
 
 
@@ -86,6 +88,9 @@ def describe_score(
         ],
         "pickup_beats": score.metre_map.pickup_beats,
         "bar_lines_s": score.tempo_map.seconds(bar_lines).tolist(),
+        "lyrics": [{"start_s": line.start_s, "text": line.text} for line in lyric_lines(score.texts)],
+        "markers": [_text(text) for text in score.texts if text.kind == "marker"],
+        "texts": [_text(text) for text in score.texts if text.kind == "text"],
         "notes": describe_notes(score, instrument, played, part),
         "warnings": [describe_warning(warning) for warning in (*score.warnings, *played.warnings)],
         "findings": [
@@ -131,6 +136,8 @@ def describe_finding(finding: Finding) -> dict[str, Any]:
         "player": finding.player,
         "details": [describe_warning(warning) for warning in finding.details],
     }
+def _text(text: ScoreText) -> dict[str, Any]:
+    return {"onset_beats": text.onset_beats, "onset_s": text.onset_s, "text": text.text}
 
 
 def describe_notes(

@@ -122,6 +122,7 @@ def playable_line(
         phrase=read_only(np.concatenate((np.zeros(1), np.cumsum(rests)))[: len(table)].astype(np.int64)),
         dropped=read_only(np.array(sorted(maker.dropped), dtype=np.int64)),
         shortened=read_only(np.array(sorted(maker.shortened - maker.dropped), dtype=np.int64)),
+        tongued=read_only(notes.tongued[note_index]),
     )
 
 

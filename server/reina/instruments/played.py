@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from reina.instruments.note_fingerings import NoteFingering
 from reina.music.arrays import BoolArray, FloatArray, IntArray
 from reina.music.warnings import ScoreWarning
@@ -22,6 +25,8 @@ class Line:
         phrase: (M,) number of the phrase, from 0; a new one begins after a rest long enough to breathe in.
         dropped: indices into the score's notes of the part's notes that are not played.
         shortened: indices into the score's notes of those that end earlier than written.
+        tongued: (M,) int8 as `Notes.tongued`: 1, or 0 under a slur, -1 where the score says neither; None
+            where it says nothing of any.
     """
 
     note_index: IntArray
@@ -32,6 +37,7 @@ class Line:
     phrase: IntArray
     dropped: IntArray
     shortened: IntArray
+    tongued: NDArray[np.int8] | None = None
 
     def __len__(self) -> int:
         return len(self.note_index)

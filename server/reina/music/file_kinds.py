@@ -11,7 +11,7 @@ class FileKind:
     """A kind of file that is no score to Reina.
 
     Attributes:
-        name: What it is: ``"MusicXML"``, ``"a PDF"``.
+        name: What it is: ``"a MuseScore score"``, ``"a PDF"``.
         advice: What to send in its place.
     """
 
@@ -27,14 +27,16 @@ class FileKind:
         return self.advice == RECORDING
 
 
-EXPORT = "export it as MIDI (.mid) from the program it is of"
+EXPORT = "export it as MusicXML (.musicxml) or MIDI (.mid) from the program it is of"
 CONVERT = "convert it to MIDI (.mid)"
 RECORDING = "a score is notes, not sound: send their MIDI file as the score and this as the song"
-PICTURE = "a picture of notes is not read: export MIDI (.mid) from the program that the sheet was made with"
+PICTURE = (
+    "a picture of notes is not read: export MusicXML (.musicxml) or MIDI (.mid) from the program that the "
+    "sheet was made with"
+)
 ARCHIVE = "take the score out of it and send that"
 DOWNLOAD = "the download gave a page and not the file: fetch the file itself"
 
-MUSICXML = FileKind("MusicXML", EXPORT)
 MUSESCORE = FileKind("a MuseScore score", EXPORT)
 GUITAR_PRO = FileKind("a Guitar Pro score", EXPORT)
 WAV = FileKind("a WAV recording", RECORDING)
@@ -99,8 +101,6 @@ SIGNATURES: tuple[tuple[int, bytes, FileKind], ...] = (
 """Where in the file which bytes stand; the first that fits counts."""
 
 WORDS: tuple[tuple[bytes, FileKind], ...] = (
-    (b"<score-partwise", MUSICXML),
-    (b"<score-timewise", MUSICXML),
     (b"<musescore", MUSESCORE),
     (b"<gpif", GUITAR_PRO),
     (b"<ableton", FileKind("an Ableton Live set", EXPORT)),
@@ -118,7 +118,6 @@ WORDS: tuple[tuple[bytes, FileKind], ...] = (
 ZIPPED: tuple[tuple[str, FileKind], ...] = (
     (".mscx", MUSESCORE),
     ("score.gpif", GUITAR_PRO),
-    ("meta-inf/container.xml", FileKind("compressed MusicXML", EXPORT)),
     ("[content_types].xml", FileKind("an Office document", PICTURE)),
 )
 """How the name of a file ends, in small letters, by which a ZIP archive is a file of another program."""

@@ -11,9 +11,10 @@ class Limits:
 
     Attributes:
         size_bytes: Size of the file.
-        tracks: Tracks of a MIDI file, parts of a JSON document.
+        tracks: Tracks of a MIDI file, parts of a JSON or MusicXML document.
         chunks: Chunks of a MIDI file beside its tracks.
         events: Messages of all tracks together, notes and others; objects and lists of a JSON document.
+        elements: Elements of a MusicXML document.
         notes: Notes of the score.
         duration_s: Seconds from the beginning to the end of the last note.
         beats: Quarter notes from the beginning to the end of the last note.
@@ -24,6 +25,7 @@ class Limits:
     tracks: int = 1024
     chunks: int = 10_000
     events: int = 1_000_000
+    elements: int = 2_000_000
     notes: int = 250_000
     duration_s: float = 4 * 3600.0
     beats: float = 1_000_000.0

@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 from reina.music.arrays import FloatArray, IntArray, read_only
 
 NO_PROGRAM = -1
+UNSAID = -1
+"""Of a note of which nothing says whether it is tongued."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,8 @@ class Notes:
         sounding_pitch: (N,) int16, MIDI number as sounded.
         velocity: (N,) float64 in 0..1.
         program: (N,) int16, General MIDI program that sounds it, counted from 0; -1 if the file says none.
+        tongued: (N,) int8, 1 where a note is begun anew, 0 where a slur leads to it, -1 if the file says
+            neither.
     """
 
     part: NDArray[np.int32]
@@ -56,6 +60,7 @@ class Notes:
     sounding_pitch: NDArray[np.int16]
     velocity: FloatArray
     program: NDArray[np.int16]
+    tongued: NDArray[np.int8]
 
     @classmethod
     def from_columns(
@@ -70,10 +75,11 @@ class Notes:
         sounding_pitch: ArrayLike,
         velocity: ArrayLike,
         program: ArrayLike | None = None,
+        tongued: ArrayLike | None = None,
     ) -> "Notes":
         """Make the table from columns of any dtype and order; sorted by onset, then part, then pitch.
 
-        Without `program` no note names one.
+        Without `program` no note names one; without `tongued` nothing says how notes begin.
 
         Raises:
             ValueError: If the columns differ in length or hold what is not a note.
@@ -90,6 +96,9 @@ class Notes:
             program=np.full(np.shape(onset_s), NO_PROGRAM, dtype=np.int16)
             if program is None
             else np.asarray(program, dtype=np.int16),
+            tongued=np.full(np.shape(onset_s), UNSAID, dtype=np.int8)
+            if tongued is None
+            else np.asarray(tongued, dtype=np.int8),
         )
         shapes = {column.shape for column in vars(notes).values()}
         if len(shapes) != 1 or any(len(shape) != 1 for shape in shapes):

@@ -15,6 +15,7 @@ from pathlib import PurePath, PurePosixPath
 from reina.music.errors import ScoreError, ScoreLimitError
 from reina.music.file_kinds import HEAD_BYTES, kind_of, kind_of_zip
 from reina.music.limits import Limits
+from reina.music.musicxml.detect import is_musicxml
 
 GZIP_MAGIC = b"\x1f\x8b"
 ZIP_MAGICS = (b"PK\x03\x04", b"PK\x05\x06")
@@ -28,7 +29,13 @@ MAX_FILES = 1000
 MAX_NAMED = 5
 LONGEST_NAME = 200
 
+CONTAINER = "META-INF/container.xml"
+"""What names the document of compressed MusicXML (.mxl)."""
+CONTAINER_BYTES = 64 * 1024
+WANTED = "a MIDI file (.mid), MusicXML or a JSON score in it would be right"
+
 MIDI_SUFFIXES = frozenset({".mid", ".midi", ".smf", ".kar", ".rmi"})
+MUSICXML_SUFFIXES = frozenset({".musicxml", ".mxl", ".xml"})
 JSON_WORDS = (b'"tracks"', b'"parts"', b'"header"', b'"reina-score"')
 """One of these stands near the beginning of a JSON score, beside other JSON."""
 
@@ -53,7 +60,7 @@ class Unpacked:
     Attributes:
         data: The file.
         name: Its name, or None if it is not known.
-        told: What was done, for the sender.
+        told: What was done, for the sender; "" where that is how such files are.
     """
 
     data: bytes
@@ -119,10 +126,13 @@ def _gunzip(data: bytes, most: int) -> bytes:
 def _unzip(archive: zipfile.ZipFile, most: int) -> Unpacked:
     files = [entry for entry in archive.infolist() if not _is_hidden(entry)]
     if not files:
-        raise ScoreError("the ZIP archive is empty; a MIDI file (.mid) or a JSON score in it would be right")
+        raise ScoreError(f"the ZIP archive is empty; {WANTED}")
     program = kind_of_zip([entry.filename for entry in archive.infolist()])
     if program is not None:
         raise ScoreError(str(program))
+    document = _named_document(archive, files)
+    if document is not None:
+        return Unpacked(_read(archive, document, most), None, "")
     if len(files) == 1:
         scores = files
     else:
@@ -134,10 +144,7 @@ def _unzip(archive: zipfile.ZipFile, most: int) -> Unpacked:
                 f"{_name(entry)} ({kind.name})" if kind else _name(entry)
                 for entry, kind in zip(files, kinds, strict=True)
             ]
-            raise ScoreError(
-                f"the ZIP archive holds no score, but {_some(named)}; a MIDI file (.mid) or a JSON score in "
-                "it would be right"
-            )
+            raise ScoreError(f"the ZIP archive holds no score, but {_some(named)}; {WANTED}")
     if len(scores) > 1:
         raise ScoreError(
             f"the ZIP archive holds {len(scores)} scores ({_some(map(_name, scores))}); send one of them"
@@ -147,6 +154,18 @@ def _unzip(archive: zipfile.ZipFile, most: int) -> Unpacked:
     others = len(files) - 1
     beside = f"; {others} other file{'s' if others > 1 else ''} in it left aside" if others else ""
     return Unpacked(data, _name(entry), f"{_name(entry)} was taken out of a ZIP archive{beside}")
+
+
+def _named_document(archive: zipfile.ZipFile, files: Iterable[zipfile.ZipInfo]) -> zipfile.ZipInfo | None:
+    """Return the document of compressed MusicXML, None if its container names none that is there."""
+    by_name = {entry.filename: entry for entry in files}
+    container = by_name.get(CONTAINER)
+    if container is None:
+        return None
+    from reina.music.musicxml.container import document_path
+
+    path = document_path(_read(archive, container, CONTAINER_BYTES))
+    return by_name.get(path) if path else None
 
 
 def _is_hidden(entry: zipfile.ZipInfo) -> bool:
@@ -191,7 +210,11 @@ def _is_score(entry: zipfile.ZipInfo, head: bytes) -> bool:
     if PurePath(_name(entry)).suffix.lower() in MIDI_SUFFIXES:
         return True
     is_midi = head.startswith(b"MThd") or (head.startswith(b"RIFF") and head.startswith(b"RMID", 8))
-    return is_midi or (head.lstrip()[:1] == b"{" and any(word in head for word in JSON_WORDS))
+    return (
+        is_midi
+        or is_musicxml(head)
+        or (head.lstrip()[:1] == b"{" and any(word in head for word in JSON_WORDS))
+    )
 
 
 def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, most: int) -> bytes:

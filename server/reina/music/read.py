@@ -9,11 +9,12 @@ from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.music.file_kinds import kind_of
 from reina.music.limits import DEFAULT_LIMITS, Limits
 from reina.music.midi import read_midi
+from reina.music.musicxml.detect import is_musicxml
 from reina.music.packed import unpack
 from reina.music.score import Score
 from reina.music.warnings import ScoreWarning
 
-ENDING = re.compile(r"\.(?=[0-9]*[A-Za-z])[A-Za-z0-9]{1,5}$")
+ENDING = re.compile(r"\.(?=[0-9]*[A-Za-z])(?:[A-Za-z0-9]{1,5}|musicxml)$", re.IGNORECASE)
 """What tells a file's kind in its name: ``.mid``, but not the ``. 5`` of a symphony."""
 JSON_BEGINNINGS = (b"{", b"[", b"\0{", b"\0\0\0{", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")
 """Of an object or a list in UTF-8, UTF-16 or UTF-32, with a byte order mark or without."""
@@ -26,7 +27,7 @@ def read_score(
     sequence: int | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Score:
-    """Read a MIDI file or a JSON score, gzip'd or zipped too; what it is is told by its bytes alone.
+    """Read a MIDI file, MusicXML or a JSON score, compressed too; what it is is told by its bytes alone.
 
     What was repaired is in the score's `warnings`; docs/music.md lists every case.
 
@@ -45,7 +46,9 @@ def read_score(
     unpacked = unpack(data, filename=filename, limits=limits)
     if unpacked is None:
         return _read(data, filename, sequence, limits)
-    score = _read(unpacked.data, unpacked.name, sequence, limits)
+    score = _read(unpacked.data, unpacked.name or filename, sequence, limits)
+    if not unpacked.told:
+        return score
     opened = ScoreWarning("unpacked", "whole file", unpacked.told)
     return replace(score, warnings=(opened, *score.warnings))
 
@@ -54,11 +57,15 @@ def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limit
     if not data:
         raise ScoreError("the file is empty", location="byte 0")
     title = _title(filename) if filename else "Untitled"
+    if is_musicxml(data):
+        _check_sequence(sequence, "a MusicXML document")
+        # What reads XML takes a while to import, and most scores need it not.
+        from reina.music.musicxml import read_musicxml
+
+        return read_musicxml(data, title=title, limits=limits)
     is_json = data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS)
-    if is_json and sequence not in {None, 0}:
-        raise NotInScoreError(
-            f"a JSON score holds one sequence, 0; there is no sequence {sequence}", location="sequence"
-        )
+    if is_json:
+        _check_sequence(sequence, "a JSON score")
     try:
         if is_json:
             return read_json(data, title=title, limits=limits)
@@ -70,6 +77,13 @@ def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limit
         if kind is None:
             raise
         raise ScoreError(str(kind), location="byte 0") from error
+
+
+def _check_sequence(sequence: int | None, what: str) -> None:
+    if sequence not in {None, 0}:
+        raise NotInScoreError(
+            f"{what} holds one sequence, 0; there is no sequence {sequence}", location="sequence"
+        )
 
 
 def _title(filename: str) -> str:

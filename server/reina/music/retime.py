@@ -60,19 +60,18 @@ def retimed(score: Score, heard: SongTimes) -> Score:
     columns = {field.name: getattr(notes, field.name) for field in fields(notes)}
     columns |= {"onset_s": onset_s, "duration_s": np.maximum(end_s - onset_s, MIN_STEP_S)}
     moved = Notes.from_columns(**{name: column[kept] for name, column in columns.items()})
-    controls = [
-        control._replace(onset_s=at_s)
-        for control, at_s in zip(
-            score.controls,
-            heard.song_times(np.array([control.onset_s for control in score.controls])).tolist(),
-            strict=True,
-        )
-    ]
+    controls_s = np.array([control.onset_s for control in score.controls])
+    texts_s = np.array([text.onset_s for text in score.texts])
+    controls = zip(score.controls, heard.song_times(controls_s).tolist(), strict=True)
+    texts = zip(
+        score.texts, heard.song_times(texts_s).tolist(), heard.is_heard(texts_s).tolist(), strict=True
+    )
     return replace(
         score,
         notes=moved,
         tempo_map=_heard_beats(score, heard),
-        controls=tuple(controls),
+        controls=tuple(control._replace(onset_s=at_s) for control, at_s in controls),
+        texts=tuple(replace(text, onset_s=at_s) for text, at_s, is_heard in texts if is_heard),
         duration_s=float(np.max(moved.onset_s + moved.duration_s, initial=0.0)),
         written_tempos=score.written_tempo_map,
     )
@@ -116,6 +115,7 @@ def from_second_zero(score: Score) -> Score:
         controls=tuple(
             control._replace(onset_beats=control.onset_beats + lead) for control in score.controls
         ),
+        texts=tuple(replace(text, onset_beats=text.onset_beats + lead) for text in score.texts),
         key_signatures=tuple(
             replace(key, onset_beats=key.onset_beats + lead if key.onset_beats > 0 else 0.0)
             for key in score.key_signatures

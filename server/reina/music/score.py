@@ -10,6 +10,7 @@ from reina.music.key_signature import KeySignature
 from reina.music.metre import MetreMap
 from reina.music.notes import Notes
 from reina.music.tempo import TempoMap
+from reina.music.texts import ScoreText
 from reina.music.warnings import ScoreWarning
 
 
@@ -51,6 +52,7 @@ class Score:
         sequences: How many it holds.
         key_signatures: As the file has them, by their beat; none where it says nothing of a key.
         written_tempos: The file's own tempos, where `tempo_map` is that of a recording.
+        texts: Lyrics, markers and other words, by their time.
     """
 
     title: str
@@ -64,6 +66,7 @@ class Score:
     sequence: int = 0
     sequences: int = 1
     key_signatures: tuple[KeySignature, ...] = ()
+    texts: tuple[ScoreText, ...] = ()
     written_tempos: TempoMap | None = None
 
     @property

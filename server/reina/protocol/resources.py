@@ -420,6 +420,32 @@ class MusicKey(WireModel):
     """Whether the file says it, or it is found from the notes."""
 
 
+class SungSyllable(WireModel):
+    """A syllable, and when it is sung."""
+
+    onset_s: float
+    text: str
+    """With the blank after it, or before it, that stands between words."""
+
+
+class LyricLine(WireModel):
+    """A line of lyrics."""
+
+    start_s: float
+    """When its first syllable is sung."""
+    end_s: float
+    """When the next line begins, or it is over."""
+    syllables: list[SungSyllable]
+
+
+class ScoreText(WireModel):
+    """Words at a place of the score."""
+
+    onset_s: float
+    onset_beats: float
+    text: str
+
+
 class Score(WireModel):
     """The score, as far as it is drawn and played."""
 
@@ -441,6 +467,12 @@ class Score(WireModel):
     bar_lines_s: list[float]
     notes: list[WireNote]
     """By onset; of one part alone with `?part=`."""
+    lyrics: list[LyricLine]
+    """Lines that the file has to be sung, by time."""
+    markers: list[ScoreText]
+    """Names of sections, rehearsal marks, by time."""
+    texts: list[ScoreText]
+    """Other words that the file has, by time."""
     warnings: list[Warned]
 
 

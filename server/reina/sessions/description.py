@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reina.instruments import NoteNames, ValvesFingering
+from reina.music.lyrics import lyric_lines
 from reina.protocol import resources
 from reina.protocol.messages import Transport
 from reina.protocol.notes import WireNote
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from reina.instruments import PartRanking
     from reina.music import ClockState, Finding, Score, ScoreWarning
+    from reina.music.texts import TextKind
     from reina.sessions.production import Production
 
 NOT_PLAYED = "nobody plays this part"
@@ -222,6 +224,30 @@ class NoteTable:
         )
 
 
+def lyrics(score: Score) -> list[resources.LyricLine]:
+    """The lines of a score's lyrics."""
+    return [
+        resources.LyricLine(
+            start_s=line.start_s,
+            end_s=line.end_s,
+            syllables=[
+                resources.SungSyllable(onset_s=syllable.onset_s, text=syllable.text)
+                for syllable in line.syllables
+            ],
+        )
+        for line in lyric_lines(score.texts)
+    ]
+
+
+def score_texts(score: Score, kind: TextKind) -> list[resources.ScoreText]:
+    """A score's words of one kind."""
+    return [
+        resources.ScoreText(onset_s=text.onset_s, onset_beats=text.onset_beats, text=text.text)
+        for text in score.texts
+        if text.kind == kind
+    ]
+
+
 def score_text(production: Production, title: str, part: int | None = None) -> bytes:
     """The whole score as JSON, or the notes of one part of it alone.
 
@@ -254,6 +280,9 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
         keys=music_keys(score, production.played.transposition, production.instrument.written_pitch(0)),
         bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
         notes=[],
+        lyrics=lyrics(score),
+        markers=score_texts(score, "marker"),
+        texts=score_texts(score, "text"),
         warnings=warned(production.warnings),
     )
     notes = [Written(table.note(int(index)).model_dump_json().encode()) for index in indices]

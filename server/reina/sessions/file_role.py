@@ -12,7 +12,8 @@ from pathlib import PurePath
 from typing import Literal
 
 from reina.music.file_kinds import kind_of
-from reina.music.packed import GZIP_MAGIC, MIDI_SUFFIXES, ZIP_MAGICS
+from reina.music.musicxml.detect import is_musicxml
+from reina.music.packed import GZIP_MAGIC, MIDI_SUFFIXES, MUSICXML_SUFFIXES, ZIP_MAGICS
 from reina.music.read import JSON_BEGINNINGS
 from reina.sound.recording.probe import FORMATS, MP3, SUPPORTED
 
@@ -34,8 +35,8 @@ SONG_SUFFIXES = frozenset(
     {".aac", ".aif", ".aiff", ".flac", ".m4a", ".m4b", ".mp3", ".mp4"}
     | {".oga", ".ogg", ".opus", ".wav", ".weba", ".webm", ".wma"}
 )
-SCORE_SUFFIXES = MIDI_SUFFIXES | {".gz", ".zip", ".json"}
-NAME_ADVICE = f"a score is MIDI or JSON, a song {SUPPORTED}, a show JSON"
+SCORE_SUFFIXES = MIDI_SUFFIXES | MUSICXML_SUFFIXES | {".gz", ".zip", ".json"}
+NAME_ADVICE = f"a score is MIDI, MusicXML or JSON, a song {SUPPORTED}, a show JSON"
 
 _TOKEN = re.compile(r'"((?:[^"\\]|\\.)*)"(\s*:)?|[{}\[\]]')
 
@@ -56,6 +57,7 @@ class FileRole:
 
 
 MIDI_FILE = FileRole("score", "a MIDI file")
+MUSICXML = FileRole("score", "MusicXML")
 JSON_SCORE = FileRole("score", "a score in JSON")
 SHOW = FileRole("show", "a show")
 OTHER_JSON = FileRole("score", "JSON")
@@ -79,6 +81,8 @@ def role_of(data: bytes, filename: str | None = None) -> FileRole:
     for audio in (*FORMATS, MP3):
         if audio.recognizes(head):
             return FileRole("song", f"a recording ({audio.name})")
+    if is_musicxml(head):
+        return MUSICXML
     kind = kind_of(head)
     if kind is not None:
         return FileRole("song", kind.name) if kind.is_recording else FileRole(None, kind.name, kind.advice)

@@ -28,7 +28,7 @@ def test_the_score_document_can_be_read():
 
 def test_every_test_that_is_named_is_there():
     there: set[str] = set()
-    for path in [*(TESTS / "music").glob("test_*.py"), *(TESTS / "instruments").rglob("test_*.py")]:
+    for path in [*(TESTS / "music").rglob("test_*.py"), *(TESTS / "instruments").rglob("test_*.py")]:
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.FunctionDef):
                 there |= {node.name, f"{path.name}::{node.name}"}

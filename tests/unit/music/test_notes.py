@@ -28,7 +28,7 @@ def test_notes_are_a_sorted_table():
     dtypes = {name: str(column.dtype) for name, column in vars(notes).items()}
     assert dtypes["part"] == "int32"
     assert dtypes["channel"] == dtypes["sounding_pitch"] == "int16"
-    assert set(dtypes.values()) == {"int32", "int16", "float64"}
+    assert set(dtypes.values()) == {"int32", "int16", "int8", "float64"}
     assert not any(column.flags.writeable for column in vars(notes).values())
 
 

@@ -46,7 +46,10 @@ def as_json(document: object, encoding: str = "utf-8") -> bytes:
         (b'{"hello": 1}', "score"),
         (b"%PDF-1.7", None),
         (b"\x89PNG", None),
-        (b"<score-partwise>", None),
+        (b"<score-partwise>", "score"),
+        ('\ufeff<?xml version="1.0"?><score-timewise>'.encode(), "score"),
+        ('<?xml version="1.0"?><score-partwise>'.encode("utf-16"), "score"),
+        (b'<?xml version="1.0"?><museScore version="4.0">', None),
         (b"Hello, world", None),
         (b"", None),
     ],
@@ -63,6 +66,7 @@ def test_content_says_what_a_file_is(data: bytes, role: str | None) -> None:
 def test_a_name_counts_where_content_says_nothing() -> None:
     assert role_of(b"Hello, world", "tune.MID").role == "score"
     assert role_of(b"\0\0\0\0", "take.mp3").role == "song"
+    assert role_of(b"<?xml", "tune.musicxml").role == "score"
     assert role_of(b"Hello, world", "notes.txt").role is None
 
 

@@ -366,6 +366,12 @@ export interface Score {
   bar_lines_s: number[]
   /** By onset; of one part alone with ?part=. */
   notes: WireNote[]
+  /** Lines that the file has to be sung, by time. */
+  lyrics: LyricLine[]
+  /** Names of sections, rehearsal marks, by time. */
+  markers: ScoreText[]
+  /** Other words that the file has, by time. */
+  texts: ScoreText[]
   warnings: Warned[]
 }
 
@@ -770,6 +776,15 @@ export interface Loop {
   end_s: number
 }
 
+/** A line of lyrics. */
+export interface LyricLine {
+  /** When its first syllable is sung. */
+  start_s: number
+  /** When the next line begins, or it is over. */
+  end_s: number
+  syllables: SungSyllable[]
+}
+
 /** A time signature and where it begins. */
 export interface Metre {
   onset_beats: number
@@ -922,6 +937,13 @@ export interface RigSummary {
   href: string
 }
 
+/** Words at a place of the score. */
+export interface ScoreText {
+  onset_s: number
+  onset_beats: number
+  text: string
+}
+
 /** Everything of a session, and the page that shows it. */
 export interface SessionLinks {
   self: string
@@ -1053,6 +1075,13 @@ export interface StrikeFingering {
   piece: string
   /** Where on the piece. */
   zone: string
+}
+
+/** A syllable, and when it is sung. */
+export interface SungSyllable {
+  onset_s: number
+  /** With the blank after it, or before it, that stands between words. */
+  text: string
 }
 
 /** A tempo and where it begins. */

@@ -20,6 +20,7 @@ from reina.instruments.player.phrasing import (
     plan_breath,
     plan_phrasing,
 )
+from reina.music.notes import UNSAID
 
 if TYPE_CHECKING:
     from reina.instruments.played import PlayedPart
@@ -105,7 +106,11 @@ def _tongue(played: PlayedPart) -> FloatArray:
     same = np.concatenate([[False], line.sounding_pitch[1:] == line.sounding_pitch[:-1]])
     following = np.concatenate([interval[1:], [np.inf]])
     room = np.minimum(interval, following) > 0.11
-    tongued = played.fingering.playable & room & (same | (rest > TONGUED_REST_S))
+    # Where the score has slurs they say it; else a gap before the note does.
+    begun = same | (rest > TONGUED_REST_S)
+    if line.tongued is not None:
+        begun = np.where(line.tongued == UNSAID, begun, line.tongued == 1)
+    tongued = played.fingering.playable & room & begun
     onset = line.onset_s[tongued]
     return in_order([movements(onset - 0.045, 0.035, 1.0), movements(onset - 0.005, 0.05, 0.0)])
 

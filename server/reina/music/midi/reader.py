@@ -22,6 +22,7 @@ from reina.music.midi.silences import find_silences
 from reina.music.midi.text import decode_text
 from reina.music.midi.track import INSTRUMENT_NAME, NOTE_OFF, NOTE_ON, TRACK_NAME, Track
 from reina.music.midi.tracks import read_tracks
+from reina.music.midi.words import karaoke_title, read_texts
 from reina.music.notes import Notes
 from reina.music.score import Score
 from reina.music.taps import TAP_S, lengthen_taps
@@ -93,7 +94,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         program=state.program,
     )
     return Score(
-        title=_title(tracks, header.format, encoding) or title,
+        title=karaoke_title(tracks, encoding) or _title(tracks, header.format, encoding) or title,
         parts=parts,
         notes=table,
         tempo_map=tempo_map,
@@ -104,6 +105,7 @@ def read_midi(data: bytes, *, title: str, sequence: int | None, limits: Limits) 
         sequence=sequence or 0,
         sequences=sequences,
         key_signatures=key_signatures,
+        texts=read_texts(tracks, encoding, division, tempo_map),
     )
 
 

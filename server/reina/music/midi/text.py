@@ -3,7 +3,7 @@
 import re
 
 from reina.music.midi.languages import DOUBLE_BYTE
-from reina.music.midi.unicode_text import decode_unicode, decode_whole, without_end
+from reina.music.midi.unicode_text import LONGEST_BYTES, decode_unicode, decode_whole, without_end
 
 _CONTROL = re.compile(r"[\x00-\x20\x7f-\x9f\u2028\u2029\ufeff]+")
 
@@ -17,8 +17,11 @@ def decode_text(data: bytes, encoding: str) -> str:
         data: The name.
         encoding: What `decide_encoding` found for the file.
     """
-    data = without_end(data)
+    return _CONTROL.sub(" ", decode_words(without_end(data), encoding)).strip()
+
+
+def decode_words(data: bytes, encoding: str) -> str:
+    """Decode a text as `decode_text` does, with its blanks and line ends."""
+    data = data[:LONGEST_BYTES].rstrip(b"\0")
     text = decode_unicode(data, longer_than_two=encoding in DOUBLE_BYTE or encoding == "euc_jp")
-    if text is None:
-        text, _ = decode_whole(data, encoding)
-    return _CONTROL.sub(" ", text).strip()
+    return decode_whole(data, encoding)[0] if text is None else text

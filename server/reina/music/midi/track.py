@@ -38,7 +38,13 @@ TEXTS = frozenset({0x01, 0x02, 0x05, 0x06, 0x07})
 """Texts, copyrights, lyrics, markers and cue points: they tell the character set of the names."""
 
 TEXT_BYTES = 4096
-"""How much of such texts is kept of a track."""
+"""How much of such texts is looked at of a track."""
+
+TEXT, LYRIC, MARKER, CUE_POINT = 0x01, 0x05, 0x06, 0x07
+WORDS = frozenset({TEXT, LYRIC, MARKER, CUE_POINT})
+"""Texts that are sung or shown at their time."""
+MAX_WORDS = 20_000
+"""How many of them are kept of a track."""
 
 TOO_MANY_EVENTS = "more events than are read"
 
@@ -72,6 +78,7 @@ class Track:
         standards: The standards that the track switches to, in order, each with its tick.
         texts: Texts of `TEXTS` that are not ASCII, `TEXT_BYTES` at most.
         text_bytes: How long they are together.
+        words: Texts of `WORDS`, `MAX_WORDS` at most.
         end_tick: When the track ends.
         end: Position after the last byte read.
         ended: Whether an end-of-track event was found.
@@ -85,6 +92,7 @@ class Track:
     standards: list[tuple[int, Standard]] = field(default_factory=list[tuple[int, Standard]])
     texts: list[bytes] = field(default_factory=list[bytes])
     text_bytes: int = 0
+    words: list[Meta] = field(default_factory=list[Meta])
     end_tick: int = 0
     end: int = 0
     ended: bool = False
@@ -231,7 +239,11 @@ def _read_system(
             if len(track.metas) == MAX_METAS:
                 raise ScoreLimitError(TOO_MANY_EVENTS, location=place(at))
             track.metas.append(Meta(tick, kind, data[begin : begin + length], at - 1 + place.offset))
-        elif kind in TEXTS and track.text_bytes < TEXT_BYTES:
+            return begin + length
+        if kind in WORDS and len(track.words) < MAX_WORDS:
+            text = data[begin : begin + min(length, LONGEST_BYTES)]
+            track.words.append(Meta(tick, kind, text, at - 1 + place.offset))
+        if kind in TEXTS and track.text_bytes < TEXT_BYTES:
             text = data[begin : begin + min(length, LONGEST_BYTES, TEXT_BYTES - track.text_bytes)]
             if not text.isascii():
                 track.texts.append(text)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from reina.music.controls import Control
     from reina.music.metre import MetreMap
     from reina.music.score import Part, Score
+    from reina.music.texts import TextKind
 
 TICKS_PER_BEAT = 960
 """A place in the score is written within half a tick: 0.26 ms at 120 beats a minute."""
@@ -26,6 +27,9 @@ MAX_TEMPO_US = 0xFFFFFF
 """A tempo has three bytes."""
 MAX_NUMERATOR = 255
 PICKUP_DENOMINATORS = (4, 8, 16, 32, 64)
+
+WORDS: dict[TextKind, str] = {"lyric": "lyrics", "marker": "marker", "text": "text"}
+"""What mido calls the meta events of each kind of words."""
 
 ENDS, STATES, BEGINS = range(3)
 """At one tick notes end first, then programs and controllers change, then notes begin."""
@@ -35,7 +39,7 @@ Timed = tuple[int, int, mido.Message | mido.MetaMessage]
 
 
 def write_midi(score: Score) -> bytes:
-    """Write a score: its notes, tempo, metre, names, programs and controllers.
+    """Write a score: its notes, tempo, metre, names, words, programs and controllers.
 
     Notes keep their channels; 16 and up are written on further ports. Texts are UTF-8.
 
@@ -48,7 +52,14 @@ def write_midi(score: Score) -> bytes:
     """
     file = mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_BEAT, charset="utf-8")
     file.tracks.append(
-        _track([(0, STATES, _text("track_name", score.title)), *_tempos(score), *_metres(score.metre_map)])
+        _track(
+            [
+                (0, STATES, _text("track_name", score.title)),
+                *_tempos(score),
+                *_metres(score.metre_map),
+                *_words(score),
+            ]
+        )
     )
     ports = score.notes.channel // CHANNELS_OF_PORT
     unwritten = _controls_by_port(score)
@@ -109,6 +120,12 @@ def _metres(metre_map: MetreMap) -> Iterator[Timed]:
         if numerator <= MAX_NUMERATOR and denominator & (denominator - 1) == 0:
             message = mido.MetaMessage("time_signature", numerator=numerator, denominator=denominator)
             yield _ticks(beats), STATES, message
+
+
+def _words(score: Score) -> Iterator[Timed]:
+    """Lyrics, marks and other words."""
+    for text in score.texts:
+        yield _ticks(text.onset_beats), STATES, mido.MetaMessage(WORDS[text.kind], text=text.text)
 
 
 def _head(part: Part, port: int) -> Iterator[Timed]:

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -145,6 +147,14 @@ def test_vibrato_is_for_long_notes_and_the_tongue_for_those_that_are_tongued() -
     assert plan.at("vibrato", [4.9])[0] == 1.0
     tongued = plan.at("tongue", [0.99, 1.49, 1.99, 2.99])
     assert tongued.tolist() == pytest.approx([1.0, 0.0, 1.0, 1.0])
+
+
+def test_slurs_of_the_score_say_what_is_tongued() -> None:
+    part = played([(1, 1.5, 60), (1.5, 2.0, 62), (2.1, 2.6, 64), (3.0, 6.0, 65)])
+    slurred = replace(part, line=replace(part.line, tongued=np.array([1, 1, 0, -1], dtype=np.int8)))
+    assert Plan(slurred).at("tongue", [0.99, 1.49, 2.09, 2.99]).tolist() == pytest.approx(
+        [1.0, 1.0, 0.0, 1.0]
+    )
 
 
 def test_effort_follows_the_pitch() -> None:
