@@ -7,6 +7,7 @@ from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplay
 from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.chart_note import ChartNote
 from reina.instruments.describe import describe_notes, describe_score
+from reina.instruments.ensemble import Ensemble
 from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts
@@ -36,6 +37,7 @@ __all__ = [
     "CastError",
     "Casting",
     "ChartNote",
+    "Ensemble",
     "Fingering",
     "Instrument",
     "KeysFingering",
