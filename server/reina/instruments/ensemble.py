@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from reina.instruments.player.instrument_body import BodyFrames, FigureBody
 
 if TYPE_CHECKING:
@@ -60,7 +58,6 @@ class Ensemble:
                 alike.setdefault((body.figure, motion.stance is None), []).append((place, body))
         for members in alike.values():
             rotations, roots = members[0][1].pose([motions[place] for place, _ in members])
-            each = zip(members, np.split(rotations, len(members)), np.split(roots, len(members)), strict=True)
-            for (place, body), own_rotations, own_roots in each:
+            for (place, body), own_rotations, own_roots in zip(members, rotations, roots, strict=True):
                 posed[place] = BodyFrames(own_rotations, own_roots, body.parameters(motions[place]))
         return [posed[place] for place in range(len(motions))]

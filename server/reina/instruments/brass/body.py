@@ -12,7 +12,7 @@ from reina.instruments.brass.slide_finger import SLIDE_FINGERS, YIELDING_M, Slid
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames
-from reina.instruments.player.rows import joined
+from reina.instruments.player.rows import joined, joined_rows
 from reina.rotations import conjugate, dot, from_axis_angle, multiply, rotate
 from reina.skeleton import RigError
 
@@ -117,7 +117,8 @@ class BrassBody:
 
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
-        return BodyFrames(*self.pose([motion]), self.parameters(motion))
+        (rotations,), (roots,) = self.pose([motion])
+        return BodyFrames(rotations, roots, self.parameters(motion))
 
     def parameters(self, motion: BodyMotion) -> FloatArray:
         """What it streams of the instrument, ``(F, P)``."""
@@ -131,14 +132,16 @@ class BrassBody:
             motions: One a body; all with a stance, or none.
 
         Returns:
-            Local rotations ``(K F, J, 4)`` and root positions ``(K F, 2, 3)``, as `BodyFrames` has them.
+            Local rotations ``(K, F, J, 4)`` and root positions ``(K, F, 2, 3)``.
         """
         count, frames = len(motions), len(motions[0].times_s)
         curves = joined([motion.curves for motion in motions], axis=1)
         times = joined([motion.times_s for motion in motions])
         vibrato = curves[self._vibrato] * np.sin((2.0 * np.pi * VIBRATO_HZ) * times)
-        signals = {name: joined([motion.signals[name] for motion in motions]) for name in motions[0].signals}
-        signals["vibrato"] = vibrato * joined([motion.amounts["vibrato"] for motion in motions])
+        signals = {
+            **joined_rows([motion.signals for motion in motions]),
+            "vibrato": vibrato * joined([motion.amounts["vibrato"] for motion in motions]),
+        }
         stances = [motion.stance for motion in motions if motion.stance is not None]
         standing = self._body.stand(signals, joined(stances) if stances else None)
         shifts = standing.shifts[:, 0]
@@ -181,7 +184,7 @@ class BrassBody:
         rotations[:, -1] = instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0)
         roots = np.empty((count * frames, 2, 3))
         roots[:, 0], roots[:, 1] = standing.hips, held[:, 0]
-        return rotations, roots
+        return rotations.reshape(count, frames, -1, 4), roots.reshape(count, frames, 2, 3)
 
 
 def _lower(

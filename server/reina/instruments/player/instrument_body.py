@@ -83,8 +83,8 @@ class FigureBody(InstrumentBody, Protocol):
             motions: One a player; all with a stance, or none.
 
         Returns:
-            Rotations ``(K F, J, 4)`` and root positions ``(K F, S, 3)``, as `BodyFrames` has them, one
-            player's after another's.
+            Rotations ``(K, F, J, 4)`` and root positions ``(K, F, S, 3)``, each player's as `BodyFrames` has
+            them.
         """
         ...
 
