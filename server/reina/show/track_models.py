@@ -1,8 +1,8 @@
 """Models of the tracks of one parameter: its values, and keyframes told apart by their interpolations.
 
-A parameter's tracks are declared once, as models; the JSON Schema of shows follows from them, and so does what
-is told of a fault. What reads a track has the models' own fields, but makes keyframes of them at once, without
-a model of each in between, which takes half of the time.
+A parameter's tracks are declared once, as models; the JSON Schema of shows follows from them, and so does
+what is told of a fault. What reads a track has the models' own fields, but makes keyframes of them at once,
+without a model of each in between, which takes half of the time.
 """
 
 import re
