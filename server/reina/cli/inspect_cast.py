@@ -10,7 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from reina.api.cast import cast_of
 from reina.cli.score_tables import fingering_lines, heading, named_parts, section, table, warning_lines
 from reina.errors import InputError
-from reina.instruments import Cast, describe_notes
+from reina.instruments import Cast, describe_notes, describe_warnings
 from reina.protocol import resources
 from reina.sessions.description import cast_summary
 from reina.sessions.production import Production
@@ -59,9 +59,7 @@ def cast_document(production: Production) -> dict[str, Any]:
             for part in played.parts
             for note in describe_notes(score, performer.instrument, played, part)
         ]
-        casting["warnings"] = [
-            {"kind": one.kind, "place": one.place, "message": one.message} for one in played.warnings
-        ]
+        casting["warnings"] = describe_warnings(played.warnings)
     return {"title": score.title, "duration_s": score.duration_s, **document}
 
 

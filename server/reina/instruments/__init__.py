@@ -6,7 +6,7 @@ Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
 from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
 from reina.instruments.chart_note import ChartNote
-from reina.instruments.describe import describe_notes, describe_score
+from reina.instruments.describe import describe_notes, describe_score, describe_warnings
 from reina.instruments.ensemble import Ensemble
 from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
@@ -59,6 +59,7 @@ __all__ = [
     "check_parts",
     "describe_notes",
     "describe_score",
+    "describe_warnings",
     "find_cast",
     "pitch_name",
     "playable_line",

@@ -15,13 +15,14 @@ from reina.protocol.messages import Hello, ScoreChanged, ShowChanged, SongReady,
 from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
 from reina.sessions.audience import Audience
 from reina.sessions.description import (
-    NoteTable,
     cast_summary,
     lead_fields,
+    note_table,
     part_choices,
     part_summaries,
     transport_state,
     warned,
+    wire_note,
 )
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.note_messages import NoteMessages
@@ -322,5 +323,7 @@ def note_messages(production: Production) -> NoteMessages:
     end_s = np.concatenate([line.end_s for line in lines])
     pitch = np.concatenate([line.sounding_pitch for line in lines])
     order = np.argsort(onset_s, kind="stable")
-    table, index = NoteTable(production), notes[order].tolist()
-    return NoteMessages(onset_s[order], end_s[order], pitch[order], lambda number: table.note(index[number]))
+    table, index = note_table(production), notes[order].tolist()
+    return NoteMessages(
+        onset_s[order], end_s[order], pitch[order], lambda number: wire_note(table.note(index[number]))
+    )
