@@ -17,10 +17,11 @@ from reina.sessions.description import warned
 from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, Role, role_of
 from reina.sessions.file_role import SHOW as SHOW_DOCUMENT
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
-from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
+from reina.sessions.record import SessionRecord, SongRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
+from reina.sessions.tokens import hash_token, new_token
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
 from reina.sound.recording.decoder import SongDecoder

@@ -9,11 +9,9 @@ from reina.sessions.record import (
     SESSION_ID,
     SessionRecord,
     created_now,
-    hash_token,
     new_id,
-    new_token,
-    token_matches,
 )
+from reina.sessions.tokens import hash_token, new_token, token_matches
 
 if TYPE_CHECKING:
     from pathlib import Path

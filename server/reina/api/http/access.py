@@ -8,9 +8,9 @@ from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
 from reina.api.http.problems import ProblemError
 from reina.api.settings import Settings
-from reina.sessions.record import token_matches
 from reina.sessions.session import Session
 from reina.sessions.store import SessionStore
+from reina.sessions.tokens import token_matches
 
 _bearer = HTTPBearer(
     auto_error=False, scheme_name="control_token", description="Of the session, told at its creation."
