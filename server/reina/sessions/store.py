@@ -21,11 +21,11 @@ from reina.sessions.record import SessionRecord, SongRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
-from reina.sessions.tokens import hash_token, new_token
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
 from reina.sound.recording.decoder import SongDecoder
 from reina.system.atomic_write import write_atomically
+from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
