@@ -8,6 +8,7 @@ repetitions is the machine's, the median is what it gives beside its other work.
 from __future__ import annotations
 
 import argparse
+import asyncio
 import io
 import os
 import platform
@@ -31,8 +32,11 @@ from reina.stage import stage_registry
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from reina.rotations.arrays import FloatArray
+
 RIGS = Path(__file__).parents[2] / "rigs"
 BLOCK_LENGTHS = (1, 6, 30, 60, 600)
+HELD_S = 4.0
 CASTS = (1, 2, 4, 8)
 """How many play; a session has four at most, eight are for this measurement."""
 
@@ -111,6 +115,29 @@ def microseconds(run: Callable[[int], object], frames: int, repetitions: int) ->
     return min(times), median(times)
 
 
+async def longest_holds(evaluate: Callable[[int], object] | None, seconds: float) -> FloatArray:
+    """How long an event loop is held at a time, ms, sorted, while a thread evaluates blocks beside it."""
+    loop = asyncio.get_running_loop()
+    holds: list[float] = []
+    stop = False
+
+    async def keep_evaluating() -> None:
+        block = 0
+        while not stop and evaluate is not None:
+            await loop.run_in_executor(None, evaluate, block % 400)
+            block += 1
+
+    beside = asyncio.create_task(keep_evaluating())
+    end = time.perf_counter() + seconds
+    while (before := time.perf_counter()) < end:
+        await asyncio.sleep(0)
+        holds.append((time.perf_counter() - before) * 1e3)
+        await asyncio.sleep(0.001)
+    stop = True
+    await beside
+    return np.sort(holds)
+
+
 def machine() -> str:
     """The processor, its cores and the versions that count."""
     info = Path("/proc/cpuinfo")
@@ -161,7 +188,7 @@ def main() -> None:
         print(f"{best:14.1f} {middle:7.1f}   {name}")
 
     print("players    best  median   of one   block, ms   (a block of 60)")
-    alone = 0.0
+    alone, casts = 0.0, dict[int, Performance]()
     for players in CASTS:
         several = performance(options.notes, players=players)
         manifest = build_manifest(several.layout)
@@ -172,9 +199,17 @@ def main() -> None:
             first = 60 * (repetition % 400)
             return encode_block(manifest, several.sample(np.arange(first, first + 60) / 60.0, first))
 
+        casts[players] = several
         best, middle = microseconds(run_cast, 60, options.repetitions)
         alone = alone or best
         print(f"{players:7d} {best:7.1f} {middle:7.1f} {best / alone:8.2f} {middle * 60 / 1000:15.2f}")
+
+    print("an event loop beside a thread that evaluates without a pause: how long it is held at a time, ms")
+    print("players   median     99 %   longest")
+    for players in (0, *CASTS):
+        evaluate = casts[players].evaluate if players else None
+        holds = asyncio.run(longest_holds(evaluate, HELD_S))
+        print(f"{players:7d} {median(holds):8.3f} {np.quantile(holds, 0.99):8.2f} {holds[-1]:9.2f}")
 
 
 if __name__ == "__main__":

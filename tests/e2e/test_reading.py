@@ -123,6 +123,8 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
     touches = page.get_by_role("region", name="Touches")
     touches.get_by_text("Look around the player").wait_for()
     assert touches.locator("kbd").count() == 0, "a phone has no keys"
+
+
 def test_the_words_of_musicxml_stand_at_the_timeline(visit: Visit, client: httpx.Client) -> None:
     opened = visit(size=NARROW).open_files(("song.mxl", "", xml.compressed(SONG)))
     page = opened.page

@@ -101,7 +101,9 @@ def test_curves_of_several_units_and_a_colours_handles(show: ShowPage) -> None:
 
     # A colour's spline has a handle at either end for each of its components.
     page.mouse.click(*show.key(COLOR, "k1", 1))
-    show.opened.until("window.reina.show.active === 'blocks/color' && window.reina.show.handles().length === 6")
+    show.opened.until(
+        "window.reina.show.active === 'blocks/color' && window.reina.show.handles().length === 6"
+    )
     handles = page.evaluate("window.reina.show.handles()")
     assert show.keyframe(COLOR, "k1").get("out_tangent") is None
     x, y = handles[0]["x"], handles[0]["y"]

@@ -13,7 +13,6 @@ from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
 from reina.api.upload import Upload, receive_upload
-from reina.instruments import HANDEDNESS
 from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
@@ -25,98 +24,29 @@ router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
 LISTED = 100
 MAX_LISTED = 1000
 
-_FORM: dict[str, Any] = {
-    "requestBody": {
-        "required": True,
-        "content": {
-            "multipart/form-data": {
-                "schema": {
-                    "type": "object",
-                    "required": ["score"],
-                    "properties": {
-                        "score": {
-                            "type": "string",
-                            "format": "binary",
-                            "description": "MIDI or JSON, gzip'd or zipped if need be, "
-                            f"at most {FILE_LIMITS['score'] // MEGABYTE} MB",
-                        },
-                        "song": {
-                            "type": "string",
-                            "format": "binary",
-                            "description": "WAV, MP3, Ogg, FLAC, M4A or WebM, "
-                            f"at most {FILE_LIMITS['song'] // MEGABYTE} MB; "
-                            "without it the score is rendered",
-                        },
-                        "show": {
-                            "type": "string",
-                            "format": "binary",
-                            "description": f"JSON, at most {FILE_LIMITS['show'] // MEGABYTE} MB",
-                        },
-                        "title": {"type": "string", "maxLength": 200},
-                        "public": {"type": "boolean", "default": False},
-                        "part": {"type": "integer", "minimum": 0},
-                        "transposition": {
-                            "type": "integer",
-                            "minimum": -48,
-                            "maximum": 48,
-                            "default": 0,
-                            "description": "semitones to move the part by",
-                        },
-                        "written": {
-                            "type": "boolean",
-                            "default": False,
-                            "description": "the part is notated for the B♭ trumpet: "
-                            "it sounds a tone lower than its pitches say",
-                        },
-                        "octave_fit": {
-                            "type": "boolean",
-                            "default": False,
-                            "description": "move the part by the octaves that bring most of it into range",
-                        },
-                        "joined_parts": {
-                            "type": "string",
-                            "pattern": r"^\s*(\d+\s*(,\s*\d+\s*)*)?$",
-                            "default": "",
-                            "description": "indices of further parts that the player plays together with it, "
-                            "as `1,2`",
-                        },
-                        "usual_fingerings": {
-                            "type": "boolean",
-                            "default": False,
-                            "description": "take no fingering but the usual one of each note",
-                        },
-                        "sequence": {
-                            "type": "integer",
-                            "minimum": 0,
-                            "description": "which sequence of a MIDI file of format 2; "
-                            "the first when left out",
-                        },
-                        "player": {
-                            "type": "string",
-                            "default": "trumpeter",
-                            "description": "who plays: a rig that holds the instrument",
-                        },
-                        "handedness": {
-                            "type": "string",
-                            "enum": list(HANDEDNESS),
-                            "default": "right",
-                            "description": "which hand leads, where the instrument can be played so",
-                        },
-                        "cast": {
-                            "type": "string",
-                            "contentMediaType": "application/json",
-                            "description": "everybody who plays, as `PUT /sessions/{id}/cast` takes it, "
-                            "in place of part, transposition, written, octave_fit, joined_parts, "
-                            "usual_fingerings, player and handedness; `auto`, the default where none of "
-                            "these is there, gives a player to each part that the score has for the "
-                            "instruments that there are",
-                        },
-                    },
-                }
-            }
-        },
+
+def _form() -> dict[str, Any]:
+    """The form of POST /sessions: its files, and the fields as they are declared; nothing in it is null."""
+    files = {
+        "score": "MIDI or JSON, gzip'd or zipped if need be, at most {} MB",
+        "song": "WAV, MP3, Ogg, FLAC, M4A or WebM, at most {} MB; without it the score is rendered",
+        "show": "JSON, at most {} MB",
     }
-}
+    properties: dict[str, Any] = {
+        name: {
+            "type": "string",
+            "format": "binary",
+            "description": text.format(FILE_LIMITS[name] // MEGABYTE),
+        }
+        for name, text in files.items()
+    }
+    for name, declared in resources.SessionFields.model_json_schema()["properties"].items():
+        kinds = [kind for kind in declared.pop("anyOf", ()) if kind != {"type": "null"}]
+        said = declared | (kinds[0] if kinds else {})
+        properties[name] = {key: said[key] for key in said if key != "title" and said[key] is not None}
+    schema = {"type": "object", "required": ["score"], "properties": properties}
+    return {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": schema}}}}
+
 
 _COMMANDS: dict[str, Any] = {
     "play": {"value": {"action": "play"}},
@@ -128,7 +58,7 @@ _COMMANDS: dict[str, Any] = {
 }
 
 
-@router.post("/sessions", status_code=201, openapi_extra=_FORM)
+@router.post("/sessions", status_code=201, openapi_extra=_form())
 async def create_session(request: Request, response: Response, store: Store) -> resources.CreatedSession:
     """Make a session of a score, and of a song and a show if there are any.
 

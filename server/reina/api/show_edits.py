@@ -1,7 +1,7 @@
 """Several edits of a show at once, and the way back."""
 
 import asyncio
-from typing import Any
+from typing import Any, Literal
 
 from fastapi import APIRouter, Request, Response
 
@@ -97,19 +97,7 @@ async def undo(
     session: Controlled, store: Store, if_match: IfMatch = None, prefer: Prefer = None
 ) -> Response:
     """Take the last edit back, whoever made it."""
-
-    def step(history: ShowHistory) -> ShowHistory:
-        if not history.past:
-            raise ProblemError(
-                409,
-                "nothing-to-undo",
-                "There is nothing to take back",
-                "the show is as it was when the server loaded the session, or the history goes no further",
-            )
-        return history.undone()
-
-    change = ShowChange(session, store, if_match)
-    return await _told(change, await change.step(step), prefer)
+    return await _step(ShowChange(session, store, if_match), "undone", prefer)
 
 
 @router.post("/sessions/{session_id}/show/redo", response_model=ShowEdited)
@@ -117,18 +105,31 @@ async def redo(
     session: Controlled, store: Store, if_match: IfMatch = None, prefer: Prefer = None
 ) -> Response:
     """Do again what was taken back last; an edit in between has ended that."""
+    return await _step(ShowChange(session, store, if_match), "redone", prefer)
 
+
+_NO_STEP = {
+    "undone": ProblemError(
+        409,
+        "nothing-to-undo",
+        "There is nothing to take back",
+        "the show is as it was when the server loaded the session, or the history goes no further",
+    ),
+    "redone": ProblemError(
+        409,
+        "nothing-to-redo",
+        "There is nothing to do again",
+        "nothing was taken back since the last edit",
+    ),
+}
+
+
+async def _step(change: ShowChange, way: Literal["undone", "redone"], prefer: str | None) -> Response:
     def step(history: ShowHistory) -> ShowHistory:
-        if not history.future:
-            raise ProblemError(
-                409,
-                "nothing-to-redo",
-                "There is nothing to do again",
-                "nothing was taken back since the last edit",
-            )
-        return history.redone()
+        if not (history.past if way == "undone" else history.future):
+            raise _NO_STEP[way]
+        return history.undone() if way == "undone" else history.redone()
 
-    change = ShowChange(session, store, if_match)
     return await _told(change, await change.step(step), prefer)
 
 

@@ -18,7 +18,7 @@ from reina.cli.score_tables import (
     warning_lines,
 )
 from reina.errors import InputError
-from reina.instruments import Cast, describe_finding, describe_notes, describe_warning
+from reina.instruments import Cast, describe_finding, describe_notes, describe_warnings
 from reina.protocol import resources
 from reina.sessions.description import cast_summary
 from reina.sessions.production import Production
@@ -67,7 +67,7 @@ def cast_document(production: Production) -> dict[str, Any]:
             for part in played.parts
             for note in describe_notes(score, performer.instrument, played, part)
         ]
-        casting["warnings"] = [describe_warning(warning) for warning in played.warnings]
+        casting["warnings"] = describe_warnings(played.warnings)
     document["findings"] = [describe_finding(finding) for finding in production.findings]
     return {"title": score.title, "duration_s": score.duration_s, **document}
 

@@ -44,14 +44,23 @@ def srgb_from_linear(linear: FloatArray) -> FloatArray:
     return np.where(linear <= 0.0031308, linear * 12.92, 1.055 * np.maximum(linear, 0.0) ** (1 / 2.4) - 0.055)
 
 
-def linear_from_hex(text: str) -> FloatArray:
-    """The three linear components of ``#RRGGBB``.
+def check_hex(text: str) -> None:
+    """Refuse a text that is no ``#RRGGBB``.
 
     Raises:
         ValueError: The text is of another form.
     """
     if _HEX.fullmatch(text) is None:
         raise ValueError(f"{shown(text)} is no colour; write #RRGGBB, as #D9A441")
+
+
+def linear_from_hex(text: str) -> FloatArray:
+    """The three linear components of ``#RRGGBB``.
+
+    Raises:
+        ValueError: The text is of another form.
+    """
+    check_hex(text)
     encoded = np.array([int(text[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
     return linear_from_srgb(encoded)
 

@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Strict, Tag, WithJsonSchema
 
 from reina.curves.arrays import FloatArray
-from reina.curves.color import linear_from_hex
+from reina.curves.color import check_hex, linear_from_hex
 from reina.curves.shown import shown
 
 TypeName = Literal["number", "boolean", "choice", "color", "vector", "orientation", "transform"]
@@ -92,7 +92,7 @@ Quaternion = Annotated[tuple[Number, ...], Strict(strict=False), Field(min_lengt
 
 
 def _color_text(text: str) -> str:
-    linear_from_hex(text)
+    check_hex(text)
     return text
 
 

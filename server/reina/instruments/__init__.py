@@ -11,9 +11,10 @@ from reina.instruments.describe import (
     describe_finding,
     describe_notes,
     describe_score,
-    describe_warning,
+    describe_warnings,
     score_findings,
 )
+from reina.instruments.ensemble import Ensemble
 from reina.instruments.find_cast import find_cast
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts
@@ -43,6 +44,7 @@ __all__ = [
     "CastError",
     "Casting",
     "ChartNote",
+    "Ensemble",
     "Fingering",
     "Instrument",
     "KeysFingering",
@@ -66,7 +68,7 @@ __all__ = [
     "describe_finding",
     "describe_notes",
     "describe_score",
-    "describe_warning",
+    "describe_warnings",
     "find_cast",
     "pitch_name",
     "playable_line",

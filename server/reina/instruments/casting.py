@@ -1,9 +1,14 @@
 """Who plays what: a cast of castings."""
 
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from reina.errors import InputError
+
+if TYPE_CHECKING:
+    from reina.instruments.instrument import Instrument
+    from reina.instruments.played import PlayedPart
+    from reina.music.score import Score
 
 MAX_PLAYERS = 4
 """How many play at once at most."""
@@ -52,6 +57,27 @@ class Casting:
         """What of it is heard: who plays, where, and with which valves, is not."""
         heard = (self.part, self.transposition, self.written, self.octave_fit, self.joined_parts)
         return (*heard, self.instrument)
+
+    def play(self, instrument: "Instrument", score: "Score", part: int) -> "PlayedPart":
+        """The part as it is played.
+
+        Args:
+            instrument: The casting's.
+            score: The score.
+            part: The casting's, or the one that was found for it.
+
+        Raises:
+            NotInScoreError: The score has no such part, or one of `joined_parts` cannot be joined.
+        """
+        return instrument.play(
+            score,
+            part,
+            self.transposition,
+            written=self.written,
+            octave_fit=self.octave_fit,
+            joined_parts=self.joined_parts,
+            usual_fingerings=self.usual_fingerings,
+        )
 
     def changed(self, **changes: Any) -> "Casting":
         """The same with other fields; another part is played alone unless `joined_parts` comes with it."""

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from reina.curves import Parameter
     from reina.instruments.instrument import Instrument
     from reina.instruments.player.engagement import Engagement
+    from reina.instruments.player.instrument_body import BodyFrames
     from reina.kinematics import Curve
     from reina.rotations.arrays import FloatArray
 
@@ -40,6 +41,16 @@ GESTURES: tuple[str, ...] = (
     "turn",
 )
 """Curves that move every player's trunk and face; those that an instrument does not plan are 0."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """What moves one performer in F frames."""
+
+    body: BodyMotion
+    """What moves the body."""
+    face: FloatArray
+    """Signals by the rows of `face.SIGNALS`, ``(len(SIGNALS), F)``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +99,8 @@ class Performer:
         self._glance_rows = self._curves.index(CURVES if engagement.glances else ())
         self._glance_amount = GlanceAmount(registry, self.prefix)
         self._gesture_rows = dict(zip(GESTURES, self._curves.index(GESTURES).tolist(), strict=True))
-        self._body = instrument.body(engagement, self._curves)
+        self.body = instrument.body(engagement, self._curves)
+        """What turns the curves into poses."""
 
         in_frame = {"player": player_rig, **rigs}
         self.skeletons = tuple(
@@ -104,8 +116,8 @@ class Performer:
         )
         """What it gives to every frame beside the show."""
 
-    def evaluate(self, times_s: FloatArray, shown: FloatArray, stance: FloatArray) -> PerformerFrames:
-        """Frames at song times ``(F,)``.
+    def move(self, times_s: FloatArray, shown: FloatArray, stance: FloatArray) -> Motion:
+        """What moves body and face at song times ``(F,)``.
 
         Args:
             times_s: Song times, seconds.
@@ -120,23 +132,25 @@ class Performer:
         if glances.any():
             keyed = add_glances(keyed, glances, self._glance_amount.read(shown))
         lowered = (1.0 - gestures["raised"]) * np.minimum(amounts["lower"], 1.0)
-        posed = self._body.solve(
-            BodyMotion(
-                times_s=times_s,
-                shown=shown,
-                curves=curves,
-                amounts=amounts,
-                signals=self._body_signals(times_s, gestures, amounts, keyed),
-                lowered=lowered,
-                stance=self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None]),
-            )
+        body = BodyMotion(
+            times_s=times_s,
+            shown=shown,
+            curves=curves,
+            amounts=amounts,
+            signals=self._body_signals(times_s, gestures, amounts, keyed),
+            lowered=lowered,
+            stance=self._stances.evaluate(times_s, stance * amounts["stance/amount"][:, None]),
         )
+        return Motion(body, self._face_signals(times_s, gestures, amounts, lowered))
+
+    def finish(self, posed: BodyFrames, motion: Motion) -> PerformerFrames:
+        """The frames of a posed body: brought to its seat, with the face."""
         rotations, positions = posed.rotations, posed.root_positions
         if not self.seat.is_middle:
             positions = self.seat.place(positions)
             turned = self.seat.turn(rotations[:, self._roots].astype(np.float64))
             rotations[:, self._roots] = same_hemisphere(turned, self._roots_rest)
-        weights = self._face.evaluate(self._face_signals(times_s, gestures, amounts, lowered))
+        weights = self._face.evaluate(motion.face)
         return PerformerFrames(rotations, positions, np.concatenate([posed.parameters, weights], axis=1))
 
     def _body_signals(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,17 +20,31 @@ if TYPE_CHECKING:
 _UNBOUNDED = (-np.pi, np.pi)
 
 
-class LimbPose(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class LimbPose:
     """What `TwoBoneLimbs.solve` finds, for every frame and limb."""
 
     upper: FloatArray
     """The upper bone's rotation in the world, ``(..., K, 4)``."""
     lower_local: FloatArray
     """The lower bone's local rotation, rest included, ``(..., K, 4)``."""
-    ends: FloatArray
-    """Where the ends come to be, ``(..., K, 3)``: the targets, where they are reached."""
-    status: StatusArray
-    """A `SolveStatus` each, ``(..., K)``."""
+    _roots: FloatArray
+    _direction: FloatArray
+    _length: FloatArray
+    _wanted: FloatArray
+
+    # Only worked out where they are asked for: a performance has no use for them.
+
+    @property
+    def ends(self) -> FloatArray:
+        """Where the ends come to be, ``(..., K, 3)``: the targets, where they are reached."""
+        return self._roots + self._direction * self._length[..., None]
+
+    @property
+    def status(self) -> StatusArray:
+        """A `SolveStatus` each, ``(..., K)``."""
+        missed = np.abs(self._length - self._wanted) > 1e-9
+        return missed.astype(np.uint8) * np.uint8(SolveStatus.OUT_OF_REACH)
 
 
 class TwoBoneLimbs:
@@ -90,6 +105,7 @@ class TwoBoneLimbs:
         self.nearest: FloatArray = self._distance(bent)
         """The least distance, ``(K,)``, metres."""
         self._soft: FloatArray = self.reach * softness
+        self._hard = softness == 0.0
 
     def solve(self, roots: ArrayLike, targets: ArrayLike, hinge_directions: ArrayLike) -> LimbPose:
         """Bring the ends to targets.
@@ -101,7 +117,8 @@ class TwoBoneLimbs:
                 lies across root-to-target counts, and it must not vanish. `hinge_directions_from_poles`
                 makes them of poles.
         """
-        offset = np.asarray(targets, dtype=np.float64) - np.asarray(roots, dtype=np.float64)
+        begin = np.asarray(roots, dtype=np.float64)
+        offset = np.asarray(targets, dtype=np.float64) - begin
         wanted = np.sqrt(np.einsum("...i,...i->...", offset, offset))
         distance = np.minimum(np.maximum(self._soften(wanted), self.nearest), self.reach)
         cosine = np.minimum(np.maximum((distance * distance - self._a) / self._m, -1.0), 1.0)
@@ -118,16 +135,14 @@ class TwoBoneLimbs:
         hint[0], hint[1] = hinge_directions, self.hinge
         world, local = _frame(ahead, hint)
         upper = from_matrix(np.matmul(world, local.swapaxes(-1, -2)))
-        ends = np.asarray(roots, dtype=np.float64) + direction * length[..., None]
-        status = (np.abs(length - wanted) > 1e-9).astype(np.uint8) * np.uint8(SolveStatus.OUT_OF_REACH)
-        return LimbPose(upper, lower_local, ends, status)
+        return LimbPose(upper, lower_local, begin, direction, length, wanted)
 
     def _distance(self, angle: FloatArray) -> FloatArray:
         return np.sqrt(self._a + self._m * np.cos(angle - self._middle))
 
     def _soften(self, distance: FloatArray) -> FloatArray:
         """Distances mapped, C1, so that full reach is never met; unchanged before the soft zone."""
-        if not self._soft.any():
+        if self._hard:
             return distance
         start = self.reach - self._soft
         beyond = np.maximum(distance - start, 0.0) / self._soft

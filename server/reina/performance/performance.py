@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.instruments import Ensemble
 from reina.instruments.player import StanceChoice
 from reina.performance.frame import BLOCK_FRAMES, FrameBlock, FrameLayout
 
@@ -38,6 +39,7 @@ class Performance:
     ) -> None:
         self.performers = tuple(performers)
         """Who plays."""
+        self._ensemble = Ensemble(performers)
         self._end_s = duration_s + TAIL_S
         self._direct(show_plan)
         self.layout = FrameLayout(
@@ -79,10 +81,8 @@ class Performance:
         """
         shown, cuts = self._show_plan.evaluate(song_time_s)
         times = np.minimum(song_time_s, self._end_s)
-        performed = [
-            performer.evaluate(times, shown, stance.weights(times))
-            for performer, stance in zip(self.performers, self._stances, strict=True)
-        ]
+        stances = [stance.weights(times) for stance in self._stances]
+        performed = self._ensemble.evaluate(times, shown, stances)
         return FrameBlock(
             first_frame,
             self.layout.fps,

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, Json
+from pydantic import BeforeValidator, Field, Json, WithJsonSchema
 
 from reina.curves.value_types import TypeName
 from reina.instruments import MAX_PLAYERS
@@ -244,18 +244,32 @@ class SessionFields(WireModel):
     public: bool = False
     part: PartIndex | None = None
     transposition: Annotated[int, Field(ge=-48, le=48)] = 0
+    """Semitones to move the part by."""
     written: bool = False
+    """The part is notated for the B♭ trumpet: it sounds a tone lower than its pitches say."""
     octave_fit: bool = False
-    joined_parts: Annotated[list[PartIndex], BeforeValidator(_split_at_commas)] = Field(
-        default_factory=list[int]
-    )
-    """As `1,2`."""
+    """Move the part by the octaves that bring most of it into range."""
+    joined_parts: Annotated[
+        list[PartIndex],
+        BeforeValidator(_split_at_commas),
+        WithJsonSchema({"type": "string", "pattern": r"^\s*(\d+\s*(,\s*\d+\s*)*)?$", "default": ""}),
+    ] = Field(default_factory=list[int])
+    """Indices of further parts that the player plays together with it, as `1,2`."""
     usual_fingerings: bool = False
+    """Take no fingering but the usual one of each note."""
     sequence: Annotated[int, Field(ge=0)] | None = None
+    """Which sequence of a MIDI file of format 2; the first when left out."""
     player: PlayerName = "trumpeter"
+    """Who plays: a rig that holds the instrument."""
     handedness: Handedness = "right"
-    cast: Literal["auto"] | Json[CastFields] | None = None
-    """Everybody who plays, as JSON; or `auto`, the default where there is no field for one player."""
+    """Which hand leads, where the instrument can be played so."""
+    cast: Annotated[
+        Literal["auto"] | Json[CastFields] | None,
+        WithJsonSchema({"type": "string", "contentMediaType": "application/json"}),
+    ] = None
+    """Everybody who plays, as `PUT /sessions/{id}/cast` takes it, in place of part, transposition, written,
+    octave_fit, joined_parts, usual_fingerings, player and handedness; `auto`, the default where none of these
+    is there, gives a player to each part that the score has for the instruments that there are."""
 
 
 class CastingSummary(WireModel):

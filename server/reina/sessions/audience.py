@@ -159,10 +159,13 @@ class Audience:
         self._post(self._notes.begin(state))
 
     def _send_due(self, now: float) -> None:
-        messages = self._broadcast.until(now, {viewer.frames_per_message for viewer in self._viewers})
+        messages = self._broadcast.until(now, self._sizes())
         for viewer in self._viewers:
             for message in messages[viewer.frames_per_message]:
                 viewer.post_frames(message)
+
+    def _sizes(self) -> set[int]:
+        return {viewer.frames_per_message for viewer in self._viewers}
 
     def _post(self, texts: Iterable[str]) -> None:
         for text in texts:
@@ -182,14 +185,22 @@ class Audience:
     async def _run(self) -> None:
         while True:
             self._woken.clear()
-            if not self.tick(self._now()):
+            now = self._now()
+            missing = self.frames.missing(self._broadcast.frames_until(now, self._sizes()))
+            if missing:
+                # What was not evaluated ahead in time is not evaluated here either: the event loop is
+                # everybody's.
+                await self.frames.evaluated(missing)
+                if self._woken.is_set():
+                    continue
+            if not self.tick(now):
                 await self._woken.wait()
                 continue
             await asyncio.sleep(0)  # the viewers' outboxes first
             self.frames.prefetch(self.song_time_s(LEAD_S + AHEAD_S))
             # The schedule's own times are the deadlines: a turn that was late delays none after it.
             next_time = self._broadcast.next_time()
-            now = self._now()
+            wait_s = max(0.0, next_time - self._now()) if next_time else LAST_FRAME_S
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(max(0.0, next_time - now) if next_time else LAST_FRAME_S):
+                async with asyncio.timeout(wait_s):
                     await self._woken.wait()

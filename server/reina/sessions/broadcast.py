@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import TYPE_CHECKING
 
@@ -55,6 +56,17 @@ class Broadcast:
                 self._schedules[size] = schedule
             messages[size] = self._messages(schedule, size, now + LEAD_S)
         return messages
+
+    def frames_until(self, now: float, sizes: set[int]) -> set[int]:
+        """The frames that `until` would read; nothing is given out."""
+        frames: set[int] = set()
+        for size in sizes:
+            schedule = self._schedules.get(size) or FrameSchedule(self._state, fps=self._fps)
+            ahead = copy.copy(schedule)
+            while ahead.next and ahead.next.due_time_s <= now + LEAD_S:
+                for frame in ahead.take(size):
+                    frames.update(range(frame.index - frame.skipped, frame.index + 1))
+        return frames
 
     def catch_up(self, state: ClockState, size: int) -> list[bytes]:
         """What a viewer who joins late needs before the next of `until`'s messages: from the present on.

@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reina.instruments import NoteNames, ValvesFingering
+from reina.instruments.describe import (
+    DescribedNote,
+    NoteTable,
+    describe_metres,
+    describe_parts,
+    describe_tempi,
+    describe_warnings,
+)
 from reina.music.lyrics import lyric_lines
 from reina.protocol import resources
 from reina.protocol.messages import Transport
@@ -22,10 +29,6 @@ if TYPE_CHECKING:
     from reina.music import ClockState, Finding, Score, ScoreWarning
     from reina.music.texts import TextKind
     from reina.sessions.production import Production
-
-NOT_PLAYED = "nobody plays this part"
-NOT_IN_LINE = "the player plays one note at a time, and another one sounds here"
-NO_PITCH = "the part is moved so far that this note is no pitch"
 
 
 def transport_state(state: ClockState) -> TransportState:
@@ -47,10 +50,7 @@ def transport_message(state: ClockState) -> Transport:
 
 def warned(warnings: Iterable[ScoreWarning]) -> list[resources.Warned]:
     """Warnings in their order."""
-    return [
-        resources.Warned(kind=warning.kind, place=warning.place, message=warning.message)
-        for warning in warnings
-    ]
+    return [resources.Warned(**fields) for fields in describe_warnings(warnings)]
 
 
 def found(findings: Iterable[Finding]) -> list[resources.Finding]:
@@ -86,17 +86,7 @@ def lead_fields(production: Production) -> dict[str, Any]:
 
 def part_summaries(score: Score) -> list[resources.PartSummary]:
     """The parts of a score, with how many notes each has."""
-    counts = np.bincount(score.notes.part, minlength=len(score.parts))
-    return [
-        resources.PartSummary(
-            index=part.index,
-            name=part.name,
-            program=part.program,
-            is_drums=part.is_drums,
-            notes=int(counts[part.index]),
-        )
-        for part in score.parts
-    ]
+    return [resources.PartSummary(**fields) for fields in describe_parts(score)]
 
 
 def cast_resource(production: Production) -> resources.Cast:
@@ -166,62 +156,15 @@ def part_choices(ranking: Iterable[PartRanking]) -> list[resources.PartChoice]:
     ]
 
 
-class NoteTable:
+def note_table(production: Production) -> NoteTable:
     """The notes of a production's score, with the fingering of those that are played."""
+    players = [(performer.instrument, performer.played) for performer in production.performers]
+    return NoteTable(production.score, players)
 
-    def __init__(self, production: Production) -> None:
-        self._production = production
-        performers = list(enumerate(production.performers))
-        self._names = NoteNames(
-            production.score, [(one.instrument, one.played) for one in production.performers]
-        )
-        self._usual = [
-            {note.sounding_pitch: list(note.fingerings[0]) for note in one.instrument.fingering_chart}
-            for one in production.performers
-        ]
-        self._player_of_part = {part: player for player, one in performers for part in one.played.parts}
-        self._line_of_note = {
-            note: number
-            for _, one in performers
-            for number, note in enumerate(one.played.line.note_index.tolist())
-        }
 
-    def note(self, index: int) -> WireNote:
-        """A note by its place in the score's table."""
-        production = self._production
-        note = production.score.notes[index]
-        pitch, played_so, reason = note.sounding_pitch, None, NOT_PLAYED
-        sounding_name, written_name = self._names.of(index)
-        player = self._player_of_part.get(note.part)
-        performer = production.performers[player or 0]
-        number = self._line_of_note.get(index)
-        if number is not None:
-            fingering = performer.played.fingering
-            pitch = int(performer.played.line.sounding_pitch[number])
-            played_so, reason = fingering.notes[number], fingering.reasons[number]
-        elif player is not None:
-            # What the player leaves out stands, and is heard, where the rest of the part does.
-            moved = pitch + performer.played.transposition
-            pitch, reason = (moved, NOT_IN_LINE) if 0 <= moved <= 127 else (pitch, NO_PITCH)
-        return WireNote(
-            index=index,
-            part=note.part,
-            onset_s=note.onset_s,
-            duration_s=note.duration_s,
-            onset_beats=note.onset_beats,
-            duration_beats=note.duration_beats,
-            sounding_pitch=pitch,
-            written_pitch=performer.instrument.written_pitch(pitch),
-            sounding_name=sounding_name,
-            written_name=written_name,
-            velocity=note.velocity,
-            valves=list(played_so.valves) if isinstance(played_so, ValvesFingering) else None,
-            usual_valves=self._usual[player or 0][pitch] if isinstance(played_so, ValvesFingering) else None,
-            fingering=played_so,
-            reason=reason,
-            player=player,
-            in_played_part=player is not None,
-        )
+def wire_note(note: DescribedNote) -> WireNote:
+    """A note as the wire has it."""
+    return WireNote(**note._asdict())
 
 
 def lyrics(score: Score) -> list[resources.LyricLine]:
@@ -254,36 +197,24 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
     Written note by note: as one, a long score would hold the interpreter's lock for most of a second.
     """
     score = production.score
-    table = NoteTable(production)
+    table = note_table(production)
     indices = range(len(score.notes)) if part is None else score.note_indices(part)
-    tempo_map, metre_map = score.tempo_map, score.metre_map
-    bar_lines = metre_map.bar_lines(score.duration_beats + 1e-9)
+    bar_lines = score.metre_map.bar_lines(score.duration_beats + 1e-9)
     head = resources.Score(
         title=title,
         duration_s=score.duration_s,
         sequence=score.sequence,
         **lead_fields(production),
         parts=part_summaries(score),
-        tempi=[
-            resources.Tempo(onset_beats=tempo.onset_beats, onset_s=tempo.onset_s, bpm=tempo.beats_per_minute)
-            for tempo in tempo_map.tempos
-        ],
-        metres=[
-            resources.Metre(
-                onset_beats=signature.onset_beats,
-                onset_s=tempo_map.seconds(signature.onset_beats),
-                numerator=signature.numerator,
-                denominator=signature.denominator,
-            )
-            for signature in metre_map.signatures
-        ],
+        tempi=[resources.Tempo(**fields) for fields in describe_tempi(score)],
+        metres=[resources.Metre(**fields) for fields in describe_metres(score)],
         keys=music_keys(score, production.played.transposition, production.instrument.written_pitch(0)),
-        bar_lines_s=tempo_map.seconds(bar_lines).tolist(),
+        bar_lines_s=score.tempo_map.seconds(bar_lines).tolist(),
         notes=[],
         lyrics=lyrics(score),
         markers=score_texts(score, "marker"),
         texts=score_texts(score, "text"),
         warnings=warned(production.warnings),
     )
-    notes = [Written(table.note(int(index)).model_dump_json().encode()) for index in indices]
+    notes = [Written(wire_note(table.note(int(index))).model_dump_json().encode()) for index in indices]
     return json_text({**head.model_dump(mode="json"), "notes": notes})

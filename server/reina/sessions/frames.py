@@ -15,7 +15,7 @@ import numpy as np
 from reina.protocol import FrameFlag, encode_block, join, stamp
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
     from concurrent.futures import Future
 
     from reina.performance import Performance
@@ -45,12 +45,20 @@ class EncodedFrames:
         self._evaluating = threading.Lock()
         self._ahead: Future[Frames] | None = None
 
-    async def ready(self, *song_times_s: float) -> None:
-        """Have the blocks around some song times evaluated on a thread."""
+    async def ready(self, first_s: float, last_s: float) -> None:
+        """Have the blocks from one song time to another evaluated on a thread."""
+        await self.evaluated(range(self._number(first_s), self._number(last_s) + 1))
+
+    async def evaluated(self, blocks: Iterable[int]) -> None:
+        """Have some blocks evaluated on a thread, those that are not there yet."""
         loop = asyncio.get_running_loop()
-        for number in dict.fromkeys(map(self._number, song_times_s)):
+        for number in blocks:
             if number not in self._blocks:
                 await loop.run_in_executor(_EVALUATING, self.block, number)
+
+    def missing(self, frames: Iterable[int]) -> list[int]:
+        """The blocks of some frames that are still to be evaluated, by their numbers."""
+        return sorted({frame // FRAMES_PER_BLOCK for frame in frames} - self._blocks.keys())
 
     def prefetch(self, song_time_s: float) -> None:
         """Begin to evaluate the block of a song time on a thread, unless one is being evaluated."""

@@ -6,18 +6,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from reina.instruments import (
-    Cast,
-    CastError,
-    casting_reasons,
-    choice_findings,
-    spoken_name,
-    unplayed_parts,
-)
-from reina.instruments.player import SEATS, SEATS_FOR, plan_glances
-from reina.music import NotInScoreError, findings_of, retimed
+from reina.instruments import Cast, casting_reasons, choice_findings, spoken_name, unplayed_parts
+from reina.instruments.player import plan_glances
+from reina.music import findings_of, retimed
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
+from reina.sessions.cast_plan import complete_cast, seats_of
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
 from reina.show import Show, ShowError, ShowPlan, UnknownTrack
 from reina.sound.plan import PlayedParts
@@ -29,7 +23,6 @@ if TYPE_CHECKING:
 
     from reina.curves import ParameterRegistry
     from reina.instruments import (
-        Casting,
         Instrument,
         PartRanking,
         Performer,
@@ -111,9 +104,9 @@ class Production:
         if cast.is_to_be_found:
             cast = stage.found_cast(score, cast.sequence)
         heard = score if alignment is None else retimed(score, alignment)
-        castings, played, rankings = _prepare(stage, score, heard, cast)
+        castings, played, rankings = complete_cast(stage, score, heard, cast)
         registry = stage.registry(tuple(casting.instrument for casting in castings))
-        seats = _seats(cast)
+        seats = seats_of(cast)
         glances = plan_glances(played, seats)
         performers = [
             stage.performer(casting, number, seat, heard, part, registry, looks)
@@ -202,7 +195,7 @@ class Production:
             )
         )
         return (
-            *choice_findings(self.score, castings, self.stage.kinds, reasons),
+            *choice_findings(self.written_score, castings, self.stage.kinds, reasons),
             *played,
             *findings_of(self.score.warnings),
         )
@@ -235,60 +228,6 @@ def rebound(show: Show, registry: ParameterRegistry) -> Show:
     """A show whose tracks are those of a registry's parameters; others are kept and have no effect."""
     fits = all(isinstance(track, UnknownTrack) != (track.parameter in registry) for track in show.tracks)
     return show if fits else Show.from_document(show.to_document(), registry)
-
-
-def _prepare(
-    stage: Stage, score: Score, heard: Score, cast: Cast
-) -> tuple[tuple[Casting, ...], tuple[PlayedPart, ...], tuple[tuple[PartRanking, ...], ...]]:
-    """Complete each casting by its part, and have the parts played."""
-    several = len(cast.castings) > 1
-    taken = {casting.part for casting in cast.castings}
-    castings: list[Casting] = []
-    parts: list[PlayedPart] = []
-    rankings: list[tuple[PartRanking, ...]] = []
-    for number, casting in enumerate(cast.castings):
-        place = f"castings/{number}/" if several else ""
-        instrument = stage.instrument(casting, place)
-        ranking = instrument.rank_parts(score)
-        part = casting.part
-        if part is None:
-            # The best that nobody plays; where all are played, the best.
-            free = (choice.part for choice in ranking if choice.part not in taken)
-            part = next(free, ranking[0].part)
-            taken.add(part)
-        try:
-            played = instrument.play(
-                heard,
-                part,
-                casting.transposition,
-                written=casting.written,
-                octave_fit=casting.octave_fit,
-                joined_parts=casting.joined_parts,
-                usual_fingerings=casting.usual_fingerings,
-            )
-        except NotInScoreError as error:
-            raise NotInScoreError(error.detail, location=f"{place}{error.location}") from error
-        twice = {other for before in parts for other in before.parts} & set(played.parts)
-        if twice:
-            raise CastError(f"part {min(twice)} is played by another player already", location=f"{place}part")
-        castings.append(replace(casting, part=part, joined_parts=played.joined_parts))
-        parts.append(played)
-        rankings.append(ranking)
-    return tuple(castings), tuple(parts), tuple(rankings)
-
-
-def _seats(cast: Cast) -> tuple[Seat, ...]:
-    """Each player's seat: as asked for, or by how many play."""
-    seats: list[Seat] = []
-    for number, casting in enumerate(cast.castings):
-        place = f"castings/{number}/seat" if len(cast.castings) > 1 else "seat"
-        name = casting.seat or SEATS_FOR[len(cast.castings)][number]
-        if name not in SEATS:
-            raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", location=place)
-        if SEATS[name] in seats:
-            raise CastError(f"the seat {name!r} is taken already", location=place)
-        seats.append(SEATS[name])
-    return tuple(seats)
 
 
 def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat]) -> Show:

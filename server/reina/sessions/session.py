@@ -15,14 +15,15 @@ from reina.protocol.messages import AlignmentChanged, Hello, ScoreChanged, ShowC
 from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
 from reina.sessions.audience import Audience
 from reina.sessions.description import (
-    NoteTable,
     cast_summary,
     found,
     lead_fields,
+    note_table,
     part_choices,
     part_summaries,
     transport_state,
     warned,
+    wire_note,
 )
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.note_messages import NoteMessages
@@ -178,15 +179,23 @@ class Session:
 
     # Its audience
 
-    async def ready(self, song_time_s: float | None = None, frames: EncodedFrames | None = None) -> None:
+    async def ready(
+        self,
+        song_time_s: float | None = None,
+        frames: EncodedFrames | None = None,
+        *,
+        rate: float | None = None,
+    ) -> None:
         """Have the frames evaluated on a thread that are sent first when somebody joins or something changes.
 
         Args:
             song_time_s: From there on; from the present on when None.
             frames: Those that will be sent; those that are sent now when None.
+            rate: How fast it will play; as fast as now when None.
         """
         first_s = self.audience.song_time_s() if song_time_s is None else song_time_s
-        await (frames or self.audience.frames).ready(first_s, first_s + FIRST_S * self.clock.state().rate)
+        ahead_s = FIRST_S * (rate or self.clock.state().rate)
+        await (frames or self.audience.frames).ready(first_s, first_s + ahead_s)
 
     def join(self, viewer: Viewer) -> None:
         """Let somebody watch."""
@@ -206,8 +215,16 @@ class Session:
         """
         async with self._controlling:
             if len(self.audience):
-                goes_to = command.song_time_s if isinstance(command, Seek) else None
-                await self.ready(goes_to if goes_to is None else min(goes_to, self.clock.duration_s))
+                match command:
+                    case Seek(song_time_s=song_time_s):
+                        await self.ready(min(song_time_s, self.clock.duration_s))
+                    case SetLoop(start_s=float(start_s)):
+                        await self.ready(min(max(start_s, 0.0), self.clock.duration_s))
+                        await self.ready()
+                    case SetRate(rate=rate):
+                        await self.ready(rate=rate)
+                    case _:
+                        await self.ready()
             return self.control(command)
 
     def control(self, command: TransportCommand) -> TransportState:
@@ -337,5 +354,7 @@ def note_messages(production: Production) -> NoteMessages:
     end_s = np.concatenate([line.end_s for line in lines])
     pitch = np.concatenate([line.sounding_pitch for line in lines])
     order = np.argsort(onset_s, kind="stable")
-    table, index = NoteTable(production), notes[order].tolist()
-    return NoteMessages(onset_s[order], end_s[order], pitch[order], lambda number: table.note(index[number]))
+    table, index = note_table(production), notes[order].tolist()
+    return NoteMessages(
+        onset_s[order], end_s[order], pitch[order], lambda number: wire_note(table.note(index[number]))
+    )

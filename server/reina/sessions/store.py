@@ -18,7 +18,7 @@ from reina.sessions.description import warned
 from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, Role, role_of
 from reina.sessions.file_role import SHOW as SHOW_DOCUMENT
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
-from reina.sessions.record import SessionRecord, SongRecord, created_now, hash_token, new_id, new_token
+from reina.sessions.record import SessionRecord, SongRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
@@ -27,6 +27,7 @@ from reina.show import ShowError
 from reina.sound.alignment.aligner import Aligner
 from reina.sound.recording.decoder import SongDecoder
 from reina.system.atomic_write import write_atomically
+from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable

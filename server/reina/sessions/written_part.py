@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.instruments import ValvesFingering, spell_line
+from reina.instruments.describe import describe_keys
 from reina.notation import (
     Accidentals,
     Key,
@@ -125,18 +126,7 @@ def music_keys(score: Score, moved: int, above: int) -> list[MusicKey]:
         moved: Semitones by which the part is played away from the file's pitches.
         above: Semitones from a pitch that sounds to the one that is written.
     """
-    return [
-        MusicKey(
-            onset_beats=key.onset_beats,
-            onset_s=score.tempo_map.seconds(key.onset_beats),
-            name=(sounding := key.transposed(moved)).name,
-            fifths=sounding.fifths,
-            written_name=(written := key.transposed(moved + above)).name,
-            written_fifths=written.fifths,
-            source=key.source,
-        )
-        for key in keys_of(score)
-    ]
+    return [MusicKey(**fields) for fields in describe_keys(score, moved, above)]
 
 
 def _reading(score: Score, line: Line, keys: Sequence[Key], moved: int, above: int) -> _Reading:

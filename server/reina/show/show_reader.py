@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from itertools import count
 from typing import Any, cast
 
@@ -15,7 +14,7 @@ from reina.show.event_response import EventResponse
 from reina.show.faults import Location, field_name, show_error
 from reina.show.time_map import TimeUnit
 from reina.show.track import Track
-from reina.show.track_models import keyframe_type, track_model
+from reina.show.track_models import track_models
 
 Json = Mapping[str, Any]
 LONGEST_TRACK = 100_000
@@ -45,13 +44,16 @@ def read_track(
             track=parameter.path,
             field="keyframes",
         )
-    model = track_model(parameter)
+    models = track_models(parameter)
     try:
-        read = model.model_validate(document)
+        read = models.track_reader.model_validate(document)
     except ValidationError as error:
         keys = _keys(entries)
         raise show_error(
-            error, model, unit=parameter.unit, at=lambda location: _place(location, parameter, keys)
+            _told(TypeAdapter(models.track), document) or error,
+            models.track,
+            unit=parameter.unit,
+            at=lambda location: _place(location, parameter, keys),
         ) from None
     if not read.keyframes and read.events is None and not may_be_empty:
         detail = "a track has a list of one keyframe at least, or answers events"
@@ -77,14 +79,14 @@ def read_keyframe(document: object, parameter: Parameter, free_key: str) -> Keyf
     Raises:
         ShowError: A field is not as it should be.
     """
-    kind = keyframe_type(parameter)
+    models = track_models(parameter)
     try:
-        read = _adapter(kind).validate_python(document)
+        read = models.keyframe_reader.validate_python(document)
     except ValidationError as error:
         keys = [free_key if key == "k1" else key for key in _keys([document])]
         raise show_error(
-            error,
-            kind,
+            _told(TypeAdapter(models.keyframe), document) or error,
+            models.keyframe,
             unit=parameter.unit,
             at=lambda location: _place(("keyframes", 0, *location), parameter, keys),
         ) from None
@@ -117,9 +119,13 @@ def _free_keys(taken: set[str]) -> Iterator[str]:
     return (key for number in count(1) if (key := f"k{number}") not in taken)
 
 
-@lru_cache(maxsize=1024)
-def _adapter(kind: Any) -> TypeAdapter[Keyframe[Any]]:
-    return TypeAdapter(kind)
+def _told(model: TypeAdapter[Any], document: object) -> ValidationError | None:
+    """What a model says of a document that was refused: the faults by the models' names."""
+    try:
+        model.validate_python(document)
+    except ValidationError as error:
+        return error
+    return None
 
 
 def _entries(document: object) -> Sequence[object]:

@@ -10,7 +10,7 @@ from reina.curves.interpolation import BUILT_IN
 from reina.curves.keyframe import Keyframe
 from reina.curves.parameter import Parameter
 from reina.show.document import ShowHead
-from reina.show.track_models import track_model
+from reina.show.track_models import track_models
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -41,7 +41,7 @@ def show_schema(
         pattern: A parameter -> the regular expression of all paths that it stands for; None for its own.
     """
     known = tuple(parameters)
-    models = {parameter.path: track_model(parameter, interpolations) for parameter in known}
+    models = {parameter.path: track_models(parameter, interpolations).track for parameter in known}
     asked: list[tuple[type[BaseModel], JsonSchemaMode]] = [
         (model, "validation") for model in (ShowHead, *dict.fromkeys(models.values()))
     ]

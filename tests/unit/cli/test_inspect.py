@@ -82,7 +82,7 @@ def test_another_part_and_transposition(capsys: pytest.CaptureFixture[str]):
 def test_joined_parts(capsys: pytest.CaptureFixture[str]):
     described = json.loads(output(capsys, str(MARCH), "--json", "--part", "1", "--joined-parts", "2,0"))
     assert (described["part"], described["joined_parts"]) == (1, [0, 2])
-    others = [note for note in described["notes"] if note["reason"].startswith("another part")]
+    others = [note for note in described["notes"] if note["reason"] == "nobody plays this part"]
     assert {note["part"] for note in others} == {3}
     lines = output(capsys, str(MARCH), "--joined-parts", "1").splitlines()
     assert "Fingerings of parts 0, 1, transposed by 0" in lines

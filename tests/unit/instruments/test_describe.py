@@ -42,7 +42,7 @@ def test_notes_carry_their_fingering_or_the_reason_why_not():
     assert [note["valves"] for note in notes] == [[], None, [2], None]
     assert [note["shortened"] for note in notes] == [True, False, False, False]
     assert [note["played_duration_s"] for note in notes] == [1.0, None, 1.0, 1.0]
-    assert "not in the playable line" in notes[1]["reason"]
+    assert "one note at a time" in notes[1]["reason"]
     assert "below the lowest note" in notes[3]["reason"]
     assert notes[0]["reason"] == "open: usual for written G4"
 

@@ -57,7 +57,7 @@ def test_notes_of_two_parts_at_one_time_are_a_chord():
     assert (warning.kind, warning.place) == ("chord_note_dropped", "part 0, note 0 at 0.000 s")
     low, high = describe_notes(score, TRUMPET, played)
     assert (low["valves"], high["valves"]) == (None, [2])
-    assert "another note" in low["reason"]
+    assert "another one" in low["reason"]
 
 
 def test_overlaps_of_two_parts_are_shortened_and_told_of_the_part_they_lie_in():
@@ -76,7 +76,7 @@ def test_all_of_them_are_transposed_and_moved_by_the_same_octaves():
     assert played.line.sounding_pitch.tolist() == [57, 59, 60, 62]
     notes = describe_notes(score, TRUMPET, played)
     assert [note["sounding_pitch"] for note in notes] == [57, 59, 60, 62, 90]
-    assert [note["reason"] for note in notes if note["valves"] is None] == ["another part than the player's"]
+    assert [note["reason"] for note in notes if note["valves"] is None] == ["nobody plays this part"]
 
 
 def test_what_is_out_of_range_is_told_of_the_part_it_lies_in():

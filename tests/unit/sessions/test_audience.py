@@ -268,6 +268,36 @@ def test_a_ticker_that_fails_lets_everybody_go(caplog: pytest.LogCaptureFixture)
     assert "ticker of a session failed" in caplog.text
 
 
+def test_the_event_loop_evaluates_nothing_while_it_sends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not even what was not evaluated ahead: at a loop's seam, at four times the speed, after a hitch."""
+
+    async def scenario() -> None:
+        hall = Hall()
+        monkeypatch.setattr(hall.frames, "prefetch", lambda _: None)
+        inbox = hall.join()
+        hall.performance.threads.clear()
+        seen: set[int] = set()
+        for rate in (1.0, 4.0):
+            hall.clock.set_rate(rate)
+            hall.clock.set_loop(0.0, 2.5)
+            hall.clock.play()
+            hall.frames.forget()
+            await hall.frames.ready(0.0, 2.0)
+            hall.audience.restart()
+            for step in range(40):
+                hall.now.time_s += 1.2 if step == 20 else 0.08
+                if step % 5 == 0:
+                    hall.frames.forget()
+                await asyncio.sleep(0.02)
+                seen.update(hall.read(inbox)["index"].tolist() if inbox.messages else ())
+        hall.audience.leave(inbox)
+        assert len(hall.performance.evaluated) > 10
+        assert len(seen) > 100
+        assert {name.rstrip("_0123456789") for name in hall.performance.threads} == {"frames"}
+
+    asyncio.run(scenario())
+
+
 def test_what_went_by_while_nobody_watched_is_not_made_up_for() -> None:
     def scenario(hall: Hall) -> None:
         first = hall.join()

@@ -9,11 +9,9 @@ from reina.sessions.record import (
     SESSION_ID,
     SessionRecord,
     created_now,
-    hash_token,
     new_id,
-    new_token,
-    token_matches,
 )
+from reina.system.tokens import hash_token, new_token, token_matches
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -90,5 +88,5 @@ def test_ids_and_tokens_are_random_and_tokens_are_not_kept() -> None:
     token = new_token()
     kept = record(token_sha256=hash_token(token))
     assert token not in kept.model_dump_json()
-    assert token_matches(kept, token)
-    assert not token_matches(kept, new_token())
+    assert token_matches(kept.token_sha256, token)
+    assert not token_matches(kept.token_sha256, new_token())

@@ -23,7 +23,7 @@ def test_blocks_are_made_ready_on_a_thread_of_their_own() -> None:
     frames = encoded(performance)
 
     async def scenario() -> None:
-        await frames.ready(0.0, 0.5, 1.0)
+        await frames.ready(0.0, 1.0)
         frames.prefetch(2.0)
         frames.prefetch(2.5)
 

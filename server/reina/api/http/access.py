@@ -8,9 +8,9 @@ from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
 from reina.api.http.problems import ProblemError
 from reina.api.settings import Settings
-from reina.sessions.record import token_matches
 from reina.sessions.session import Session
 from reina.sessions.store import SessionStore
+from reina.system.tokens import token_matches
 
 _bearer = HTTPBearer(
     auto_error=False, scheme_name="control_token", description="Of the session, told at its creation."
@@ -64,7 +64,7 @@ async def _controlled(
             "send `Authorization: Bearer <control_token>`; the token was told when the session was made",
             headers={"WWW-Authenticate": "Bearer"},
         )
-    if not token_matches(session.record, credentials.credentials):
+    if not token_matches(session.record.token_sha256, credentials.credentials):
         raise ProblemError(
             403,
             "wrong-token",

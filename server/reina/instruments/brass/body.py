@@ -12,13 +12,16 @@ from reina.instruments.brass.slide_finger import SLIDE_FINGERS, YIELDING_M, Slid
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames
+from reina.instruments.player.rows import joined, joined_rows
 from reina.rotations import conjugate, dot, from_axis_angle, multiply, rotate
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from reina.instruments.player.body_table import Vector
     from reina.instruments.player.engagement import Engagement
-    from reina.instruments.player.instrument_body import BodyMotion
+    from reina.instruments.player.instrument_body import BodyMotion, Float32Array
     from reina.kinematics import MotionCurves
     from reina.rotations.arrays import FloatArray, IntArray
 
@@ -108,30 +111,59 @@ class BrassBody:
         self._streamed_rows: IntArray = curves.index(streamed)
         self._vibrato = curves.names.index("vibrato")
         self._mute = Mute(engagement.score, engagement.played.line, engagement.registry, engagement.prefix)
+        self.figure = (rig, horn, engagement.hold, curves.names)
+        """What a pose depends on beside the motion; rigs and holds are equal to themselves alone."""
         self._still = np.concatenate([self._body.still, horn.skeleton.rest_rotations]).astype(np.float32)
 
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
-        curves, amounts, frames = motion.curves, motion.amounts, len(motion.times_s)
-        vibrato = curves[self._vibrato] * np.sin((2.0 * np.pi * VIBRATO_HZ) * motion.times_s)
-        signals = {**motion.signals, "vibrato": vibrato * amounts["vibrato"]}
-        standing = self._body.stand(signals, motion.stance)
+        (rotations,), (roots,) = self.pose([motion])
+        return BodyFrames(rotations, roots, self.parameters(motion))
+
+    def parameters(self, motion: BodyMotion) -> FloatArray:
+        """What it streams of the instrument, ``(F, P)``."""
+        mute = self._mute.evaluate(motion.times_s, motion.shown)[:, None]
+        return np.concatenate([motion.curves[self._streamed_rows].T, mute], axis=1)
+
+    def pose(self, motions: Sequence[BodyMotion]) -> tuple[Float32Array, FloatArray]:
+        """The poses of K bodies that are like this one, F frames each, solved as one of K F frames.
+
+        Args:
+            motions: One a body; all with a stance, or none.
+
+        Returns:
+            Local rotations ``(K, F, J, 4)`` and root positions ``(K, F, 2, 3)``.
+        """
+        count, frames = len(motions), len(motions[0].times_s)
+        curves = joined([motion.curves for motion in motions], axis=1)
+        times = joined([motion.times_s for motion in motions])
+        vibrato = curves[self._vibrato] * np.sin((2.0 * np.pi * VIBRATO_HZ) * times)
+        signals = {
+            **joined_rows([motion.signals for motion in motions]),
+            "vibrato": vibrato * joined([motion.amounts["vibrato"] for motion in motions]),
+        }
+        stances = [motion.stance for motion in motions if motion.stance is not None]
+        standing = self._body.stand(signals, joined(stances) if stances else None)
         shifts = standing.shifts[:, 0]
         instrument = multiply(standing.world[:, self._head], self._instrument_in_head)
         instrument = multiply(instrument, standing.turns[:, 0])
         # In the instrument's frame: its mouthpiece, and the hands that hold it.
-        held = np.empty((frames, 3, 3))
+        held = np.empty((count * frames, 3, 3))
         held[:] = self._held_places
         held[:, 2] += shifts
         held = rotate(instrument[:, None], held)
         held[:, 0] = standing.points[:, 0] - held[:, 0]
         held[:, 1:] += held[:, :1]
         elbows = standing.elbows
-        if motion.lowered.any():
-            shoulders = standing.limbs[:, :2]
-            instrument, held, elbows = _lower(motion.lowered, shoulders, instrument, held, elbows)
+        for place, motion in enumerate(motions):
+            if motion.lowered.any():
+                own = slice(place * frames, (place + 1) * frames)
+                shoulders = standing.limbs[own, :2]
+                instrument[own], held[own], elbows[own] = _lower(
+                    motion.lowered, shoulders, instrument[own], held[own], elbows[own]
+                )
         valves = curves[self._valve_rows].T
-        lifts = (curves[self._lift_rows] * amounts["finger_lift"]).T
+        lifts = (curves[self._lift_rows] * joined([motion.amounts["finger_lift"] for motion in motions])).T
         fingers = self._fingers.solve(valves, lifts, shifts)
         moving = self._body.reach(
             standing,
@@ -139,20 +171,20 @@ class BrassBody:
             multiply(instrument[:, None], self._hand_rotations),
             elbows=elbows,
             fingers=[
-                fingers.reshape(frames, -1, 4),
-                *(finger.solve(curves[row]) for row, finger in self._slides),
+                fingers.reshape(count * frames, -1, 4),
+                *(
+                    joined([finger.solve(motion.curves[row]) for motion in motions])
+                    for row, finger in self._slides
+                ),
             ],
         )
-        rotations = np.empty((frames, *self._still.shape), dtype=np.float32)
+        rotations = np.empty((count * frames, *self._still.shape), dtype=np.float32)
         rotations[:] = self._still
         rotations[:, self._body.moving] = moving
         rotations[:, -1] = instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0)
-        mute = self._mute.evaluate(motion.times_s, motion.shown)[:, None]
-        return BodyFrames(
-            rotations=rotations,
-            root_positions=np.stack([standing.hips, held[:, 0]], axis=1),
-            parameters=np.concatenate([curves[self._streamed_rows].T, mute], axis=1),
-        )
+        roots = np.empty((count * frames, 2, 3))
+        roots[:, 0], roots[:, 1] = standing.hips, held[:, 0]
+        return rotations.reshape(count, frames, -1, 4), roots.reshape(count, frames, 2, 3)
 
 
 def _lower(

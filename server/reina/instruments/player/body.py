@@ -260,4 +260,6 @@ def _glance(turn: FloatArray, sight: FloatArray) -> FloatArray:
     half = 0.5 * np.minimum(np.maximum(turn[:, :2], sight[0]), sight[1])
     up, side = np.sin(half[:, 0]), np.sin(half[:, 1])
     level, ahead = np.cos(half[:, 0]), np.cos(half[:, 1])
-    return np.stack([ahead * up, side * level, -side * up, ahead * level], axis=-1)
+    q = np.empty((len(turn), 4))
+    q[:, 0], q[:, 1], q[:, 2], q[:, 3] = ahead * up, side * level, -side * up, ahead * level
+    return q

@@ -28,6 +28,12 @@ GAZE_SLOT_S = 2.3
 GAZE_MOVE_S = 0.09
 _TABLE = 512
 
+_SLOWER = np.array([[3.7], [2.3]])
+"""How many times slower than itself a sway waxes and wanes, and comes early and late."""
+
+_PACES = np.array([[1.0], [0.5], [1.0]])
+"""Of the sways to the side, fore and aft, and about."""
+
 
 class IdleMotion:
     """Idle motion of one player.
@@ -45,6 +51,7 @@ class IdleMotion:
         self._gaze: FloatArray = chance.normal(scale=0.45, size=(_TABLE, 2)).clip(-1.0, 1.0)
         self._gaze[chance.random(_TABLE) < 0.4] = 0.0
         self._offset: float = float(chance.uniform(0.0, 2.0 * np.pi))
+        self._leads: FloatArray = np.array([[0.0], [self._offset], [0.9]])
 
     def sway(self, times_s: FloatArray) -> FloatArray:
         """To the side, fore and aft, and about: -1..1, ``(3, F)``, in time with the metre.
@@ -52,10 +59,10 @@ class IdleMotion:
         Nobody sways like a pendulum: it waxes and wanes, and comes now a little early and now a little late.
         """
         phase = (2.0 * np.pi / self._beats_per_sway) * self._tempo.beats(times_s)
-        slow = np.sin(np.stack([phase / 3.7, phase / 2.3]) + self._offset)
+        slow = np.sin(phase / _SLOWER + self._offset)
         phase = phase + EARLY_OR_LATE_RAD * slow[1]
         extent = 1.0 - WANING * (0.5 + 0.5 * slow[0])
-        return extent * np.sin(np.stack([phase, 0.5 * phase + self._offset, phase + 0.9]))
+        return extent * np.sin(phase * _PACES + self._leads)
 
     def quiet_breath(self, times_s: FloatArray) -> FloatArray:
         """How full the chest is while nothing is played, 0..1, ``(F,)``."""

@@ -46,14 +46,16 @@ class Seat:
         turn = from_axis_angle(UP, np.array(self.facing_rad))
         return rotate(turn, np.eye(3)), multiply(turn, np.eye(4)), np.array([self.x_m, 0.0, self.z_m])
 
+    # One product for all rows: NumPy would take one for each of a stack of frames.
+
     def place(self, positions: FloatArray) -> FloatArray:
         """Points ``(..., 3)`` of somebody in the middle, metres, as they are in this seat."""
         turn, _, place = self._turning
-        return positions @ turn + place
+        return (positions.reshape(-1, 3) @ turn + place).reshape(positions.shape)
 
     def turn(self, rotations: FloatArray) -> FloatArray:
         """World rotations ``(..., 4)`` of somebody in the middle, as they are in this seat."""
-        return rotations @ self._turning[1]
+        return (rotations.reshape(-1, 4) @ self._turning[1]).reshape(rotations.shape)
 
 
 _SEATS = (

@@ -1,0 +1,81 @@
+"""A cast made ready to play: each casting with its part, its playing and its seat."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from reina.instruments import Cast, CastError
+from reina.instruments.player import SEATS, SEATS_FOR
+from reina.music import NotInScoreError
+
+if TYPE_CHECKING:
+    from reina.instruments import Casting, PartRanking, PlayedPart
+    from reina.instruments.player import Seat
+    from reina.music import Score
+    from reina.sessions.stage import Stage
+
+
+def seats_of(cast: Cast) -> tuple[Seat, ...]:
+    """Each player's seat: as asked for, or by how many play.
+
+    Raises:
+        CastError: There is no such seat, or two players have one.
+    """
+    seats: list[Seat] = []
+    for number, casting in enumerate(cast.castings):
+        place = f"castings/{number}/seat" if len(cast.castings) > 1 else "seat"
+        name = casting.seat or SEATS_FOR[len(cast.castings)][number]
+        if name not in SEATS:
+            raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", location=place)
+        if SEATS[name] in seats:
+            raise CastError(f"the seat {name!r} is taken already", location=place)
+        seats.append(SEATS[name])
+    return tuple(seats)
+
+
+def complete_cast(
+    stage: Stage, score: Score, heard: Score, cast: Cast
+) -> tuple[tuple[Casting, ...], tuple[PlayedPart, ...], tuple[tuple[PartRanking, ...], ...]]:
+    """Complete each casting by its part, and have the parts played.
+
+    Args:
+        stage: Who can play what.
+        score: What is played: who plays what is chosen by it.
+        heard: The same in the time of its song.
+        cast: Who plays; a casting without a part takes the best that is free.
+
+    Returns:
+        The castings, each one's part as it is played, and the parts that suit each one's instrument, the best
+        first.
+
+    Raises:
+        CastError: There is no such player or instrument, or two players have one part.
+        NotInScoreError: The score has no such part.
+    """
+    several = len(cast.castings) > 1
+    taken = {casting.part for casting in cast.castings}
+    castings: list[Casting] = []
+    parts: list[PlayedPart] = []
+    rankings: list[tuple[PartRanking, ...]] = []
+    for number, casting in enumerate(cast.castings):
+        place = f"castings/{number}/" if several else ""
+        instrument = stage.instrument(casting, place)
+        ranking = instrument.rank_parts(score)
+        part = casting.part
+        if part is None:
+            # The best that nobody plays; where all are played, the best.
+            free = (choice.part for choice in ranking if choice.part not in taken)
+            part = next(free, ranking[0].part)
+            taken.add(part)
+        try:
+            played = casting.play(instrument, heard, part)
+        except NotInScoreError as error:
+            raise NotInScoreError(error.detail, location=f"{place}{error.location}") from error
+        twice = {other for before in parts for other in before.parts} & set(played.parts)
+        if twice:
+            raise CastError(f"part {min(twice)} is played by another player already", location=f"{place}part")
+        castings.append(replace(casting, part=part, joined_parts=played.joined_parts))
+        parts.append(played)
+        rankings.append(ranking)
+    return tuple(castings), tuple(parts), tuple(rankings)
