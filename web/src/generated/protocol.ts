@@ -248,6 +248,7 @@ export interface Session {
   /** The warnings as a musician is told of them, after who plays what and why. */
   findings: Finding[]
   song: SongState
+  alignment: AlignmentState
   links: SessionLinks
 }
 
@@ -260,6 +261,7 @@ export interface Hello extends Manifest {
   duration_s: number
   links: StreamLinks
   song: SongState
+  alignment: AlignmentState
   transport: TransportState
 }
 
@@ -576,6 +578,21 @@ export interface CastFields {
   castings: CastingFields[]
   /** Which sequence of a MIDI file of format 2; null leaves it as it is. */
   sequence?: number | null
+}
+
+/** How far a session's score is in time with its song. */
+export interface AlignmentState {
+  /**
+   * none: the song is rendered from the score, or is not decoded by the server; unlike: it is other
+   * music, and both begin at 0.
+   */
+  status: "none" | "searching" | "found" | "unlike" | "failed"
+  /** 0 to 1; 1 once something is known. */
+  progress: number
+  /** 0 to 1, how sure it is on the whole; null until something is known. */
+  confidence: number | null
+  /** Why it failed. */
+  detail: string | null
 }
 
 /** Who plays what, in the order of the players, and why nobody plays the rest. */
