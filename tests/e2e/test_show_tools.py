@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -11,6 +10,8 @@ from playwright.sync_api import expect
 from tests.e2e.shows import COLOR, EXPOSURE, HAZE, ShowPage
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from playwright.sync_api import Locator
 
 pytestmark = pytest.mark.browser
@@ -101,9 +102,8 @@ def test_curves_of_several_units_and_a_colours_handles(show: ShowPage) -> None:
 
     # A colour's spline has a handle at either end for each of its components.
     page.mouse.click(*show.key(COLOR, "k1", 1))
-    show.opened.until(
-        "window.reina.show.active === 'blocks/color' && window.reina.show.handles().length === 6"
-    )
+    show.opened.until("window.reina.show.handles().length === 6")
+    assert show.measure("active") == COLOR
     handles = page.evaluate("window.reina.show.handles()")
     assert show.keyframe(COLOR, "k1").get("out_tangent") is None
     x, y = handles[0]["x"], handles[0]["y"]
