@@ -145,7 +145,7 @@ def note_table(production: Production) -> NoteTable:
 
 def wire_note(note: DescribedNote) -> WireNote:
     """A note as the wire has it."""
-    return WireNote(**note._asdict())
+    return WireNote(**vars(note))
 
 
 def score_text(production: Production, title: str, part: int | None = None) -> bytes:
