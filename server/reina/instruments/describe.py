@@ -1,7 +1,8 @@
 """A score and how it is played as plain data: for the wire, for JSON and for tables."""
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,8 @@ NOT_IN_LINE = "the player plays one note at a time, and another one sounds here"
 NO_PITCH = "the part is moved so far that this note is no pitch"
 
 
-class DescribedNote(NamedTuple):
+@dataclass(frozen=True)
+class DescribedNote:
     """A note of a score, with its fingering where somebody plays it; the fields are those of the wire."""
 
     index: int
@@ -212,7 +214,7 @@ def describe_notes(
         note = table.note(index)
         fingering = None if note.fingering is None else note.fingering.model_dump(mode="json")
         lasts = {"played_duration_s": sounds_s.get(index), "shortened": index in shortened}
-        described.append({**note._asdict(), "fingering": fingering, **lasts})
+        described.append({**vars(note), "fingering": fingering, **lasts})
     return described
 
 

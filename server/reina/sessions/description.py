@@ -164,7 +164,7 @@ def note_table(production: Production) -> NoteTable:
 
 def wire_note(note: DescribedNote) -> WireNote:
     """A note as the wire has it."""
-    return WireNote(**note._asdict())
+    return WireNote(**vars(note))
 
 
 def lyrics(score: Score) -> list[resources.LyricLine]:

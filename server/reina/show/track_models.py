@@ -126,7 +126,7 @@ class _Made:
                     for name, field in declared["schema"]["fields"].items()
                 ]
         config = CoreConfig(strict=True, extra_fields_behavior="forbid", allow_inf_nan=False)
-        kinds = {
+        kinds: dict[Any, CoreSchema] = {
             name: core_schema.dataclass_schema(
                 kind,
                 core_schema.dataclass_args_schema(kind.__name__, fields[model], collect_init_only=True),
