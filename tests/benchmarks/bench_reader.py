@@ -1,9 +1,10 @@
 """Seconds to read MIDI files of 1,000 to 100,000 notes, beside mido, pretty_midi and symusic.
 
 Run as ``python tests/benchmarks/bench_reader.py``. Every reader gets the same bytes and has to give notes
-with their times in seconds; the best of a few runs counts. Of MusicXML a document of about a megabyte is read. pretty_midi and symusic are measured where they
-are installed (``pip install -r requirements/bench.in``). The status is 1 if Reina needs more than a second
-for 100,000 notes, or if its time grows faster than the notes.
+with their times in seconds; the best of a few runs counts. Of MusicXML a document of about a megabyte is
+read. pretty_midi and symusic are measured where they are installed (``pip install -r
+requirements/bench.in``). The status is 1 if Reina needs more than a second for 100,000 notes, or if its time
+grows faster than the notes.
 """
 
 import importlib
