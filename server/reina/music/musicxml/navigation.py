@@ -55,11 +55,13 @@ def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: Warning
     _find_to_coda(measures)
     endings = _endings(measures)
     order: list[int] = []
-    at = start = 0
+    at: int = 0
+    start: int = 0
     passed = 1
     made: set[int] = set()
     jumped = in_coda = False
     ending: _Ending | None = None
+    target: int | None
     while at < len(measures):
         measure = measures[at]
         if measure.forward and at != start:
@@ -148,7 +150,7 @@ def _endings(measures: Sequence[WrittenMeasure]) -> dict[int, _Ending]:
         # A first ending alone is left out the last time; any other ending alone is no choice at all.
         skipped = len(group) == 1 and measures[group[0][1]].backward > 0 and 1 in group[0][2]
         total += skipped
-        named = frozenset[int]().union(*(passes for _, _, passes in group))
+        named = frozenset(number for _, _, passes in group for number in passes)
         for number, (begin, end, passes) in enumerate(group):
             is_last = number == len(group) - 1
             found[begin] = _Ending(passes, end, total, is_last, is_last and not skipped, named)
