@@ -53,7 +53,7 @@ def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: Warning
         ScoreLimitError: If more are played.
     """
     _find_to_coda(measures)
-    endings = _endings(measures)
+    endings: dict[int, _Ending] = _endings(measures)
     order: list[int] = []
     at: int = 0
     start: int = 0
@@ -67,14 +67,14 @@ def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: Warning
         if measure.forward and at != start:
             start, passed = at, 1
         after_jump = jumped and not in_coda
-        if at in endings:
-            ending = endings[at]
-            now = ending.total if after_jump else passed
-            if not ending.is_taken(now):
-                skipped = ending
-                at = ending.end + 1
+        begun: _Ending | None = endings.get(int(at))
+        if begun is not None:
+            ending = begun
+            now = begun.total if after_jump else passed
+            if not begun.is_taken(now):
+                at = int(begun.end) + 1
                 ending = None
-                if skipped.is_last:
+                if begun.is_last:
                     # Nothing is left of the group: what follows is another passage.
                     start, passed = at, 1
                 continue
@@ -98,16 +98,16 @@ def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: Warning
         if jumped and not in_coda and measure.to_coda is not None:
             target = _find(measures, measure.to_coda, at, coda=True)
             if target is not None:
-                at, in_coda, ending = target, True, None
-                start, passed = at, 1
+                at = start = int(target)
+                in_coda, ending, passed = True, None, 1
                 continue
             _tell(log, measure, at, "To Coda", "no coda follows")
         if at not in made and (measure.da_capo or measure.dal_segno is not None):
             made.add(at)
             target = 0 if measure.da_capo else _find(measures, measure.dal_segno or "", at, coda=False)
             if target is not None:
-                at, jumped, in_coda, ending = target, True, False, None
-                start, passed = at, 1
+                at = start = int(target)
+                jumped, in_coda, ending, passed = True, False, None, 1
                 continue
             _tell(log, measure, at, "Dal Segno", "no sign stands before it")
         at += 1
