@@ -1,9 +1,10 @@
 """Seconds to read MIDI files of 1,000 to 100,000 notes, beside mido, pretty_midi and symusic.
 
 Run as ``python tests/benchmarks/bench_reader.py``. Every reader gets the same bytes and has to give notes
-with their times in seconds; the best of a few runs counts. pretty_midi and symusic are measured where they
-are installed (``pip install -r requirements/bench.in``). The status is 1 if Reina needs more than a second
-for 100,000 notes, or if its time grows faster than the notes.
+with their times in seconds; the best of a few runs counts. Of MusicXML a document of about a megabyte is
+read. pretty_midi and symusic are measured where they are installed (``pip install -r
+requirements/bench.in``). The status is 1 if Reina needs more than a second for 100,000 notes, or if its time
+grows faster than the notes.
 """
 
 import importlib
@@ -13,6 +14,7 @@ import json
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import mido
@@ -20,6 +22,8 @@ import numpy as np
 from machine import heading
 
 from reina.music import read_score
+
+ROOT = Path(__file__).parents[2]
 
 SIZES = (1_000, 10_000, 100_000)
 MAX_S = 1.0
@@ -57,6 +61,27 @@ def json_file(notes: int) -> bytes:
     ]
     header = {"ppq": 480, "tempos": [{"bpm": 120, "ticks": 0}]}
     return json.dumps({"header": header, "tracks": [{"notes": entries}]}).encode()
+
+
+def musicxml_file(parts: int = 4, measures: int = 110) -> bytes:
+    """A document with slurs, hairpins and what notation programs write for the eye."""
+    sys.path.insert(0, str(ROOT))
+    from tests.unit.music.musicxml import musicxml_text as xml
+
+    rng = np.random.default_rng(parts)
+    bars: list[str] = []
+    for bar in range(measures):
+        begin = xml.attributes(extra=xml.B_FLAT) + xml.tempo(100) if bar == 0 else ""
+        begin += {0: xml.dynamic("p") + xml.wedge("crescendo"), 4: xml.wedge("stop") + xml.dynamic("f")}.get(
+            bar % 8, ""
+        )
+        for note in range(8):
+            marks = {0: xml.slur("start"), 3: xml.slur("stop")}.get(note % 4, "")
+            looks = '<stem default-y="3">up</stem><beam number="1">begin</beam>' + marks
+            name = str(rng.choice(["C4", "D4", "F#4", "Bb4"]))
+            begin += xml.note(name, 0.5, inner=looks).replace("><", ">\n        <")
+        bars.append(begin)
+    return xml.document(*[xml.measures(*bars)] * parts)
 
 
 def by_reina(data: bytes) -> int:
@@ -119,10 +144,13 @@ def main() -> int:
         print(f"{name:12}{row}{SIZES[-1] / taken[name, SIZES[-1]]:>18,.0f}")
     taken["json", SIZES[-1]] = seconds(by_reina, json_file(SIZES[-1]), SIZES[-1], 3)
     print(f"reina, JSON of Tone.js's form, {SIZES[-1]:,} notes: {taken['json', SIZES[-1]] * 1000:.1f} ms")
+    document = musicxml_file()
+    of_document = seconds(by_reina, document, 3520, 3)
+    print(f"reina, MusicXML of {len(document) / 1e6:.1f} MB, 3,520 notes: {of_document * 1000:.1f} ms")
     largest = taken["reina", SIZES[-1]]
     growth = (largest / SIZES[-1]) / (taken["reina", SIZES[-2]] / SIZES[-2])
     print(f"a note of the largest file takes {growth:.2f} times as long as one of the middle file")
-    return 1 if max(largest, taken["json", SIZES[-1]]) > MAX_S or growth > MAX_GROWTH else 0
+    return 1 if max(largest, taken["json", SIZES[-1]], of_document) > MAX_S or growth > MAX_GROWTH else 0
 
 
 if __name__ == "__main__":

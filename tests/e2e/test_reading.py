@@ -25,7 +25,8 @@ REPAIRED = ("repaired.mid", "audio/midi", b"junk" + duet()[:-3])
 SONG = xml.document(
     xml.measures(
         xml.attributes(extra=xml.B_FLAT) + xml.words("softly")
-        + xml.note("C5", 2, inner=xml.lyric("begin", "Hal")) + xml.note("D5", 2, inner=xml.lyric("end", "lo,")),
+        + xml.note("C5", 2, inner=xml.lyric("begin", "Hal"))
+        + xml.note("D5", 2, inner=xml.lyric("end", "lo,")),
         xml.note("E5", 4, inner=xml.lyric("single", "you", "<end-line/>")),
         xml.direction("<rehearsal>Refrain</rehearsal>") + xml.note("F5", 4, inner=xml.lyric("single", "la")),
         xml.note("G5", 4),

@@ -56,9 +56,9 @@ def read_texts(
     found: list[tuple[int, TextKind, str]] = []
     if sung:
         syllables = [_syllable(decode_words(meta.data, encoding)) for meta in sung]
-        found += [
-            (meta.tick, "lyric", text) for meta, text in zip(sung, _spaced(syllables), strict=True) if text
-        ]
+        for meta, text in zip(sung, _spaced(syllables), strict=True):
+            if text:
+                found.append((meta.tick, "lyric", text))
     taken = {id(meta) for meta in sung}
     kinds: tuple[tuple[int, TextKind], ...] = ((MARKER, "marker"), (CUE_POINT, "text"), (TEXT, "text"))
     for kind, called in kinds:
@@ -88,6 +88,7 @@ def _sung(tracks: Sequence[Track]) -> list[Meta]:
     """Return the texts that are sung: those of the track that has most, by lyric events or as karaoke."""
     lyrics = [[meta for meta in track.words if meta.kind == LYRIC] for track in tracks]
     is_karaoke = _is_karaoke(tracks)
+    nothing: list[Meta] = []
     words: list[list[Meta]] = []
     named: list[list[Meta]] = []
     for track in tracks:
@@ -96,8 +97,8 @@ def _sung(tracks: Sequence[Track]) -> list[Meta]:
             named.append(texts)
         elif is_karaoke:
             words.append(texts)
-    karaoke = max(named, key=len, default=[]) or max(words, key=len, default=[])
-    most = max(lyrics, key=len, default=[])
+    karaoke = max(named, key=len, default=nothing) or max(words, key=len, default=nothing)
+    most = max(lyrics, key=len, default=nothing)
     return karaoke if len(karaoke) >= max(len(most), FEWEST) else most
 
 

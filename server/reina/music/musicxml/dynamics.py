@@ -6,12 +6,13 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from reina.music.musicxml.model import Hairpin
 from reina.music.musicxml.tables import DEFAULT_LEVEL, STEP
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reina.music.musicxml.model import Hairpin, Place, WrittenPart
+    from reina.music.musicxml.model import Place, WrittenPart
 
 NEAR_BEATS = 1.0
 """A dynamic so soon after a hairpin's end is the one that it leads to."""
@@ -75,7 +76,7 @@ def _segments(part: WrittenPart, beats_of: Callable[[Place], float]) -> list[_Se
     events.sort(key=lambda event: event[:2])
     segments = [_Segment(0.0, 0.0, DEFAULT_LEVEL, DEFAULT_LEVEL)]
     for beat, _, what in events:
-        if isinstance(what, float):
+        if not isinstance(what, Hairpin):
             segments.append(_Segment(beat, beat, what, what))
             continue
         now = segments[-1].at(beat)

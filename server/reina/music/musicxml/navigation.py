@@ -53,26 +53,28 @@ def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: Warning
         ScoreLimitError: If more are played.
     """
     _find_to_coda(measures)
-    endings = _endings(measures)
+    endings: dict[int, _Ending] = _endings(measures)
     order: list[int] = []
-    at = start = 0
+    at: int = 0
+    start: int = 0
     passed = 1
     made: set[int] = set()
     jumped = in_coda = False
     ending: _Ending | None = None
+    target: int | None
     while at < len(measures):
         measure = measures[at]
         if measure.forward and at != start:
             start, passed = at, 1
         after_jump = jumped and not in_coda
-        if at in endings:
-            ending = endings[at]
-            now = ending.total if after_jump else passed
-            if not ending.is_taken(now):
-                skipped = ending
-                at = ending.end + 1
+        begun: _Ending | None = endings.get(int(at))
+        if begun is not None:
+            ending = begun
+            now = begun.total if after_jump else passed
+            if not begun.is_taken(now):
+                at = int(begun.end) + 1
                 ending = None
-                if skipped.is_last:
+                if begun.is_last:
                     # Nothing is left of the group: what follows is another passage.
                     start, passed = at, 1
                 continue
@@ -96,16 +98,16 @@ def playing_order(measures: Sequence[WrittenMeasure], *, most: int, log: Warning
         if jumped and not in_coda and measure.to_coda is not None:
             target = _find(measures, measure.to_coda, at, coda=True)
             if target is not None:
-                at, in_coda, ending = target, True, None
-                start, passed = at, 1
+                at = start = int(target)
+                in_coda, ending, passed = True, None, 1
                 continue
             _tell(log, measure, at, "To Coda", "no coda follows")
         if at not in made and (measure.da_capo or measure.dal_segno is not None):
             made.add(at)
             target = 0 if measure.da_capo else _find(measures, measure.dal_segno or "", at, coda=False)
             if target is not None:
-                at, jumped, in_coda, ending = target, True, False, None
-                start, passed = at, 1
+                at = start = int(target)
+                jumped, in_coda, ending, passed = True, False, None, 1
                 continue
             _tell(log, measure, at, "Dal Segno", "no sign stands before it")
         at += 1
@@ -148,7 +150,7 @@ def _endings(measures: Sequence[WrittenMeasure]) -> dict[int, _Ending]:
         # A first ending alone is left out the last time; any other ending alone is no choice at all.
         skipped = len(group) == 1 and measures[group[0][1]].backward > 0 and 1 in group[0][2]
         total += skipped
-        named = frozenset[int]().union(*(passes for _, _, passes in group))
+        named = frozenset(number for _, _, passes in group for number in passes)
         for number, (begin, end, passes) in enumerate(group):
             is_last = number == len(group) - 1
             found[begin] = _Ending(passes, end, total, is_last, is_last and not skipped, named)

@@ -11,6 +11,7 @@ from reina.music.musicxml import tables
 from reina.music.musicxml.directions import read_barline, read_direction, read_sound
 from reina.music.musicxml.element import Element, number_of, whole_of
 from reina.music.musicxml.model import (
+    GraceKind,
     Hairpin,
     KeyMark,
     Syllable,
@@ -234,6 +235,7 @@ class PartReader(PartState):
         ties = {tie.attribute("type") for tie in element.all("tie")}
         if not ties:
             ties = {tied.attribute("type") for all_ in element.all("notations") for tied in all_.all("tied")}
+        kind, steals = _grace(grace, duration)
         return WrittenNote(
             measure=self.measure,
             offset=self._onset,
@@ -246,7 +248,8 @@ class PartReader(PartState):
             tie_start="start" in ties or "continue" in ties,
             tie_stop="stop" in ties or "continue" in ties,
             times=times_of(element),
-            **_grace(grace, duration),
+            grace=kind,
+            steals=steals,
         )
 
     def _pitch(self, element: Element) -> int | None:
@@ -357,16 +360,20 @@ class PartReader(PartState):
             self.part.syllables.append(Syllable(note.place, max(verse, 1), text))
 
 
-def _grace(grace: Element | None, duration: float) -> dict[str, object]:
-    """How a grace note takes its time, as fields of a `WrittenNote`."""
+def _grace(grace: Element | None, duration: float) -> tuple[GraceKind, float | None]:
+    """How a grace note takes its time, and which share of its note, as a `WrittenNote` has them."""
     if grace is None:
-        return {}
-    for attribute, kind in (("steal-time-previous", "before"), ("steal-time-following", "on")):
+        return "", None
+    ways: tuple[tuple[str, GraceKind], ...] = (
+        ("steal-time-previous", "before"),
+        ("steal-time-following", "on"),
+    )
+    for attribute, kind in ways:
         percent = number_of(grace.attribute(attribute))
         if percent is not None and 0 < percent <= 100:
-            return {"grace": kind, "steals": min(percent, 90.0) / 100}
+            return kind, min(percent, 90.0) / 100
     is_long = grace.attribute("slash") != "yes" and duration >= tables.NOTE_TYPES["eighth"]
-    return {"grace": "on" if is_long else "before"}
+    return "on" if is_long else "before", None
 
 
 def _sum(text: str) -> int:

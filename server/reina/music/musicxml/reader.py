@@ -126,7 +126,8 @@ def _check_played(parts: Sequence[WrittenPart], timeline: Timeline, limits: Limi
 
 def _keys(parts: Sequence[WrittenPart], timeline: Timeline) -> tuple[KeySignature, ...]:
     """Return the key signatures, as they sound, of the first part that has any."""
-    marks = next((part.keys for part in parts if part.keys and part.notes), [])
+    keyed = next((part for part in parts if part.keys and part.notes), None)
+    marks = keyed.keys if keyed else []
     unrolled = timeline.unroll(marks, lambda mark: mark.place, holds=True)
     at_beats = {beat: KeySignature(beat, mark.fifths, mark.is_minor) for beat, _, mark in unrolled}
     return in_order(list(at_beats.values()))
@@ -153,7 +154,7 @@ def _assemble(
     onset_s, end_s = tempo_map.seconds(onset_beats), tempo_map.seconds(end_beats)
     end_s, end_beats, taps = lengthen_taps(onset_s, end_s, end_beats, tempo_map)
     for tap in taps.tolist():
-        place = f"line {notes[tap][1].line}"
+        place = f"line {notes[int(tap)][1].line}"
         log.add("zero_length_note", place, f"has no duration; it sounds for {TAP_S * 1000:.0f} ms")
     limits.check("duration_s", float(np.max(end_s)), what="length in seconds")
     limits.check("beats", float(np.max(end_beats)), what="length in beats")

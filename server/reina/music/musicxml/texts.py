@@ -24,7 +24,8 @@ def read_texts(
     On its nth playing a measure has its nth verse, or the last one that it has.
     """
     found: list[tuple[float, TextKind, str]] = []
-    sung = max((part.syllables for part in parts), key=len, default=[])
+    fullest = max(parts, key=lambda part: len(part.syllables), default=None)
+    sung = fullest.syllables if fullest else []
     verses: dict[Place, dict[int, Syllable]] = {}
     for syllable in sung:
         verses.setdefault(syllable.place, {}).setdefault(syllable.verse, syllable)
@@ -34,10 +35,8 @@ def read_texts(
         if fitting:
             found.append((beat, "lyric", there[max(fitting)].text))
     words = list(dict.fromkeys(word for part in parts for word in part.words))
-    found += [
-        (beat, word.kind, word.text)
-        for beat, _, word in timeline.unroll(words, lambda word: word.place, holds=False)
-    ]
+    for beat, _, word in timeline.unroll(words, lambda word: word.place, holds=False):
+        found.append((beat, word.kind, word.text))
     found.sort(key=lambda text: text[0])
     return tuple(
         ScoreText(kind, tempo_map.seconds(beat), beat, text) for beat, kind, text in found[:MAX_TEXTS]

@@ -115,7 +115,7 @@ def _mutate_elements(data: bytes, rng: random.Random) -> bytes | None:
     return ElementTree.tostring(root)
 
 
-Pairs = "list[tuple[ElementTree.Element, ElementTree.Element]]"
+Pairs = list[tuple[ElementTree.Element, ElementTree.Element]]
 
 
 def _remove(parent: ElementTree.Element, child: ElementTree.Element, _: Pairs, __: random.Random) -> None:
