@@ -46,15 +46,13 @@ def main() -> int:
         told.append((result.p95_ms, f"{result.median_ms:.1f} / {result.p95_ms:.0f} ms: {kind}, {rendition}"))
         if kind in ("smooth", "instruments"):
             for name, other in OTHERS.items():
-                found = other(recording, RATE)
-                if found is not None:
-                    others[name].append(found)
-                    others[f"Reina, beside {name}"].append(result)
-    print(f"{'':16} files  median   p95 of all notes   files with a median within {FILE_MS:.0f} ms")
+                others[name].append(other(recording, RATE))
+                others[f"beside {name}"].append(result)
+    print(f"{'':18} files  median   p95 of all notes   files with a median within {FILE_MS:.0f} ms")
     for kind, results in [*by_kind.items(), *others.items()]:
-        print(f"{kind:16} {_row(results)}")
+        print(f"{kind:18} {_row(results)}")
     everything = [result for results in by_kind.values() for result in results]
-    print(f"{'all':16} {_row(everything)}")
+    print(f"{'all':18} {_row(everything)}")
     for _, line in sorted(told, reverse=True)[: options.worst]:
         print(f"  {line}")
     unlike = [align(recording.samples, RATE, example(name)).is_same_music for recording, name in other_music()]
