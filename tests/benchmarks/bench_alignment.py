@@ -1,7 +1,7 @@
 """How far off the onsets of recordings are found, and how long it takes; beside other aligners, if installed.
 
-Run as ``python tests/benchmarks/bench_alignment.py``. The recordings are the example scores, rendered at other
-tempos, by other instruments, cut, spoilt (tests/unit/sound/alignment/bed.py). Processor time counts.
+Run as ``python tests/benchmarks/bench_alignment.py``. The recordings are the example scores, rendered at
+other tempos, by other instruments, cut, spoilt (tests/unit/sound/alignment/bed.py). Processor time counts.
 """
 
 from __future__ import annotations
@@ -55,8 +55,12 @@ def main() -> int:
     print(f"{'all':18} {_row(everything)}")
     for _, line in sorted(told, reverse=True)[: options.worst]:
         print(f"  {line}")
-    unlike = [align(recording.samples, RATE, example(name)).is_same_music for recording, name in other_music()]
-    print(f"taken for other music: {refused} of {len(everything)}; for the same: {sum(unlike)} of {len(unlike)}")
+    unlike = [
+        align(recording.samples, RATE, example(name)).is_same_music for recording, name in other_music()
+    ]
+    print(
+        f"taken for other music: {refused} of {len(everything)}; for the same: {sum(unlike)} of {len(unlike)}"
+    )
     seconds = _four_minutes_s()
     errors = np.concatenate([result.errors_ms for result in everything])
     median, p95 = float(np.median(errors)), float(np.percentile(errors, 95))

@@ -1,7 +1,7 @@
 """Other aligners, each measured where it is installed beside Reina; none is part of `make bench`'s own set.
 
-synctoolbox (MIT) and parangonar (Apache-2.0) bring numba, pandas, librosa, music21 or PyTorch, up to a gigabyte:
-they are measured from an environment of one's own (`pip install synctoolbox`, and Reina's requirements).
+synctoolbox (MIT) brings numba, pandas, librosa and music21, most of a gigabyte: it is measured where a person
+has installed it (`pip install synctoolbox` beside Reina's requirements).
 """
 
 from __future__ import annotations
@@ -31,7 +31,9 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
     loud = np.flatnonzero(np.abs(samples) > 0.1 * np.abs(samples).max())
     first = max(0, int(loud[0]) - rate // 50)
     size = int((len(samples) - first) * SYNCTOOLBOX_RATE / rate)
-    audio = np.interp(np.arange(size) * rate / SYNCTOOLBOX_RATE, np.arange(len(samples) - first), samples[first:])
+    audio = np.interp(
+        np.arange(size) * rate / SYNCTOOLBOX_RATE, np.arange(len(samples) - first), samples[first:]
+    )
     notes = recording.score.notes
     table = pandas.DataFrame(
         {
@@ -52,7 +54,9 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
                 module("feature.pitch").audio_to_pitch_features(
                     f_audio=audio, Fs=SYNCTOOLBOX_RATE, feature_rate=FRAMES_PER_S
                 ),
-                module("feature.pitch_onset").audio_to_pitch_onset_features(f_audio=audio, Fs=SYNCTOOLBOX_RATE),
+                module("feature.pitch_onset").audio_to_pitch_onset_features(
+                    f_audio=audio, Fs=SYNCTOOLBOX_RATE
+                ),
             ),
             (
                 module("feature.csv_tools").df_to_pitch_features(table, feature_rate=FRAMES_PER_S),

@@ -1,4 +1,4 @@
-"""A recording in time with its score: the map between both times, found from the sound and put right by hand."""
+"""A recording in time with its score: the map between both times, found by ear and put right by hand."""
 
 from reina.sound.alignment.aligner import align
 from reina.sound.alignment.alignment import Alignment, AlignmentError, Anchor, Gap, MapPoint

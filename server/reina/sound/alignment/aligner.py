@@ -29,7 +29,7 @@ from reina.sound.alignment.surroundings import count_in, first_beat_s, sounds_af
 FRAMES_PER_S = 50
 WINDOW_S = 0.17
 COARSE_FRAMES, STEADY_FRAMES = 10, 5
-"""So many frames are one where the whole is looked at: 0.2 s in any key, then 0.1 s in the one that was found."""
+"""So many frames are one where the whole is looked at: 0.2 s in any key, then 0.1 s in the right one."""
 MOST_FRAMES = 4000
 """More than so many are not compared all with all; of a long piece each is longer."""
 THRESHOLD = 0.7

@@ -2,8 +2,8 @@
 
 A frame of the recording is heard at one frame of the score, or at none: before the music, after it, where the
 recording has what the score has not. From one frame of the recording to the next the score goes on by 0 to 3
-frames, or, through a gap, by any number: what the recording leaves out. A gap costs as much as `gap_cost`, and
-what is heard earns how much more alike it is than chance.
+frames, or, through a gap, by any number: what the recording leaves out. A gap costs something,
+and what is heard earns how much more alike it is than chance.
 """
 
 from dataclasses import dataclass

@@ -1,7 +1,7 @@
 """Whether a recording is the music of a score at all.
 
-Any two pieces of music have something in common, most of all when one may be played in any key. So what the way
-through both earns is held against what the same score earns in the other keys, where it is other music.
+Any two pieces of music have something in common, most of all when one may be played in any key. So what the
+way through both earns is held against what the same score earns in the other keys, where it is other music.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from reina.sound.alignment.features import activity
 from reina.sound.alignment.path import Path
 
 LEAST = 0.2
-"""Sameness from which on it is the same music; set on the recordings of tests/benchmarks/bench_alignment.py."""
+"""Sameness from which on it is the same music, as bench_alignment.py measures it."""
 OUTSTANDING = 0.03
 """What each deviation counts by which the best key stands out from the others, beyond the usual three."""
 USUAL_DEVIATIONS = 3.0

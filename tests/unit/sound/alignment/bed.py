@@ -1,4 +1,4 @@
-"""What the aligner is measured on: every way of playing a score that a recording may have, on every example."""
+"""What the aligner is measured on: every way a recording may differ, on every example."""
 
 from __future__ import annotations
 
@@ -86,7 +86,11 @@ def bed(seed: int = 1) -> Iterable[tuple[str, Rendition]]:
         yield (
             "key and tuning",
             Rendition(
-                score, tempo(0.1), transposition=semitones, cents=round(float(random.uniform(-45, 45))), seed=number
+                score,
+                tempo(0.1),
+                transposition=semitones,
+                cents=round(float(random.uniform(-45, 45))),
+                seed=number,
             ),
         )
         yield "counted in", Rendition(score, tempo(0.05), count_in=4, lead_in_s=4, noise_db=-30, seed=number)

@@ -1,4 +1,4 @@
-"""Recordings whose truth is known, aligned: a few of those that tests/benchmarks/bench_alignment.py measures."""
+"""Recordings whose truth is known, aligned: a few such as bench_alignment.py measures."""
 
 from dataclasses import replace
 from functools import cache
@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from tests.unit.sound.alignment.bed import Result, measure
-from tests.unit.sound.alignment.renditions import RATE, Recording, Rendition, example, record
+from tests.unit.sound.alignment.renditions import RATE, Recording, Rendition, example, record, render
 from tests.unit.sound.material import Row, a_part, a_score
 
 from reina.sound.alignment import Alignment, align
@@ -20,7 +20,9 @@ SUDDEN = Rendition(ODE, (0.9, 0.25), sudden=True, reverberation_s=1.5, seed=4)
 CUT = Rendition(MARCH, (0.9, 0.15), cut=(20.0, 12.0), lead_in_s=1, noise_db=-25, seed=5)
 SPOILT = Rendition(VENICE, (1.2, 0.1), programs=(71, 0, 42), wrong=0.2, noise_db=-20, seed=6)
 MOVED = Rendition(TAPS, (0.85, 0.1), transposition=-3, cents=35, seed=7)
-COUNTED = Rendition(VENICE, (1.0, 0.08), count_in=4, lead_in_s=3.5, repeat=(8.0, 8.0), without_parts=(1,), seed=8)
+COUNTED = Rendition(
+    VENICE, (1.0, 0.08), count_in=4, lead_in_s=3.5, repeat=(8.0, 8.0), without_parts=(1,), seed=8
+)
 ALL = (EXACT, SMOOTH, SUDDEN, CUT, SPOILT, MOVED, COUNTED)
 
 
@@ -123,8 +125,6 @@ def test_drums_beside_a_melody_are_listened_for_too():
     tune: list[Row] = [(0, float(at), 0.2, int(random.integers(60, 80)), 0.8) for at in steps]
     beats: list[Row] = [(1, 0.5 * at, 0.1, (36, 42, 38, 42)[at % 4], 0.8) for at in range(int(steps[-1] * 2))]
     score = a_score([*tune, *beats], parts)
-    from tests.unit.sound.alignment.renditions import render
-
     sound = np.concatenate((np.zeros(RATE, dtype=np.float32), render(score)))
     alignment = align(sound, RATE, score)
     off_ms = 1000 * np.abs(alignment.song_times(score.notes.onset_s) - score.notes.onset_s - 1)

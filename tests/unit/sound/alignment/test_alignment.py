@@ -74,7 +74,8 @@ def test_each_direction_undoes_the_other(steps: list[tuple[float, float]], place
 def test_a_document_holds_all_of_it(alignment: Alignment):
     again = read_alignment(write_alignment(alignment))
     at = np.linspace(-2, 50, 60)
-    # Times are written to a tenth of a millisecond; where something is left out, an edge may lie on either side.
+    # Times are written to a tenth of a millisecond; where something is left out, an edge may lie on either
+    # side.
     edges = np.array([point.score_s for point in alignment.points])
     at = at[np.abs(at[:, None] - edges).min(axis=1) > 1e-3]
     steep = np.diff(edges, prepend=-1) > 0.01
@@ -162,7 +163,11 @@ def test_what_cannot_be_is_refused_with_its_place(make: object, location: str, s
         (b"{", None, "no JSON"),
         (b"[]", None, "object"),
         (b'{"points":[]}', "score_duration_s", "missing"),
-        (b'{"points":[{"score_s":0}],"score_duration_s":1,"song_duration_s":1}', "points/0/song_s", "missing"),
+        (
+            b'{"points":[{"score_s":0}],"score_duration_s":1,"song_duration_s":1}',
+            "points/0/song_s",
+            "missing",
+        ),
         (b'{"points":[],"score_duration_s":1,"song_duration_s":0}', "song_duration_s", "0"),
         (b'{"points":[],"score_duration_s":1,"song_duration_s":1,"ofset_s":1}', "ofset_s", "no such field"),
         (b'{"version":2,"points":[],"score_duration_s":1,"song_duration_s":1}', "version", "version 1"),
