@@ -24,7 +24,8 @@ def frame_features(energies: Floats, risen: Floats, frames_per_s: float) -> Floa
     """What each frame is compared by, (F, 31) of length 1 at most.
 
     The twelve tones that sound, silence, the twelve tones that begin, and by how much more than usual sounds
-    in each of six octaves. The product of two is 1 where they are alike and about 0 where they have nothing in common.
+    in each of six octaves. The product of two is 1 where they are alike and about 0 where they have nothing
+    in common.
 
     Args:
         energies: (F, BANDS) of `band_energies` or `score_energies`.

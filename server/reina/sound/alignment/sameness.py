@@ -12,7 +12,7 @@ from reina.sound.alignment.bands import Floats
 from reina.sound.alignment.features import activity
 from reina.sound.alignment.path import Path
 
-LEAST = 0.2
+LEAST = 0.24
 """Sameness from which on it is the same music, as bench_alignment.py measures it."""
 OUTSTANDING = 0.03
 """What each deviation counts by which the best key stands out from the others, beyond the usual three."""
