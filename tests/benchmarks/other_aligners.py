@@ -1,7 +1,7 @@
 """Other aligners, each measured where it is installed beside Reina; none is part of `make bench`'s own set.
 
-synctoolbox (MIT) brings numba, pandas, librosa and music21, most of a gigabyte: it is measured where a person
-has installed it (`pip install synctoolbox` beside Reina's requirements).
+synctoolbox (MIT) and parangonar (Apache-2.0) bring numba, pandas, librosa and music21, most of a gigabyte:
+they are measured where a person has installed them (`pip install synctoolbox parangonar` beside Reina's own).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from tests.unit.sound.alignment.bed import Result
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy.typing import NDArray
     from tests.unit.sound.alignment.renditions import Recording
 
 FRAMES_PER_S = 50
@@ -79,13 +80,39 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
         )
     path = module("dtw.utils").make_path_strictly_monotonic(path)
     heard = ~np.isnan(recording.onset_s)
-    found = np.interp(notes.onset_s[heard] * FRAMES_PER_S, path[1], path[0]) / FRAMES_PER_S + first / rate
+    found: NDArray[np.float64] = (
+        np.interp(notes.onset_s[heard] * FRAMES_PER_S, path[1], path[0]) / FRAMES_PER_S + first / rate
+    )
     return Result(1000 * np.abs(found - recording.onset_s[heard]))
+
+
+def parangonar(recording: Recording, rate: int) -> Result:
+    """Its matcher of recordings and scores, which gives a time to every note."""
+    module: Any = importlib.import_module("parangonar")
+    notes = recording.score.notes
+    table = np.array(
+        [
+            (beat, duration, int(pitch), f"n{index}")
+            for index, (beat, duration, pitch) in enumerate(
+                zip(notes.onset_beats, notes.duration_beats, notes.sounding_pitch, strict=True)
+            )
+        ],
+        dtype=[("onset_beat", "f8"), ("duration_beat", "f8"), ("pitch", "i4"), ("id", "U16")],
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found: list[dict[str, Any]] = module.AudioToScoreMatcher()(recording.samples, table, sample_rate=rate)
+    at = np.full(len(notes), np.nan)
+    for event in found:
+        if event.get("score_id") is not None and event.get("performance_time") is not None:
+            at[int(str(event["score_id"])[1:])] = float(event["performance_time"])
+    heard = ~np.isnan(recording.onset_s) & ~np.isnan(at)
+    return Result(1000 * np.abs(at[heard] - recording.onset_s[heard]))
 
 
 OTHERS: dict[str, Callable[[Recording, int], Result]] = {
     name: aligner
-    for name, aligner in {"synctoolbox": synctoolbox}.items()
+    for name, aligner in {"synctoolbox": synctoolbox, "parangonar": parangonar}.items()
     if importlib.util.find_spec(name) is not None
 }
 """Those that are installed."""

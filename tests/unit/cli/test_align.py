@@ -17,7 +17,8 @@ MOVED = Rendition("taps", (0.85, 0.1), transposition=-3, cents=35, lead_in_s=2, 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("recording") / "taps.flac"
-    soundfile.write(path, record(MOVED).samples, RATE)
+    with soundfile.SoundFile(path, "w", samplerate=RATE, channels=1, format="FLAC") as file:
+        file.write(record(MOVED).samples)
     return path
 
 

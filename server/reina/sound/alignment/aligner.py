@@ -85,7 +85,7 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
         score: What is played in it.
         progress: Is told how far the work is.
     """
-    tell = progress or (lambda _: None)
+    tell = progress or _tell_nobody
     song_duration_s = len(samples) / rate
     unlike = Alignment.identity(score.duration_s, song_duration_s, is_same_music=False)
     if not np.any(samples):
@@ -132,6 +132,10 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     applause = sounds_after(samples, rate, begins_s, found.ends_s)
     tell(1.0)
     return replace(found, count_in=counted, sounds_after=applause)
+
+
+def _tell_nobody(_: float) -> None:
+    pass
 
 
 def _score_features(notes: ScoreNotes, onset_s: Times, end_s: Times, duration_s: float) -> Floats:

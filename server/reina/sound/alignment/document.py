@@ -97,14 +97,18 @@ def alignment_of(document: AlignmentDocument) -> Alignment:
     Raises:
         AlignmentError: It runs backwards or leaves the recording; `location` says where.
     """
-    fields = {name: getattr(document, name) for name in AlignmentDocument.model_fields if name != "version"}
     return Alignment(
-        **{
-            **fields,
-            "points": tuple(MapPoint(**point.model_dump()) for point in document.points),
-            "gaps": tuple(Gap(**gap.model_dump()) for gap in document.gaps),
-            "anchors": tuple(Anchor(**anchor.model_dump()) for anchor in document.anchors),
-        }
+        points=tuple(MapPoint(**point.model_dump()) for point in document.points),
+        score_duration_s=document.score_duration_s,
+        song_duration_s=document.song_duration_s,
+        gaps=tuple(Gap(**gap.model_dump()) for gap in document.gaps),
+        is_same_music=document.is_same_music,
+        transposition=document.transposition,
+        tuning_cents=document.tuning_cents,
+        count_in=document.count_in,
+        sounds_after=document.sounds_after,
+        anchors=tuple(Anchor(**anchor.model_dump()) for anchor in document.anchors),
+        offset_s=document.offset_s,
     )
 
 

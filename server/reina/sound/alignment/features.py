@@ -85,9 +85,10 @@ def _height(energies: Floats, sounds: NDArray[np.bool_]) -> Floats:
     shares = octaves / np.maximum(octaves.sum(axis=1, keepdims=True), 1e-6)
     if not sounds.any():
         return np.zeros_like(shares)
-    off = (shares - shares[sounds].mean(axis=0)) * sounds[:, None]
-    usual = max(float(np.sqrt(np.mean(np.sum(off[sounds] ** 2, axis=1)))), 1e-3)
-    return off / np.maximum(np.linalg.norm(off, axis=1, keepdims=True), usual)
+    off: Floats = (shares - shares[sounds].mean(axis=0)) * sounds[:, None]
+    lengths: Floats = np.linalg.norm(off, axis=1, keepdims=True)
+    usual = max(float(np.sqrt(np.mean(np.square(lengths[sounds])))), 1e-3)
+    return off / np.maximum(lengths, usual)
 
 
 def _strongest_near(values: NDArray[np.float32], reach: int) -> NDArray[np.float32]:

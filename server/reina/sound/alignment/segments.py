@@ -73,8 +73,10 @@ def stretches_of(path: Path, frame_s: float, *, centred: bool) -> list[Stretch]:
     skipped_score = (np.diff(at) - LARGEST_STEP) * frame_s
     cuts = np.flatnonzero(np.maximum(skipped_song, skipped_score) > SMALLEST_GAP_S) + 1
     found: list[Stretch] = []
-    for piece_rows, piece_at in zip(np.split(rows, cuts), np.split(at, cuts), strict=True):
-        stretch = Stretch((piece_rows + shift) * frame_s, (piece_at + shift) * frame_s)
+    song_s: Times = (rows.astype(np.float64) + shift) * frame_s
+    score_s: Times = (at.astype(np.float64) + shift) * frame_s
+    for pieces in zip(np.split(song_s, cuts), np.split(score_s, cuts), strict=True):
+        stretch = Stretch(*pieces)
         if stretch.score_s[-1] - stretch.score_s[0] >= SHORTEST_S:
             found.append(stretch)
     return found

@@ -15,7 +15,11 @@ FORMS = {"WAV": "PCM_16", "FLAC": "PCM_16", "MP3": "MPEG_LAYER_III", "OGG": "VOR
 
 def a_file(samples: np.ndarray[tuple[int, ...], np.dtype[np.float64]], rate: int, form: str = "WAV") -> bytes:
     file = io.BytesIO()
-    soundfile.write(file, samples, rate, format=form.split()[0], subtype=FORMS[form])
+    channels = 1 if samples.ndim == 1 else samples.shape[1]
+    with soundfile.SoundFile(
+        file, "w", samplerate=rate, channels=channels, format=form.split()[0], subtype=FORMS[form]
+    ) as sound:
+        sound.write(samples)
     return file.getvalue()
 
 
