@@ -12,6 +12,13 @@ from reina.sound.recording.mono import Thinner, read_mono
 
 FORMS = {"WAV": "PCM_16", "FLAC": "PCM_16", "MP3": "MPEG_LAYER_III", "OGG": "VORBIS", "OGG Opus": "OPUS"}
 
+KINDS = [
+    *((form, rate) for form in ("WAV", "FLAC") for rate in (22_050, 44_100, 48_000, 96_000)),
+    *((form, rate) for form in ("MP3", "OGG") for rate in (22_050, 44_100, 48_000)),
+    ("OGG Opus", 48_000),
+]
+"""Formats and the rates that they have."""
+
 
 def a_file(samples: np.ndarray[tuple[int, ...], np.dtype[np.float64]], rate: int, form: str = "WAV") -> bytes:
     file = io.BytesIO()
@@ -35,11 +42,8 @@ def clicks(
     return sound
 
 
-@pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("rate", [22_050, 44_100, 48_000, 96_000])
+@pytest.mark.parametrize(("form", "rate"), KINDS)
 def test_what_sounds_stays_where_it_is(form: str, rate: int):
-    if (rate > 48_000 and form not in ("WAV", "FLAC")) or (form == "OGG Opus" and rate != 48_000):
-        pytest.skip("the format has no such rate")
     samples, kept = read_mono(a_file(clicks(rate, [0.5, 1.25]), rate, form))
     assert 20_000 <= kept < 40_000
     assert len(samples) / kept == pytest.approx(2.0, abs=2e-3)
