@@ -69,7 +69,7 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
                 f_peaks=peaks, feature_sequence_length=tones.shape[1], feature_rate=FRAMES_PER_S
             )
             pairs.append((tones, begins))
-        path = module("dtw.mrmsdtw").sync_via_mrmsdtw(
+        steps = module("dtw.mrmsdtw").sync_via_mrmsdtw(
             f_chroma1=pairs[0][0],
             f_onset1=pairs[0][1],
             f_chroma2=pairs[1][0],
@@ -78,12 +78,10 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
             step_weights=np.array([1.5, 1.5, 2.0]),
             threshold_rec=10**6,
         )
-    path = module("dtw.utils").make_path_strictly_monotonic(path)
+    path: NDArray[np.float64] = module("dtw.utils").make_path_strictly_monotonic(steps)
     heard = ~np.isnan(recording.onset_s)
-    found: NDArray[np.float64] = (
-        np.interp(notes.onset_s[heard] * FRAMES_PER_S, path[1], path[0]) / FRAMES_PER_S + first / rate
-    )
-    return Result(1000 * np.abs(found - recording.onset_s[heard]))
+    frames: NDArray[np.float64] = np.interp(notes.onset_s[heard] * FRAMES_PER_S, path[1], path[0])
+    return Result(1000 * np.abs(frames / FRAMES_PER_S + first / rate - recording.onset_s[heard]))
 
 
 def parangonar(recording: Recording, rate: int) -> Result:

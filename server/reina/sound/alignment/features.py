@@ -88,7 +88,7 @@ def _height(energies: Floats, sounds: NDArray[np.bool_]) -> Floats:
     off: Floats = (shares - shares[sounds].mean(axis=0)) * sounds[:, None]
     lengths: Floats = np.linalg.norm(off, axis=1, keepdims=True)
     usual = max(float(np.sqrt(np.mean(np.square(lengths[sounds])))), 1e-3)
-    return off / np.maximum(lengths, usual)
+    return (off / np.maximum(lengths, usual)).astype(np.float32)
 
 
 def _strongest_near(values: NDArray[np.float32], reach: int) -> NDArray[np.float32]:
