@@ -17,7 +17,6 @@ from tests.unit.sound.alignment.bed import Result
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
     from tests.unit.sound.alignment.renditions import Recording
 
 FRAMES_PER_S = 50
@@ -78,9 +77,10 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
             step_weights=np.array([1.5, 1.5, 2.0]),
             threshold_rec=10**6,
         )
-    path: NDArray[np.float64] = module("dtw.utils").make_path_strictly_monotonic(steps)
+    path: Any = module("dtw.utils").make_path_strictly_monotonic(steps)
     heard = ~np.isnan(recording.onset_s)
-    frames: NDArray[np.float64] = np.interp(notes.onset_s[heard] * FRAMES_PER_S, path[1], path[0])
+    at_song, at_score = (np.asarray(row, dtype=np.float64) for row in path)
+    frames = np.interp(notes.onset_s[heard] * FRAMES_PER_S, at_score, at_song)
     return Result(1000 * np.abs(frames / FRAMES_PER_S + first / rate - recording.onset_s[heard]))
 
 
