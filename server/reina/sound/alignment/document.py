@@ -66,8 +66,8 @@ def write_alignment(alignment: Alignment) -> bytes:
     document = {
         "version": 1,
         **{name: getattr(alignment, name) for name in AlignmentDocument.model_fields if name != "version"},
-        "points": [_rounded(point) for point in alignment.points],
-        "gaps": [_rounded(gap) for gap in alignment.gaps],
+        "points": [_rounded(point, alignment.song_duration_s) for point in alignment.points],
+        "gaps": [_rounded(gap, alignment.song_duration_s) for gap in alignment.gaps],
         "anchors": [vars(anchor) for anchor in alignment.anchors],
     }
     return json_text(document)
@@ -120,5 +120,10 @@ def _words(place: str | None, kind: str) -> str | None:
     return None
 
 
-def _rounded(item: MapPoint | Gap) -> dict[str, float]:
-    return {name: round(value, 4) for name, value in vars(item).items()}
+def _rounded(item: MapPoint | Gap, song_duration_s: float) -> dict[str, float]:
+    """Rounded, but not out of the recording."""
+    rounded = {name: round(value, 4) for name, value in vars(item).items()}
+    return {
+        name: min(value, song_duration_s) if name.startswith("song") else value
+        for name, value in rounded.items()
+    }

@@ -85,6 +85,13 @@ def test_a_document_holds_all_of_it(alignment: Alignment):
     assert len(again.points) == len(alignment.points)
 
 
+def test_rounding_does_not_leave_the_recording():
+    end_s = 10.00006
+    points = (MapPoint(0, 0, 1), MapPoint(10, end_s, 1))
+    again = read_alignment(write_alignment(Alignment(points, score_duration_s=10, song_duration_s=end_s)))
+    assert again.points[-1].song_s == end_s
+
+
 def test_between_points_and_beyond_them():
     assert FOUND.song_times([5, 15, 25]) == pytest.approx([8.5, 18, 28])
     assert FOUND.song_times(-1) == 2
