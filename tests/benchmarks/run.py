@@ -9,7 +9,7 @@ from pathlib import Path
 from machine import machine
 
 FOLDER = Path(__file__).parent
-LONGEST_S = 120
+LONGEST_S = 300
 
 
 def main() -> int:

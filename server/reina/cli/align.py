@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from reina.sound.alignment import align, write_alignment
 from reina.sound.recording.mono import read_mono
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Iterable
 
     from reina.music import Score
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument("score", type=Path, metavar="SCORE", help="a MIDI file or a JSON score")
     parser.add_argument(
-        "recording", type=Path, metavar="RECORDING", help="WAV, AIFF, FLAC, MP3, Ogg Vorbis or Opus"
+        "recording", type=Path, metavar="RECORDING", help="WAV, FLAC, MP3, Ogg Vorbis or Opus"
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where to write the map, as JSON")
 
@@ -65,7 +65,8 @@ def lines(score: Score, alignment: Alignment) -> Iterable[str]:
     if not alignment.is_same_music:
         yield "This recording is not the music of this score, or too unlike it; both are left to begin at 0."
         return
-    yield f"The music begins at {alignment.begins_s:.2f} s and ends at {alignment.ends_s:.2f} s: {_sure(alignment)}."
+    begins_s, ends_s = alignment.begins_s, alignment.ends_s
+    yield f"The music begins at {begins_s:.2f} s and ends at {ends_s:.2f} s: {_sure(alignment)}."
     yield from _around(alignment)
     if alignment.transposition:
         size, way = abs(alignment.transposition), "above" if alignment.transposition > 0 else "below"
@@ -104,7 +105,8 @@ def _gap(score: Score, gap: Gap) -> str:
         )
     if gap.song_length_s > TOLD_S:
         said.append(
-            f"{gap.song_length_s:.1f} s of the recording are not in the score, or are a repeat that it does not have"
+            f"{gap.song_length_s:.1f} s of the recording are not in the score, "
+            "or are a repeat that it does not have"
         )
     return f"At {gap.song_from_s:.2f} s {'; and '.join(said)}."
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from reina.music import Score
-    from reina.sound.alignment.aligner import Aligner
+    from reina.sound.alignment.aligner_process import Aligner
     from reina.sound.alignment.alignment import Alignment
 
 TOLD_STEP = 0.05

@@ -24,7 +24,7 @@ from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
-from reina.sound.alignment.aligner import Aligner
+from reina.sound.alignment.aligner_process import Aligner
 from reina.sound.recording.decoder import SongDecoder
 from reina.system.atomic_write import write_atomically
 from reina.system.tokens import hash_token, new_token

@@ -1,6 +1,6 @@
-"""A recording in time with its score: the map between both times, found from the sound and put right by hand."""
+"""A recording in time with its score: the map between both times, found by ear and put right by hand."""
 
-from reina.sound.alignment.align import align
+from reina.sound.alignment.aligner import align
 from reina.sound.alignment.alignment import Alignment, AlignmentError, Anchor, Gap, MapPoint
 from reina.sound.alignment.document import (
     AlignmentDocument,

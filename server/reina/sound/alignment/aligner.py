@@ -1,125 +1,238 @@
-"""Has recordings put in time with their scores by processes of their own, which a server outlives."""
+"""Finds where each note of a score is heard in a recording. docs/alignment.md says how."""
 
-from __future__ import annotations
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
-import asyncio
-import logging
-import subprocess
-import sys
-from typing import TYPE_CHECKING, cast
+import numpy as np
 
-from reina.errors import InputError
+from reina.music import Score
 from reina.sound.alignment.alignment import Alignment
-from reina.system.parcel import receive, send
+from reina.sound.alignment.assemble import assemble
+from reina.sound.alignment.bands import Floats, band_energies, rises, tuning_of
+from reina.sound.alignment.chords import HeardStretch, ScoreNotes, hear_stretch
+from reina.sound.alignment.features import frame_features, pooled, transposed
+from reina.sound.alignment.onsets import FRAMES_PER_S as ONSET_FRAMES_PER_S
+from reina.sound.alignment.onsets import WINDOW_S as ONSET_WINDOW_S
+from reina.sound.alignment.path import Likeness, Path, Rules, best_path
+from reina.sound.alignment.sameness import LEAST, earned_share, sameness
+from reina.sound.alignment.score_bands import Times, score_energies
+from reina.sound.alignment.segments import (
+    BentTime,
+    Stretch,
+    band_around,
+    bend_as_a_whole,
+    bend_to,
+    stretches_of,
+)
+from reina.sound.alignment.surroundings import count_in, first_beat_s, sounds_after
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
-    from typing import BinaryIO
+FRAMES_PER_S = 50
+WINDOW_S = 0.17
+COARSE_FRAMES, STEADY_FRAMES = 10, 5
+"""So many frames are one where the whole is looked at: 0.2 s in any key, then 0.1 s in the right one."""
+MOST_FRAMES = 4000
+"""More than so many are not compared all with all; of a long piece each is longer."""
+THRESHOLD = 0.7
+COARSE_COSTS = (0.1, 0.0, 0.1, 0.3)
+STEADY_COSTS = (0.35, 0.0, 0.35, 1.0)
+FINE_COSTS = (0.4, 0.0, 0.4, 1.2)
+"""The first search is to find any tempo; the later ones have the score at the recording's."""
+GAP_S = 2.0
+"""A gap costs what so many seconds of music earn."""
+REACH_S, REACH_FRAMES = 1.0, 5
+"""How far from the coarse path the fine one is looked for: so long, or so many frames of the coarse one."""
+TRANSPOSITIONS = range(-6, 6)
+"""All keys: twelve, as the tones of an octave know no more."""
+UNTRANSPOSED_BONUS = 1.1
+"""The score's own key is taken unless another is better by more: a scale is like itself in every key."""
+FEWEST_CHORDS = 2
+"""A stretch of fewer notes is taken for chance."""
 
-    from reina.music import Score
-
-PROGRAM = (sys.executable, "-m", "reina.sound.alignment.worker")
-TIMEOUT_S = 600.0
-"""Ten times what an hour of music takes on a core that nobody else uses."""
-MAX_AT_ONCE = 1
-
-log = logging.getLogger(__name__)
+Progress = Callable[[float], None]
+"""Is told the share of the work that is done, 0..1, rising."""
 
 
-class Aligner:
-    """Aligns recordings, one after the other.
+@dataclass(frozen=True, eq=False)
+class _Whole:
+    """What the first look at the whole says.
+
+    Attributes:
+        transposition: The key in which the path earns most.
+        stretches: What goes together.
+        in_all_keys: What a path earns in each key.
+    """
+
+    transposition: int
+    stretches: list[Stretch]
+    in_all_keys: list[float]
+
+
+@dataclass(frozen=True, eq=False)
+class _Followed:
+    """A path by frames, cut into stretches, in the score's time; what it earns; how long its frames are."""
+
+    stretches: list[Stretch]
+    earned: float
+    frame_s: float
+
+
+def align(samples: Floats, rate: int, score: Score, progress: Progress | None = None) -> Alignment:
+    """Find where a score is heard in a recording.
 
     Args:
-        program: What is started, with the recording's path as its argument.
-        timeout_s: How long one may take before it is stopped.
-        most_at_once: How many run at once; others wait for their turn.
+        samples: (S,) the recording, mono; 20,000 to 48,000 samples a second tell enough.
+        rate: Samples a second.
+        score: What is played in it.
+        progress: Is told how far the work is.
     """
-
-    def __init__(
-        self,
-        *,
-        program: Sequence[str] = PROGRAM,
-        timeout_s: float = TIMEOUT_S,
-        most_at_once: int = MAX_AT_ONCE,
-    ) -> None:
-        self._program = tuple(program)
-        self._timeout_s = timeout_s
-        self._turns = asyncio.Semaphore(most_at_once)
-        self._under_way: set[asyncio.Task[Alignment | InputError]] = set()
-
-    async def align(self, song: Path, score: Score, tell: Callable[[float], None]) -> Alignment:
-        """Find where a score is heard in a recording. Cancelled, it stops the process.
-
-        Args:
-            song: The recording's file.
-            score: What is played in it.
-            tell: Called with the share that is done, 0..1.
-
-        Raises:
-            InputError: The recording cannot be decoded, or it takes too long, or its process ended.
-        """
-        loop = asyncio.get_running_loop()
-        async with self._turns:
-            process = await asyncio.to_thread(
-                subprocess.Popen, (*self._program, str(song)), stdin=subprocess.PIPE, stdout=subprocess.PIPE
-            )
-
-            def tell_loop(share: float) -> None:
-                loop.call_soon_threadsafe(tell, share)
-
-            following = asyncio.create_task(asyncio.to_thread(_follow, process, score, tell_loop))
-            self._under_way.add(following)
-            following.add_done_callback(self._under_way.discard)
-            try:
-                async with asyncio.timeout(self._timeout_s):
-                    # Shielded: the thread reads on until the process is gone, and is waited for below.
-                    outcome = await asyncio.shield(following)
-            except TimeoutError as error:
-                detail = f"looking for the music in the recording took over {self._timeout_s:.0f} s"
-                raise InputError(detail) from error
-            except EOFError as error:
-                log.warning("the aligner of %s ended early", song.parent.name)
-                raise InputError("the search for the music in the recording failed") from error
-            finally:
-                process.kill()
-                await asyncio.wait([following])
-                await asyncio.to_thread(_end, process)
-        if isinstance(outcome, InputError):
-            raise outcome
-        return outcome
-
-    async def aclose(self) -> None:
-        """Wait until the processes of searches that were cancelled are gone."""
-        if self._under_way:
-            await asyncio.wait(self._under_way)
+    tell = progress or _tell_nobody
+    song_duration_s = len(samples) / rate
+    unlike = Alignment.identity(score.duration_s, song_duration_s, is_same_music=False)
+    if not np.any(samples):
+        return unlike
+    notes = ScoreNotes.of(score)
+    tuning_cents = tuning_of(samples, rate)
+    tell(0.05)
+    energies = band_energies(
+        samples, rate, frames_per_s=FRAMES_PER_S, window_s=WINDOW_S, tuning_cents=tuning_cents
+    )
+    recording = frame_features(energies, rises(energies), FRAMES_PER_S)
+    tell(0.2)
+    whole = _look_at_whole(recording, notes, score.duration_s, lambda share: tell(0.2 + 0.3 * share))
+    if not whole.stretches:
+        return unlike
+    steady = _follow_steadily(recording, notes, whole, score.duration_s)
+    tell(0.55)
+    if not steady.stretches:
+        return unlike
+    fine = _follow_finely(recording, notes, steady, whole.transposition, score.duration_s)
+    tell(0.65)
+    sharp = band_energies(
+        samples,
+        rate,
+        frames_per_s=ONSET_FRAMES_PER_S,
+        window_s=ONSET_WINDOW_S,
+        tuning_cents=tuning_cents,
+    )
+    risen = rises(sharp)
+    tell(0.85)
+    beats_s = score.tempo_map.seconds(np.arange(0.0, np.ceil(score.duration_beats) + 1))
+    heard = [hear_stretch(notes, stretch, risen, beats_s, whole.transposition) for stretch in fine.stretches]
+    heard = [stretch for stretch in heard if len(stretch.chord_s) >= FEWEST_CHORDS]
+    tell(0.95)
+    if not heard or sameness(fine.earned, whole.in_all_keys, _confidence(heard)) < LEAST:
+        return unlike
+    found = replace(
+        _put_together(heard, notes, score.duration_s, song_duration_s),
+        transposition=whole.transposition,
+        tuning_cents=round(tuning_cents, 1),
+    )
+    begins_s = found.song_times(float(notes.onset_s[0]))
+    counted = count_in(risen, ONSET_FRAMES_PER_S, begins_s, first_beat_s(found.song_times(beats_s)))
+    applause = sounds_after(samples, rate, begins_s, found.ends_s)
+    tell(1.0)
+    return replace(found, count_in=counted, sounds_after=applause)
 
 
-def _follow(
-    process: subprocess.Popen[bytes], score: Score, tell: Callable[[float], None]
-) -> Alignment | InputError:
-    """Send the score, and hear what comes back.
+def _tell_nobody(_: float) -> None:
+    pass
 
-    Raises:
-        EOFError: The process ended before it had told an outcome.
+
+def _score_features(notes: ScoreNotes, onset_s: Times, end_s: Times, duration_s: float) -> Floats:
+    tones = ~notes.is_drum
+    energies, risen = score_energies(
+        onset_s[tones],
+        end_s[tones],
+        notes.pitch[tones],
+        notes.velocity[tones],
+        frames_per_s=FRAMES_PER_S,
+        frames=int(duration_s * FRAMES_PER_S) + 2,
+    )
+    return frame_features(energies, risen, FRAMES_PER_S)
+
+
+def _bent_features(notes: ScoreNotes, bent: BentTime, transposition: int) -> Floats:
+    onset_s, end_s = bent.bend(notes.onset_s), bent.bend(notes.end_s)
+    return transposed(_score_features(notes, onset_s, end_s, float(bent.bent_s[-1])), transposition)
+
+
+def _frames_in_one(usual: int, *features: Floats) -> int:
+    return max(usual, *(-(-len(each) // MOST_FRAMES) for each in features))
+
+
+def _look_at_whole(recording: Floats, notes: ScoreNotes, duration_s: float, tell: Progress) -> _Whole:
+    """The best way through all of both, in the key in which it earns most."""
+    score = _score_features(notes, notes.onset_s, notes.end_s, duration_s)
+    count = _frames_in_one(COARSE_FRAMES, recording, score)
+    frame_s = count / FRAMES_PER_S
+    coarse_recording, coarse_score = pooled(recording, count), pooled(score, count)
+    rules = Rules(COARSE_COSTS, GAP_S / frame_s)
+    paths: list[Path] = []
+    earned: list[float] = []
+    for semitones in TRANSPOSITIONS:
+        moved = transposed(coarse_score, semitones)
+        likeness = Likeness.by_chance(coarse_recording, moved, THRESHOLD)
+        paths.append(best_path(coarse_recording, moved, likeness, rules))
+        earned.append(earned_share(paths[-1], coarse_recording, moved))
+        tell(len(paths) / len(TRANSPOSITIONS))
+    valued = [
+        share * (UNTRANSPOSED_BONUS if semitones == 0 else 1)
+        for semitones, share in zip(TRANSPOSITIONS, earned, strict=True)
+    ]
+    best = int(np.argmax(valued))
+    return _Whole(TRANSPOSITIONS[best], stretches_of(paths[best], frame_s, centred=True), earned)
+
+
+def _follow_steadily(recording: Floats, notes: ScoreNotes, whole: _Whole, duration_s: float) -> _Followed:
+    """The way through all of both anew, the score at the recording's tempo as a whole.
+
+    Another tempo than that then has its price: what the recording repeats is a gap, and not the music at half
+    its tempo.
     """
-    to, back = cast("BinaryIO", process.stdin), cast("BinaryIO", process.stdout)
-    try:
-        send(to, score)
-    except OSError as error:
-        raise EOFError(str(error)) from error
-    while True:
-        told: object = receive(back)
-        if isinstance(told, Alignment | InputError):
-            return told
-        tell(cast("float", told))
+    bent = bend_as_a_whole(whole.stretches, duration_s)
+    score = _bent_features(notes, bent, whole.transposition)
+    count = _frames_in_one(STEADY_FRAMES, recording, score)
+    frame_s = count / FRAMES_PER_S
+    coarse_recording, coarse_score = pooled(recording, count), pooled(score, count)
+    likeness = Likeness.by_chance(coarse_recording, coarse_score, THRESHOLD)
+    path = best_path(coarse_recording, coarse_score, likeness, Rules(STEADY_COSTS, GAP_S / frame_s))
+    stretches = [stretch.straightened(bent) for stretch in stretches_of(path, frame_s, centred=True)]
+    return _Followed(stretches, earned_share(path, coarse_recording, coarse_score), frame_s)
 
 
-def _end(process: subprocess.Popen[bytes]) -> None:
-    for pipe in (process.stdin, process.stdout):
-        if pipe is not None:
-            try:
-                pipe.close()
-            except OSError:
-                continue
-    process.wait()
+def _follow_finely(
+    recording: Floats, notes: ScoreNotes, steady: _Followed, transposition: int, duration_s: float
+) -> _Followed:
+    """The way by single frames, near where it was found, the score at the recording's tempo everywhere."""
+    bent = bend_to(steady.stretches, duration_s)
+    score = _bent_features(notes, bent, transposition)
+    band = band_around(
+        steady.stretches,
+        bent,
+        rows=len(recording),
+        columns=len(score),
+        frames_per_s=FRAMES_PER_S,
+        reach_s=max(REACH_S, REACH_FRAMES * steady.frame_s),
+    )
+    likeness = Likeness.by_chance(recording, score, THRESHOLD)
+    path = best_path(recording, score, likeness, Rules(FINE_COSTS, GAP_S * FRAMES_PER_S), band)
+    frame_s = 1 / FRAMES_PER_S
+    stretches = [stretch.straightened(bent) for stretch in stretches_of(path, frame_s, centred=False)]
+    return _Followed(stretches, earned_share(path, recording, score), frame_s)
+
+
+def _confidence(heard: list[HeardStretch]) -> float:
+    return float(np.mean(np.concatenate([stretch.agreement for stretch in heard])))
+
+
+def _put_together(
+    heard: list[HeardStretch], notes: ScoreNotes, duration_s: float, song_duration_s: float
+) -> Alignment:
+    assembled = assemble(
+        heard,
+        first_onset_s=float(notes.onset_s[0]),
+        last_onset_s=float(notes.onset_s[-1]),
+        end_s=duration_s,
+        song_duration_s=song_duration_s,
+    )
+    return Alignment(assembled.points, duration_s, song_duration_s, assembled.gaps)

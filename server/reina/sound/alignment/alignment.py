@@ -1,4 +1,4 @@
-"""Where each place of a score is heard in a recording: a monotone map between two times, and how sure it is."""
+"""Where each place of a score is heard in a recording: a monotone map of two times, and how sure it is."""
 
 from __future__ import annotations
 
@@ -81,10 +81,10 @@ class Anchor:
 class Alignment:
     """A recording in time with its score: what was found, and what a person has put right.
 
-    The map goes in straight lines from point to point and never backwards. Where the recording leaves something
-    of the score out, many places of the score are at one of the recording; where the recording has something
-    that the score has not, one place of the score is at many of the recording. At such a place both directions
-    say what comes after it. Before the first point and after the last, a second lasts a second.
+    The map goes in straight lines from point to point and never backwards. Where the recording leaves
+    something of the score out, many places of the score are at one of the recording; where the recording has
+    something that the score has not, one place of the score is at many of the recording. At such a place both
+    directions say what comes after it. Before the first point and after the last, a second lasts a second.
 
     What a person has put right stands beside what was found and never replaces it: see `corrected`.
 
@@ -122,7 +122,8 @@ class Alignment:
         _check_anchors(self.anchors, self.song_duration_s)
         if abs(self.offset_s) > self.song_duration_s:
             raise AlignmentError(
-                f"{self.offset_s:g} s moves everything out of the song, which lasts {self.song_duration_s:.3f} s",
+                f"{self.offset_s:g} s moves everything out of the song, which lasts "
+                f"{self.song_duration_s:.3f} s",
                 location="offset_s",
             )
         score_s, song_s = corrected(self.points, self.anchors)
@@ -131,7 +132,7 @@ class Alignment:
 
     @classmethod
     def identity(cls, score_duration_s: float, song_duration_s: float, **found: Any) -> Alignment:
-        """Both begin at 0 and go on alike, and nothing is known of it; `found` is what else there is to say."""
+        """Both begin at 0 and go on alike, nothing being known; `found` is what else there is to say."""
         end_s = min(score_duration_s, song_duration_s)
         points = (MapPoint(0.0, 0.0, 0.0), MapPoint(end_s, end_s, 0.0))
         return cls(points, score_duration_s, song_duration_s, **found)
@@ -225,9 +226,10 @@ class Alignment:
 def corrected(points: Sequence[MapPoint], anchors: Sequence[Anchor]) -> tuple[Times, Times]:
     """What was found, warped so that it goes through what a person has said.
 
-    Every anchor is where it was put. From one to the next the found map is stretched evenly in the recording's
-    time, so that its tempo keeps its shape; where it does not move at all, as in what was thought to be left
-    out, it goes in a straight line. Before the first anchor and after the last, all is moved as that anchor was.
+    Every anchor is where it was put. From one to the next the found map is stretched evenly in the
+    recording's time, so that its tempo keeps its shape; where it does not move at all, as in what was thought
+    to be left out, it goes in a straight line. Before the first anchor and after the last, all is moved as
+    that anchor was.
 
     Returns:
         (P,) score times and (P,) song times of the points and anchors, neither ever falling.

@@ -1,6 +1,7 @@
 """Stretches of a score that are heard, put together to the map of the whole."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,7 +23,12 @@ class Assembled:
 
 
 def assemble(
-    stretches: list[HeardStretch], *, first_onset_s: float, last_onset_s: float, end_s: float, song_duration_s: float
+    stretches: list[HeardStretch],
+    *,
+    first_onset_s: float,
+    last_onset_s: float,
+    end_s: float,
+    song_duration_s: float,
 ) -> Assembled:
     """Put stretches together.
 
@@ -42,9 +48,7 @@ def assemble(
     song_s = np.concatenate([stretch.line_s for stretch in trimmed])
     confidence = np.concatenate([_confidence(stretch) for stretch in trimmed])
     gaps = [
-        _gap(before, after)
-        for index, (before, after) in enumerate(zip(trimmed, trimmed[1:], strict=False))
-        if edges[index + 1]
+        _gap(before, after) for index, (before, after) in enumerate(pairwise(trimmed)) if edges[index + 1]
     ]
     head, tail = trimmed[0], trimmed[-1]
     if edges[0]:
@@ -72,7 +76,7 @@ def _edges(stretches: list[HeardStretch], first_onset_s: float, last_onset_s: fl
     """Whether something is left out before each stretch, and after the last."""
     between = [
         max(after.knots_s[0] - before.knots_s[-1], after.line_s[0] - before.line_s[-1]) > SMALLEST_GAP_S
-        for before, after in zip(stretches, stretches[1:], strict=False)
+        for before, after in pairwise(stretches)
     ]
     return [
         bool(stretches[0].knots_s[0] - first_onset_s > SMALLEST_GAP_S),

@@ -73,7 +73,7 @@ def tuning_of(samples: Floats, rate: int) -> float:
     size = 1 << round(np.log2(TUNING_WINDOW_S * rate))
     if len(samples) < size:
         return 0.0
-    starts = np.unique(np.linspace(0, len(samples) - size, TUNING_FRAMES).astype(np.int64))
+    starts = np.unique(np.linspace(0, len(samples) - size, TUNING_FRAMES, dtype=np.int64))
     window = np.hanning(size).astype(np.float32)
     spectrum = np.abs(
         np.fft.rfft(np.lib.stride_tricks.sliding_window_view(samples, size)[starts] * window, axis=1)

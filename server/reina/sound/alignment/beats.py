@@ -1,4 +1,4 @@
-"""A tempo that goes smoothly from beat to beat, and jumps where the music does, through onsets that may err."""
+"""A tempo that goes smoothly from beat to beat, and jumps where the music does, through onsets that err."""
 
 import numpy as np
 

@@ -22,8 +22,8 @@ def _fields(alignment: Alignment) -> dict[str, object]:
     return {
         "version": 1,
         **{name: getattr(alignment, name) for name in AlignmentDocument.model_fields if name != "version"},
-        "points": [_rounded(point) for point in alignment.points],
-        "gaps": [_rounded(gap) for gap in alignment.gaps],
+        "points": [_rounded(point, alignment.song_duration_s) for point in alignment.points],
+        "gaps": [_rounded(gap, alignment.song_duration_s) for gap in alignment.gaps],
         "anchors": [vars(anchor) for anchor in alignment.anchors],
     }
 
@@ -52,14 +52,18 @@ def alignment_of(document: AlignmentDocument) -> Alignment:
     Raises:
         AlignmentError: It runs backwards or leaves the recording; `location` says where.
     """
-    fields = {name: getattr(document, name) for name in AlignmentDocument.model_fields if name != "version"}
     return Alignment(
-        **{
-            **fields,
-            "points": tuple(MapPoint(**point.model_dump()) for point in document.points),
-            "gaps": tuple(Gap(**gap.model_dump()) for gap in document.gaps),
-            "anchors": tuple(Anchor(**anchor.model_dump()) for anchor in document.anchors),
-        }
+        points=tuple(MapPoint(**point.model_dump()) for point in document.points),
+        score_duration_s=document.score_duration_s,
+        song_duration_s=document.song_duration_s,
+        gaps=tuple(Gap(**gap.model_dump()) for gap in document.gaps),
+        is_same_music=document.is_same_music,
+        transposition=document.transposition,
+        tuning_cents=document.tuning_cents,
+        count_in=document.count_in,
+        sounds_after=document.sounds_after,
+        anchors=tuple(Anchor(**anchor.model_dump()) for anchor in document.anchors),
+        offset_s=document.offset_s,
     )
 
 
@@ -71,5 +75,10 @@ def _words(place: str | None, kind: str) -> str | None:
     return None
 
 
-def _rounded(item: MapPoint | Gap) -> dict[str, float]:
-    return {name: round(value, 4) for name, value in vars(item).items()}
+def _rounded(item: MapPoint | Gap, song_duration_s: float) -> dict[str, float]:
+    """Rounded, but not out of the recording."""
+    rounded = {name: round(value, 4) for name, value in vars(item).items()}
+    return {
+        name: min(value, song_duration_s) if name.startswith("song") else value
+        for name, value in rounded.items()
+    }

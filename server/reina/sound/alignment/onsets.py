@@ -1,4 +1,4 @@
-"""Where each note begins in the recording, to a few milliseconds: a chain through what rises near the path."""
+"""Where each note begins in the recording, to a few milliseconds: a chain through what rises nearby."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -2,8 +2,8 @@
 
 A frame of the recording is heard at one frame of the score, or at none: before the music, after it, where the
 recording has what the score has not. From one frame of the recording to the next the score goes on by 0 to 3
-frames, or, through a gap, by any number: what the recording leaves out. A gap costs as much as `gap_cost`, and
-what is heard earns how much more alike it is than chance.
+frames, or, through a gap, by any number: what the recording leaves out. A gap costs something,
+and what is heard earns how much more alike it is than chance.
 """
 
 from dataclasses import dataclass
@@ -80,7 +80,8 @@ def best_path(
     gap[0] = 0.0
     indices = np.arange(columns, dtype=np.int32)
     before_low, before_high = int(band[0, 0]), int(band[0, 1])
-    end = columns - 1
+    # What is heard of the score's last frame, and when: after it nothing needs to follow.
+    finished = float(NEVER), 0
     most = MOST * np.maximum(0, activity(recording) - QUIET)
     for row in range(rows):
         low, high = int(band[row, 0]), int(band[row, 1])
@@ -103,9 +104,8 @@ def best_path(
         here = np.maximum.accumulate(best)
         came_from = np.maximum.accumulate(np.where(best >= here, indices[low:high], 0))
         entered = here - gap_cost
-        if high == columns and best[-1] > entered[-1]:
-            entered[-1] = best[-1]
-            came_from[-1] = end
+        if high == columns and best[-1] > finished[0]:
+            finished = float(best[-1]), row
         jump = np.where(entered > gap[low:high], came_from, UNHEARD).astype(np.int32)
         gap[low:high] = np.maximum(gap[low:high], entered)
         after[before_low + 3 : before_high + 3] = NEVER
@@ -115,7 +115,7 @@ def best_path(
         steps.append(step)
         jumps.append(jump)
         before_low, before_high = low, high
-    return _trace(heard[3:], gap, band, steps, jumps, rules.gap_cost)
+    return _trace(heard[3:], gap, band, steps, jumps, rules.gap_cost, finished)
 
 
 def _trace(
@@ -125,17 +125,21 @@ def _trace(
     steps: list[NDArray[np.int8]],
     jumps: list[NDArray[np.int32]],
     gap_cost: float,
+    finished: tuple[float, int],
 ) -> Path:
     rows, columns = len(steps), len(heard)
     low, high = int(band[-1, 0]), int(band[-1, 1])
-    # To end before the score's end leaves something out.
+    # To end before the score's end leaves something out; a gap has paid for it already.
     unfinished = np.where(np.arange(low, high) < columns - 1, np.float32(gap_cost), np.float32(0))
     last_heard, last_gap = heard[low:high] - unfinished, gap[low:high]
     in_gap = bool(last_gap.max() >= last_heard.max())
     at = low + int((last_gap if in_gap else last_heard).argmax())
-    reward = float(max(last_gap.max(), last_heard.max()))
+    reward, last_row = float(max(last_gap.max(), last_heard.max())), rows - 1
+    if finished[0] > reward:
+        reward, last_row = finished
+        at, in_gap = columns - 1, False
     places = np.full(rows, UNHEARD, dtype=np.int64)
-    for row in range(rows - 1, -1, -1):
+    for row in range(last_row, -1, -1):
         offset = int(band[row, 0])
         if in_gap:
             # What was entered at a frame was heard in it; the gap begins after it.

@@ -15,7 +15,13 @@ STRIKE_FRAMES = 2
 
 
 def score_energies(
-    onset_s: Times, end_s: Times, pitch: NDArray[np.int_], velocity: Times, *, frames_per_s: float, frames: int
+    onset_s: Times,
+    end_s: Times,
+    pitch: NDArray[np.int_],
+    velocity: Times,
+    *,
+    frames_per_s: float,
+    frames: int,
 ) -> tuple[Floats, Floats]:
     """Energy in each band and by how much it rises.
 
@@ -35,7 +41,9 @@ def score_energies(
     fading = np.exp(-np.arange(frames + STRIKE_FRAMES) / (frames_per_s * DECAY_S)).astype(np.float32)
     first = np.rint(onset_s * frames_per_s).astype(np.int64)
     last = np.maximum(np.rint(end_s * frames_per_s).astype(np.int64), first + 1)
-    columns = zip(first.tolist(), last.tolist(), (pitch - LOWEST_PITCH).tolist(), velocity.tolist(), strict=True)
+    columns = zip(
+        first.tolist(), last.tolist(), (pitch - LOWEST_PITCH).tolist(), velocity.tolist(), strict=True
+    )
     for begin, end, band, strength in columns:
         if 0 <= band < BANDS and begin < frames:
             end = min(end, frames)

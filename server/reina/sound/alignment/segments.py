@@ -1,11 +1,11 @@
-"""The stretches in which recording and score go together, from a path; and a score's time bent to the recording's."""
+"""The stretches in which recording and score go together, and a score's time bent to the recording's."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reina.sound.alignment.path import UNHEARD, LARGEST_STEP, Path
+from reina.sound.alignment.path import LARGEST_STEP, UNHEARD, Path
 from reina.sound.alignment.score_bands import Times
 
 SLOPE_REACH_S = 2.5
@@ -62,7 +62,7 @@ def stretches_of(path: Path, frame_s: float, *, centred: bool) -> list[Stretch]:
     Args:
         path: Of frames of equal length in both.
         frame_s: That length.
-        centred: Whether frame k begins at k * frame_s, and so stands for its middle, or stands for k * frame_s.
+        centred: Whether frame k stands for the middle of what begins at k * frame_s, or for that place.
     """
     rows = np.flatnonzero(path.at != UNHEARD)
     if not len(rows):
@@ -73,8 +73,10 @@ def stretches_of(path: Path, frame_s: float, *, centred: bool) -> list[Stretch]:
     skipped_score = (np.diff(at) - LARGEST_STEP) * frame_s
     cuts = np.flatnonzero(np.maximum(skipped_song, skipped_score) > SMALLEST_GAP_S) + 1
     found: list[Stretch] = []
-    for piece_rows, piece_at in zip(np.split(rows, cuts), np.split(at, cuts), strict=True):
-        stretch = Stretch((piece_rows + shift) * frame_s, (piece_at + shift) * frame_s)
+    song_s: Times = (rows.astype(np.float64) + shift) * frame_s
+    score_s: Times = (at.astype(np.float64) + shift) * frame_s
+    for pieces in zip(np.split(song_s, cuts), np.split(score_s, cuts), strict=True):
+        stretch = Stretch(*pieces)
         if stretch.score_s[-1] - stretch.score_s[0] >= SHORTEST_S:
             found.append(stretch)
     return found
@@ -102,8 +104,13 @@ def _tempos(stretches: list[Stretch]) -> tuple[Times, Times]:
     for stretch in stretches:
         reach = SLOPE_REACH_S
         centres = np.arange(stretch.song_s[0], stretch.song_s[-1] + GRID_S, 0.5)
-        low, high = np.maximum(centres - reach, stretch.song_s[0]), np.minimum(centres + reach, stretch.song_s[-1])
-        passed = np.interp(high, stretch.song_s, stretch.score_s) - np.interp(low, stretch.song_s, stretch.score_s)
+        low, high = (
+            np.maximum(centres - reach, stretch.song_s[0]),
+            np.minimum(centres + reach, stretch.song_s[-1]),
+        )
+        passed = np.interp(high, stretch.song_s, stretch.score_s) - np.interp(
+            low, stretch.song_s, stretch.score_s
+        )
         slopes.append(np.clip((high - low) / np.maximum(passed, 1e-3), SLOWEST, FASTEST))
         places.append(np.interp(centres, stretch.song_s, stretch.score_s))
     return np.concatenate(places), np.concatenate(slopes)
@@ -112,7 +119,7 @@ def _tempos(stretches: list[Stretch]) -> tuple[Times, Times]:
 def band_around(
     stretches: list[Stretch], bent: BentTime, *, rows: int, columns: int, frames_per_s: float, reach_s: float
 ) -> NDArray[np.int64]:
-    """Which frames of the bent score are looked at, at each frame of the recording: (rows, 2), never falling."""
+    """Which frames of the bent score are looked at, at each of the recording: (rows, 2), never falling."""
     times = np.arange(rows) / frames_per_s
     low = np.zeros(rows)
     high = np.full(rows, columns / frames_per_s)

@@ -1,4 +1,4 @@
-"""Puts one recording in time with its score, in a process that `reina.sound.alignment.aligner` starts.
+"""Puts one recording in time with its score, in a process that `reina.sound.alignment.aligner_process` starts.
 
     python -m reina.sound.alignment.worker SONG
 
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
-from reina.sound.alignment.align import align
+from reina.sound.alignment.aligner import align
 from reina.sound.recording.mono import read_mono
 from reina.system.own_process import bound_memory, end_with_parent, take_output, yield_to_server
 from reina.system.parcel import receive, send

@@ -82,7 +82,7 @@ def decode(streams: Iterable[SoundStream], listener: Listener | None = None) -> 
     Args:
         streams: What is decoded.
         listener: Is given every block that is decoded: ``(F, C)`` float32, which is overwritten afterwards,
-            and samples a second. What encoders add at the end is among it, beyond the length that is returned.
+            and samples a second. What encoders add at the end is among it, beyond the length returned.
 
     Raises:
         BrokenAudioError: There is no sound in them.

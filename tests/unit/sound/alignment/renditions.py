@@ -76,7 +76,7 @@ class Recording:
     Attributes:
         score: What it is to be aligned with.
         samples: (F,) float32 at RATE.
-        onset_s: (N,) where in the recording each note of the score begins; NaN where it is not heard, or twice.
+        onset_s: (N,) where each note of the score begins in the recording; NaN if it is not heard, or twice.
         rendition: What it was made by.
     """
 
@@ -140,9 +140,7 @@ def render(score: Score) -> Sound:
     return np.convolve(whole, (taps / taps.sum()).astype(np.float32), "same")[::2].astype(np.float32)
 
 
-def _tempo_curve(
-    score: Score, rendition: Rendition, random: np.random.Generator
-) -> tuple[Floats, Floats]:
+def _tempo_curve(score: Score, rendition: Rendition, random: np.random.Generator) -> tuple[Floats, Floats]:
     """The true map: score time and song time, before anything is put before it or cut out of it."""
     mean, depth = rendition.tempo
     times = np.arange(0.0, score.duration_s + 10, 0.05)

@@ -1,0 +1,95 @@
+"""How far off the onsets of recordings are found, and how long it takes; beside other aligners, if installed.
+
+Run as ``python tests/benchmarks/bench_alignment.py``. The recordings are the example scores, rendered at
+other tempos, by other instruments, cut, spoilt (tests/unit/sound/alignment/bed.py). Processor time counts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections import defaultdict
+from typing import TYPE_CHECKING
+
+import numpy as np
+from machine import heading, verdict
+from other_aligners import OTHERS
+from tests.unit.sound.alignment.bed import RATE, bed, measure, other_music
+from tests.unit.sound.alignment.renditions import Rendition, example, record
+
+from reina.sound.alignment import align
+
+if TYPE_CHECKING:
+    from tests.unit.sound.alignment.bed import Result
+
+MEDIAN_MS, P95_MS, FILE_MS, FILES_WITHIN, FOUR_MINUTES_S = 10.0, 40.0, 50.0, 0.95, 5.0
+FOUR_MINUTES = 240.0
+
+
+def main() -> int:
+    """Measure and print; the status is 1 when a bound is missed."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seed", type=int, default=1, help="another seed, other recordings")
+    parser.add_argument("--worst", type=int, default=3, help="how many of the worst are told")
+    options = parser.parse_args()
+    print(heading(__file__))
+    by_kind: dict[str, list[Result]] = defaultdict(list)
+    told: list[tuple[float, str]] = []
+    others: dict[str, list[Result]] = defaultdict(list)
+    refused = 0
+    for kind, rendition in bed(options.seed):
+        recording = record.__wrapped__(rendition)
+        alignment = align(recording.samples, RATE, recording.score)
+        refused += not alignment.is_same_music
+        result = measure(recording, alignment)
+        by_kind[kind].append(result)
+        told.append((result.p95_ms, f"{result.median_ms:.1f} / {result.p95_ms:.0f} ms: {kind}, {rendition}"))
+        if kind in ("smooth", "instruments"):
+            for name, other in OTHERS.items():
+                others[name].append(other(recording, RATE))
+                others[f"beside {name}"].append(result)
+    print(f"{'':18} files  median   p95 of all notes   files with a median within {FILE_MS:.0f} ms")
+    for kind, results in [*by_kind.items(), *others.items()]:
+        print(f"{kind:18} {_row(results)}")
+    everything = [result for results in by_kind.values() for result in results]
+    print(f"{'all':18} {_row(everything)}")
+    for _, line in sorted(told, reverse=True)[: options.worst]:
+        print(f"  {line}")
+    unlike = [
+        align(recording.samples, RATE, example(name)).is_same_music for recording, name in other_music()
+    ]
+    print(
+        f"taken for other music: {refused} of {len(everything)}; for the same: {sum(unlike)} of {len(unlike)}"
+    )
+    seconds = _four_minutes_s()
+    errors = np.concatenate([result.errors_ms for result in everything])
+    median, p95 = float(np.median(errors)), float(np.percentile(errors, 95))
+    outside = 1 - float(np.mean([result.median_ms <= FILE_MS for result in everything]))
+    print(verdict("median", median, MEDIAN_MS, "ms"))
+    print(verdict("p95", p95, P95_MS, "ms"))
+    print(verdict("files beyond 50 ms", 100 * outside, 100 * (1 - FILES_WITHIN), "%"))
+    print(verdict("four minutes of music", seconds, FOUR_MINUTES_S, "s"))
+    met = median <= MEDIAN_MS and p95 <= P95_MS and outside <= 1 - FILES_WITHIN and seconds <= FOUR_MINUTES_S
+    return 0 if met else 1
+
+
+def _row(results: list[Result]) -> str:
+    errors = np.concatenate([result.errors_ms for result in results])
+    within = np.mean([result.median_ms <= FILE_MS for result in results])
+    return (
+        f"{len(results):5}  {np.median(errors):6.1f}   {np.percentile(errors, 95):7.1f} ms"
+        f"          {100 * within:5.0f} %"
+    )
+
+
+def _four_minutes_s() -> float:
+    """Seconds of processor time for a song of four minutes: the march, three and a half times as slow."""
+    slow = FOUR_MINUTES / example("prince-of-denmarks-march").duration_s
+    recording = record.__wrapped__(Rendition("prince-of-denmarks-march", (slow, 0.05)))
+    begin = time.process_time()
+    align(recording.samples, RATE, recording.score)
+    return time.process_time() - begin
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
