@@ -193,7 +193,7 @@ class Alignment:
 
     @property
     def moves(self) -> bool:
-        """Whether anything is known that moves the score: it was found, or a person has put something right."""
+        """Whether anything moves the score: it was found, or a person has put something right."""
         return self.is_same_music or bool(self.anchors) or self.offset_s != 0
 
     @property

@@ -1,4 +1,4 @@
-"""Puts one recording in time with its score, in a process that `reina.sound.alignment.aligner_process` starts.
+"""Puts one recording in time with its score, in a process that `aligner_process` starts.
 
     python -m reina.sound.alignment.worker SONG
 
