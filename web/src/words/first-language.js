@@ -2,9 +2,12 @@
 // It stands in the page's head, so that its first sentence is right already.
 {
   const languages = ["en", "de", "ja"];
+  /** @type {unknown} */
   let kept;
   try {
-    kept = JSON.parse(localStorage.getItem("reina") ?? "{}").language;
+    /** @type {{ language?: unknown }} */
+    const stored = JSON.parse(localStorage.getItem("reina") ?? "{}");
+    kept = stored.language;
   } catch {
     kept = undefined;
   }

@@ -18,7 +18,7 @@ const FOR_PROGRAMMERS = /^(Type|Range|Rig|Layout)Error$/;
 /** Calls whose strings are the browser's or the API's. */
 const NOT_READ = /^(querySelector|querySelectorAll|closest|matchMedia|getContext|execCommand|matches)$/;
 /** What is the same in every language. */
-const NAMES = new Set(["Reina", "MIDI", "JSON", "BVH", "PNG", "PDF", "HTML", "MP4", "WebM"]);
+const NAMES = new Set(["Reina", "MIDI", "JSON", "BVH", "PNG", "PDF", "HTML", "MP4", "WebM", "Opus", "kB", "MB", "mm"]);
 /** What keys are called by KeyboardEvent, and other words of the web. */
 const WEB =
   /^(Arrow(Up|Down|Left|Right)|Home|End|Enter|Escape|Delete|Backspace|Tab|Space|Plus|Page(Up|Down)|Shift(\+.*)?|Control|Alt|Meta|Bearer|Accept|Authorization|Content-Type|If-Match|AbortError|Files)$/;
@@ -45,7 +45,7 @@ export function literalTexts(source: string, isComponent: boolean): string[] {
 function visit(node: Node, above: readonly Node[], found: string[]): void {
   if (isLeftOut(node, above)) return;
   const text = textOf(node, above);
-  if (text !== null && !NAMES.has(text.trim())) found.push(text.trim().replaceAll(/\s+/g, " "));
+  if (text !== null && !NAMES.has(text.replaceAll("…", "").trim())) found.push(text.trim().replaceAll(/\s+/g, " "));
   const path = [...above, node];
   for (const value of Object.values(node)) {
     for (const child of Array.isArray(value) ? value : [value]) if (isNode(child)) visit(child, path, found);
@@ -63,19 +63,24 @@ function textOf(node: Node, above: readonly Node[]): string | null {
     }
     return hasWord(data) ? data : null;
   }
-  if (node.type === "Literal" && typeof node["value"] === "string")
-    return isSentence(node["value"]) ? node["value"] : null;
+  if (node.type === "Literal" && typeof node["value"] === "string") {
+    const { value } = node;
+    return isSentence(value) || (isShown(above) && hasWord(value)) ? value : null;
+  }
   if (node.type === "TemplateLiteral") {
     const pieces = (node["quasis"] as readonly { value: { raw: string } }[]).map(({ value }) => value.raw);
     const whole = pieces.join("…");
-    return isSentence(whole) || (isRead(above) && pieces.some(hasWord)) ? whole : null;
+    return isSentence(whole) || (isShown(above) && pieces.some(hasWord)) ? whole : null;
   }
   return null;
 }
 
-/** Within an attribute that people read. */
-function isRead(above: readonly Node[]): boolean {
-  return above.some(({ type, name }) => type === "Attribute" && READ.has(String(name)));
+/** What an expression comes to that stands between tags, or in an attribute that people read: `{one ? "note" : "notes"}`. */
+function isShown(above: readonly Node[]): boolean {
+  const place = above.findLastIndex(({ type }) => !/^(Conditional|Logical)Expression$|^TemplateLiteral$/.test(type));
+  if (above[place]?.type !== "ExpressionTag") return false;
+  const parent = above[place - 1];
+  return parent?.type !== "Attribute" || READ.has(String(parent["name"]));
 }
 
 function hasWord(text: string): boolean {
@@ -85,18 +90,14 @@ function hasWord(text: string): boolean {
 /** Two words in a row, or one that begins with a capital. */
 function isSentence(text: string): boolean {
   const trimmed = text.trim();
-  if (WEB.test(trimmed) || /[;{}=]|^[.#[(/-]|gl_|vec\d/.test(trimmed)) return false;
+  if (WEB.test(trimmed) || /[;{}=]|^[.#[(/-]|gl_|vec\d|\bserif$|^\d+px /.test(trimmed)) return false;
   return /\p{L}[\p{L}’']*[,.:;]? [“„(]?(\p{L}|…)|… \p{L}{2}/u.test(trimmed) || /^\p{Lu}\p{Ll}+[ .!?…]*$/u.test(trimmed);
 }
 
 function isLeftOut(node: Node, above: readonly Node[]): boolean {
   const { type } = node;
-  if (
-    /^(Import|ExportAll|ExportNamed.*From|TS)/.test(type) &&
-    type !== "TSAsExpression" &&
-    type !== "TSSatisfiesExpression"
-  )
-    return !type.startsWith("TSNonNull");
+  if (/^Import|^ExportAll/.test(type)) return true;
+  if (/^TS(?!(As|Satisfies|NonNull|TypeAssertion)Expression$)/.test(type)) return true;
   if (type === "StyleDirective" || type === "ClassDirective") return true;
   if (type === "Attribute" && /^(class|style|d|href|type|accept|role|id|points|viewBox)$/.test(String(node["name"])))
     return true;

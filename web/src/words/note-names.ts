@@ -7,6 +7,9 @@ const KEY = /^([A-G])([♯♭]?) (major|minor)$/u;
 /** What German players call a letter with its accidental: B is H, B♭ is B. */
 const GERMAN: Readonly<Record<string, string>> = { B: "H", "B♭": "B", "E♭": "Es", "A♭": "As" };
 const GERMAN_ENDINGS: Readonly<Record<string, string>> = { "": "", "♯": "is", "♭": "es" };
+/** Signs of the octaves from the small one up, and from the great one down. */
+const ABOVE = ["", "′", "″", "‴", "⁗"];
+const BELOW = ["", "₁", "₂"];
 /** What Japanese players read a letter as, and what it is in the name of a key. */
 const SYLLABLES: Readonly<Record<string, string>> = { C: "ド", D: "レ", E: "ミ", F: "ファ", G: "ソ", A: "ラ", B: "シ" };
 const IROHA: Readonly<Record<string, string>> = { C: "ハ", D: "ニ", E: "ホ", F: "ヘ", G: "ト", A: "イ", B: "ロ" };
@@ -48,6 +51,7 @@ function inGerman(letter: string, sign: string): string {
 }
 
 function inGermanOctave(name: string, octave: number): string {
-  if (octave >= 3) return name.toLowerCase() + "′".repeat(octave - 3);
-  return name + "͵".repeat(2 - octave);
+  return octave >= 3
+    ? name.toLowerCase() + (ABOVE[octave - 3] ?? `${octave}`)
+    : name + (BELOW[2 - octave] ?? `${octave}`);
 }

@@ -35,5 +35,6 @@ export const piece = words("piece", {
   semitoneHigher: "A semitone higher",
   notPlayable: "not playable",
   open: "open",
+  valves: filled("valves: {valves}"),
   percent: filled("{number} %"),
 });
