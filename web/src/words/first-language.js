@@ -5,9 +5,9 @@
   /** @type {unknown} */
   let kept;
   try {
-    /** @type {{ language?: unknown }} */
+    /** @type {unknown} */
     const stored = JSON.parse(localStorage.getItem("reina") ?? "{}");
-    kept = stored.language;
+    if (stored instanceof Object && "language" in stored) kept = stored.language;
   } catch {
     kept = undefined;
   }
