@@ -1,11 +1,33 @@
+import { readFileSync } from "node:fs";
 import { svelte } from "@sveltejs/vite-plugin-svelte";
+import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
 
 // `REINA_URL=http://127.0.0.1:8000 npm run dev` develops the page against a running server.
 const server = process.env["REINA_URL"] ?? "http://127.0.0.1:8000";
 
+/** Puts into a page's head what finds its language, and into index.html its first words in the languages beside English. */
+function firstWords(): Plugin {
+  const read = (path: string): string => readFileSync(new URL(`src/words/${path}`, import.meta.url), "utf8");
+  return {
+    name: "first-words",
+    transformIndexHtml: {
+      order: "pre",
+      handler: (html) => {
+        const words = ["de", "ja"].map((code) => `"${code}": ${read(`first/${code}.json`).trim()}`);
+        return html
+          .replace(
+            /<script src="\/src\/words\/first-language.js"><\/script>/,
+            () => `<script>${read("first-language.js")}</script>`,
+          )
+          .replace("FIRST_WORDS", () => `{ ${words.join(", ")} }`);
+      },
+    },
+  };
+}
+
 export default defineConfig(({ mode }) => ({
-  plugins: [svelte()],
+  plugins: [svelte(), firstWords()],
   build: {
     target: "es2023",
     chunkSizeWarningLimit: 1200,

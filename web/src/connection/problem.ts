@@ -1,10 +1,14 @@
 import type { Fault, Problem } from "../generated/protocol";
+import { serverWords } from "../words";
+import { told } from "../words/told/en";
 
 /** A request that the server refused, with its problem details (RFC 9457), or that never reached it. */
 export class ProblemError extends Error {
   override readonly name = "ProblemError";
   /** The HTTP status; 0 when the server could not be reached. */
   readonly status: number;
+  /** What kind of problem it is, for programs; empty where the server did not say. */
+  readonly type: string;
   /** What is wrong, in a few words. */
   readonly title: string;
   /** Where, and what would be right. */
@@ -12,10 +16,13 @@ export class ProblemError extends Error {
   /** Each fault, where there are several. */
   readonly errors: readonly Fault[];
 
-  constructor(problem: Omit<Problem, "type">) {
-    super(problem.detail === "" ? problem.title : `${problem.title}: ${problem.detail}`);
-    this.status = problem.status;
-    this.title = problem.title;
+  constructor(problem: Omit<Problem, "type"> & Partial<Pick<Problem, "type">>) {
+    const { type = "", status } = problem;
+    const title = serverWords("problem", type, problem.title);
+    super(problem.detail === "" ? title : `${title}: ${problem.detail}`);
+    this.status = status;
+    this.type = type;
+    this.title = title;
     this.detail = problem.detail;
     this.errors = problem.errors;
   }
@@ -44,7 +51,7 @@ export class ProblemError extends Error {
 /** What is wrong with a response that is not 2xx. */
 export async function problemOf(response: Response): Promise<ProblemError> {
   const body: unknown = await response.json().catch(() => null);
-  const fallback = { title: `The server answered ${response.status}`, detail: "", errors: [] };
+  const fallback = { title: told.answered({ status: `${response.status}` }), detail: "", errors: [] };
   const problem = typeof body === "object" && body !== null ? (body as Partial<Problem>) : {};
   return new ProblemError({ ...fallback, ...problem, status: response.status });
 }
@@ -53,8 +60,8 @@ export async function problemOf(response: Response): Promise<ProblemError> {
 export function unreachable(): ProblemError {
   return new ProblemError({
     status: 0,
-    title: "The server does not answer",
-    detail: "Check that Reina is still running, then try again.",
+    title: told.unreachable,
+    detail: told.unreachableMeans,
     errors: [],
   });
 }

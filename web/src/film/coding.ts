@@ -1,5 +1,6 @@
 /** How a film is coded: the first of each kind that the browser can make and the container can hold. */
 
+import { film } from "../words/film/en";
 import type { PictureSize } from "./picture-size";
 
 export const CONTAINERS = ["mp4", "webm"] as const;
@@ -63,7 +64,7 @@ export function chooseCoding(encoders: Encoders, sound: boolean, container: Cont
 /** How a coding is told: `MP4, H.264 and AAC`. */
 export function codingName({ container, video, audio }: Coding): string {
   const picture = `${CONTAINER_NAMES[container]}, ${CODEC_NAMES[video]}`;
-  return audio === null ? `${picture}, silent` : `${picture} and ${CODEC_NAMES[audio]}`;
+  return audio === null ? film.silent({ picture }) : film.withSound({ picture, sound: CODEC_NAMES[audio] });
 }
 
 export const QUALITIES = ["small", "good", "best"] as const;

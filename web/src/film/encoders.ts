@@ -6,6 +6,7 @@ import { AUDIO_BIT_RATES, AUDIO_CODECS, type AudioCodec, type Encoders, VIDEO_CO
 import { bitRate, type Quality as FilmQuality } from "./coding";
 import type { PictureSize } from "./picture-size";
 import { SAMPLE_RATE } from "./sound";
+import { film } from "../words/film/en";
 
 /** This browser has no WebCodecs, or not here. */
 export class NoEncodersError extends Error {
@@ -44,12 +45,7 @@ export function audioQuality(codec: AudioCodec): Quality {
 
 function requireWebCodecs(): void {
   if (typeof VideoEncoder !== "undefined" && typeof AudioEncoder !== "undefined") return;
-  throw new NoEncodersError(
-    isSecureContext
-      ? "This browser cannot encode films: it has no WebCodecs. A current Chrome, Edge, Firefox or Safari has."
-      : "Browsers encode films only on pages that come over https or from this computer (localhost). " +
-          "Open Reina at such an address, or use `reina film` on the computer where it runs.",
-  );
+  throw new NoEncodersError(isSecureContext ? film.noWebCodecs : film.notSecure);
 }
 
 async function those<T>(all: readonly T[], can: (one: T) => Promise<boolean>): Promise<ReadonlySet<T>> {

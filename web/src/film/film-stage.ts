@@ -2,6 +2,7 @@
 
 import type { Hello } from "../generated/protocol";
 import { type ScoreView, Stage, type Tier } from "../scene";
+import { film } from "../words/film/en";
 import type { FilmFrame } from "./frames";
 import type { PictureSize } from "./picture-size";
 
@@ -42,9 +43,8 @@ export class FilmStage {
     const { drawingBufferWidth: width = 0, drawingBufferHeight: height = 0 } = this.#context() ?? {};
     if (width !== size.width || height !== size.height) {
       this.dispose();
-      throw new Error(
-        `This device draws pictures up to ${width} × ${height}, not ${size.width} × ${size.height}: choose a smaller size`,
-      );
+      const [mostWidth, mostHeight] = [`${width}`, `${height}`];
+      throw new Error(film.deviceTooSmall({ mostWidth, mostHeight, width: `${size.width}`, height: `${size.height}` }));
     }
   }
 
@@ -52,7 +52,7 @@ export class FilmStage {
   draw(frame: FilmFrame): void {
     this.#stage.draw(frame);
     if (this.#stage.drawnIndex !== frame.index) {
-      throw new Error("The graphics card gave the picture up: choose a smaller size, or less detail");
+      throw new Error(film.graphicsGaveUp);
     }
   }
 

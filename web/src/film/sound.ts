@@ -2,6 +2,7 @@
 
 import type { ReinaApi } from "../connection";
 import { loadWhole } from "../sound";
+import { film } from "../words/film/en";
 
 /** What encoders of AAC and Opus both take. */
 export const SAMPLE_RATE = 48_000;
@@ -65,7 +66,7 @@ export function cutSound(channels: readonly Float32Array[], length: number): Fil
 async function decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
   const context = new OfflineAudioContext(MAX_CHANNELS, 1, SAMPLE_RATE);
   const song = await context.decodeAudioData(bytes).catch(() => {
-    throw new Error("This browser cannot decode the song's audio format: make the film without sound, or in another");
+    throw new Error(film.cannotDecode);
   });
   return song.numberOfChannels <= MAX_CHANNELS ? song : mixDown(song);
 }

@@ -1,5 +1,7 @@
 /** Which frames a film shows. */
 
+import { film } from "../words/film/en";
+
 /** Song times, seconds. */
 export interface SongSpan {
   readonly start: number;
@@ -38,10 +40,10 @@ export function piecesOf({ first, end, fps }: FrameSpan, most: number): FrameSpa
 
 /** What is wrong with a span in a song of this length, or null. */
 export function faultOf({ start, end }: SongSpan, duration: number): string | null {
-  if (!Number.isFinite(start) || !Number.isFinite(end)) return "Write the times as minutes and seconds: 1:02.5";
-  if (start < 0) return "The film cannot begin before the music does";
-  if (start >= duration) return "The film begins after the music has ended";
-  if (end <= start) return "The film must end after it begins";
+  if (!Number.isFinite(start) || !Number.isFinite(end)) return film.writeTimes;
+  if (start < 0) return film.beginsTooEarly;
+  if (start >= duration) return film.beginsTooLate;
+  if (end <= start) return film.endsTooEarly;
   return null;
 }
 

@@ -6,6 +6,7 @@ import { FilmStage } from "./film-stage";
 import type { FilmFrame } from "./frames";
 import { holdView } from "./held-view";
 import type { PictureSize } from "./picture-size";
+import { film } from "../words/film/en";
 
 export interface StillOrder {
   readonly hello: Hello;
@@ -27,7 +28,7 @@ export async function drawStill(order: StillOrder): Promise<Blob> {
     holdView(order.hello.parameters, order.view)(order.frame.floats);
     stage.draw(order.frame);
     const picture = await new Promise<Blob | null>((resolve) => stage.canvas.toBlob(resolve, "image/png"));
-    if (picture === null) throw new Error("The picture is too large for this browser: choose a smaller size");
+    if (picture === null) throw new Error(film.pictureTooLarge);
     return picture;
   } finally {
     stage.dispose();

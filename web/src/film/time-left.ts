@@ -1,5 +1,7 @@
 /** How long a piece of work still takes, by how it went lately. */
 
+import { film } from "../words/film/en";
+
 /** What went before this is of another pace, seconds. */
 const WINDOW_S = 8;
 /** A shorter look says nothing, seconds. */
@@ -37,9 +39,9 @@ export class TimeLeft {
 
 /** A length of time as one says it: `about 3 min`. */
 export function lengthOfTime(seconds: number): string {
-  if (seconds < 50) return `about ${Math.max(5, 5 * Math.ceil(seconds / 5))} s`;
+  if (seconds < 50) return film.aboutSeconds({ count: Math.max(5, 5 * Math.ceil(seconds / 5)) });
   const minutes = Math.ceil(seconds / 60);
-  if (minutes < 60) return `about ${minutes} min`;
+  if (minutes < 60) return film.aboutMinutes({ count: minutes });
   const tens = Math.ceil(minutes / 10);
-  return `about ${Math.floor(tens / 6)} h ${(tens % 6) * 10} min`;
+  return film.aboutHours({ hours: Math.floor(tens / 6), minutes: (tens % 6) * 10 });
 }

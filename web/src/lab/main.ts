@@ -3,5 +3,5 @@ import { mount } from "svelte";
 import Lab from "./Lab.svelte";
 
 const target = document.getElementById("page");
-if (target === null) throw new Error("lab.html has no element #page to mount the lab in");
+if (target === null) throw new TypeError("lab.html has no element #page to mount the lab in");
 mount(Lab, { target });

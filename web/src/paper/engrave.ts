@@ -20,6 +20,7 @@ import {
 import "./notation.css";
 import type { PartEntry, PartMeasure, PartPitch, PartTempo, WrittenPart } from "../generated/protocol";
 import { isAlternate } from "../state/alternate";
+import { noteName } from "../words";
 import { fingeringText } from "./fingering";
 import { fifthsOf, INDENT, staffPlace, type Placed, type Reading, type System } from "./layout";
 
@@ -307,7 +308,7 @@ function drawFingerings(svg: SVGElement, part: WrittenPart, system: System, draw
     }
     const target = rectangle(svg, middle - 12, 0, 24, system.height, "target");
     target.setAttribute("role", "button");
-    target.setAttribute("aria-label", `${played.written_name}, ${fingeringText(played.valves)}`);
+    target.setAttribute("aria-label", `${noteName(played.written_name)}, ${fingeringText(played.valves)}`);
     for (const element of [...own, target]) element.setAttribute("data-note", `${entry.note}`);
   }
 }

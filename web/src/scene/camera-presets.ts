@@ -2,10 +2,12 @@
 
 import { Vector3 } from "three";
 
-export interface CameraPreset {
-  readonly name: string;
-  /** What the page calls it. */
-  readonly title: string;
+export interface CameraPreset extends FramedView {
+  readonly name: "whole_figure" | "three_quarter" | "valves" | "face" | "player" | "hall";
+}
+
+/** Where a camera stands for a picture of 16:9. */
+export interface FramedView {
   /** In the world, metres. */
   readonly position: readonly [number, number, number];
   readonly target: readonly [number, number, number];
@@ -16,7 +18,6 @@ export interface CameraPreset {
 /** The view of the valves, which a small picture over the stage shows too. */
 export const VALVES: CameraPreset = {
   name: "valves",
-  title: "Valves",
   position: [-0.86, 1.74, 1.02],
   target: [0.02, 1.46, 0.36],
   fov: 0.36,
@@ -24,12 +25,12 @@ export const VALVES: CameraPreset = {
 
 /** Lenses on a full frame: 35 mm has 0.56 rad, 50 has 0.40, 85 has 0.24. */
 export const CAMERA_PRESETS: readonly CameraPreset[] = [
-  { name: "whole_figure", title: "Whole figure", position: [-1.75, 1.3, 4.3], target: [0.3, 0.93, 0.2], fov: 0.43 },
-  { name: "three_quarter", title: "Three-quarter", position: [-1.62, 1.56, 2.4], target: [0.06, 1.29, 0.28], fov: 0.5 },
+  { name: "whole_figure", position: [-1.75, 1.3, 4.3], target: [0.3, 0.93, 0.2], fov: 0.43 },
+  { name: "three_quarter", position: [-1.62, 1.56, 2.4], target: [0.06, 1.29, 0.28], fov: 0.5 },
   VALVES,
-  { name: "face", title: "Face", position: [-1.0, 1.52, 1.62], target: [0.06, 1.5, 0.2], fov: 0.22 },
-  { name: "player", title: "Player's view", position: [-0.035, 1.575, 0.13], target: [0.05, 1.42, 0.62], fov: 1.0 },
-  { name: "hall", title: "Hall", position: [-2.7, 1.6, 5.2], target: [0.45, 1.3, 0.2], fov: 0.58 },
+  { name: "face", position: [-1.0, 1.52, 1.62], target: [0.06, 1.5, 0.2], fov: 0.22 },
+  { name: "player", position: [-0.035, 1.575, 0.13], target: [0.05, 1.42, 0.62], fov: 1.0 },
+  { name: "hall", position: [-2.7, 1.6, 5.2], target: [0.45, 1.3, 0.2], fov: 0.58 },
 ];
 
 /** A camera's stand, as a show's camera keys hold it. */

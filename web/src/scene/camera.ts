@@ -3,7 +3,7 @@
 import { PerspectiveCamera, Quaternion, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-import { type CameraPreset, type CameraView, lookedAt } from "./camera-presets";
+import { type CameraView, type FramedView, lookedAt } from "./camera-presets";
 import { fitFrame, type Insets, widen } from "./framing";
 
 /** How long the way to another view takes, milliseconds. */
@@ -130,7 +130,7 @@ export class StageCamera {
   }
 
   /** Take the camera to a view; from there it can be orbited. */
-  view({ position, target, fov }: CameraPreset): void {
+  view({ position, target, fov }: FramedView): void {
     this.#leave(this.#taken ? this.#held.fov : this.show.fov);
     this.#held.position.fromArray(position);
     this.#held.target.fromArray(target);

@@ -2,7 +2,7 @@ import { PerspectiveCamera, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
 import { aim } from "./camera";
-import { findPreset, type CameraPreset } from "./camera-presets";
+import { findPreset, type FramedView } from "./camera-presets";
 import { castView, playerView } from "./cast-views";
 import { SHOW_ASPECT, keptWidth } from "./framing";
 import type { Stand } from "./players";
@@ -21,7 +21,7 @@ const CASTS: Stand[][] = [
   ],
 ];
 
-function seen(view: CameraPreset, point: Vector3): Vector3 {
+function seen(view: FramedView, point: Vector3): Vector3 {
   const camera = new PerspectiveCamera((view.fov * 180) / Math.PI, SHOW_ASPECT, 0.05, 60);
   const [position, target] = [new Vector3(...view.position), new Vector3(...view.target)];
   aim(camera, { position, target, fov: view.fov, roll: 0 });

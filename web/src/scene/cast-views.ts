@@ -1,6 +1,6 @@
 /** Views of a cast as it stands: everybody, or one of them. Each is framed for 16:9. */
 
-import type { CameraPreset } from "./camera-presets";
+import type { FramedView } from "./camera-presets";
 import { SHOW_ASPECT, keptWidth } from "./framing";
 import type { Stand } from "./players";
 
@@ -24,7 +24,7 @@ const NEAR = { position: [-1.62, 1.56, 2.4], target: [0.06, 1.29, 0.28], fov: 0.
  *
  * @param aspect width over height of the window: one narrower than 16:9 gives up some of the frame's sides.
  */
-export function castView(stands: readonly Stand[], aspect: number): CameraPreset {
+export function castView(stands: readonly Stand[], aspect: number): FramedView {
   const [left, right] = extent(stands.map(({ x }) => x));
   const [back, front] = extent(stands.map(({ z }) => z));
   const [x, z] = [(left + right) / 2, (back + front) / 2];
@@ -32,8 +32,6 @@ export function castView(stands: readonly Stand[], aspect: number): CameraPreset
   const across = Math.max(HALF_HEIGHT, halfWidth / (SHOW_ASPECT * keptWidth(aspect)));
   const distance = Math.min(FARTHEST, across / Math.tan(FOV / 2) + (front - back) / 2);
   return {
-    name: "cast",
-    title: "The whole cast",
     position: [x - distance * Math.sin(ASIDE), EYE, z + distance * Math.cos(ASIDE)],
     target: [x, MIDDLE, z],
     fov: 2 * Math.atan(across / (distance - (front - back) / 2)),
@@ -41,15 +39,15 @@ export function castView(stands: readonly Stand[], aspect: number): CameraPreset
 }
 
 /** One player as the three-quarter view shows who stands in the middle. */
-export function playerView(stand: Stand): CameraPreset {
-  return viewAt({ name: "player", title: "One player", ...NEAR }, stand);
+export function playerView(stand: Stand): FramedView {
+  return viewAt(NEAR, stand);
 }
 
 /**
  * A view of who stands in the middle facing the audience, of a player wherever the seat is and whichever way it faces;
  * never from farther aside than there, where the neighbours stand in the way.
  */
-export function viewAt(view: CameraPreset, { x, z, facing }: Stand): CameraPreset {
+export function viewAt(view: FramedView, { x, z, facing }: Stand): FramedView {
   const turn = Math.max(facing, 0);
   const [sin, cos] = [Math.sin(turn), Math.cos(turn)];
   const placed = ([px, py, pz]: readonly [number, number, number]): [number, number, number] => [
@@ -57,7 +55,7 @@ export function viewAt(view: CameraPreset, { x, z, facing }: Stand): CameraPrese
     py,
     z - px * sin + pz * cos,
   ];
-  return { ...view, position: placed(view.position), target: placed(view.target) };
+  return { position: placed(view.position), target: placed(view.target), fov: view.fov };
 }
 
 function extent(values: readonly number[]): [least: number, most: number] {

@@ -2,7 +2,7 @@
 
 import { PerspectiveCamera, Vector2, type Scene, type WebGLRenderer } from "three";
 
-import type { CameraPreset } from "./camera-presets";
+import type { FramedView } from "./camera-presets";
 import { OUTLINE_LAYER } from "./toon";
 
 /** Its side as a share of the shorter side of the window, and its bounds, CSS pixels. */
@@ -30,7 +30,7 @@ export class ValvesInset {
   }
 
   /** Draw over what is on the canvas, as a view has it; the shadows are those of the large picture. */
-  render(renderer: WebGLRenderer, scene: Scene, { position, target, fov }: CameraPreset): void {
+  render(renderer: WebGLRenderer, scene: Scene, { position, target, fov }: FramedView): void {
     if (this.place === null) return;
     const camera = this.#camera;
     camera.position.fromArray(position);

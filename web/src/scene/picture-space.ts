@@ -2,7 +2,7 @@
 
 import { Box3, PerspectiveCamera, Sphere, Vector3 } from "three";
 
-import type { CameraPreset } from "./camera-presets";
+import type { FramedView } from "./camera-presets";
 import { ROOM } from "./room/plan";
 import { aim, type ShowPose } from "./camera";
 
@@ -82,11 +82,11 @@ export class PictureSpace {
 }
 
 /** A view of some places and the player, from above and from the side. */
-export function overview(places: readonly Place[]): CameraPreset {
+export function overview(places: readonly Place[]): FramedView {
   const box = new Box3().setFromPoints([MIDDLE, ...places].map((place) => new Vector3(...place)));
   const sphere = box.getBoundingSphere(new Sphere());
   const { direction, fov, nearest, furthest } = OVERVIEW;
   const distance = Math.min(Math.max(sphere.radius / Math.sin(fov / 2), nearest), furthest);
   const position = direction.clone().multiplyScalar(distance).add(sphere.center).clamp(WITHIN.min, WITHIN.max);
-  return { name: "overview", title: "Overview", position: position.toArray(), target: sphere.center.toArray(), fov };
+  return { position: position.toArray(), target: sphere.center.toArray(), fov };
 }

@@ -4,6 +4,7 @@ import { NeutralToneMapping, PCFShadowMap, SRGBColorSpace, WebGLRenderer } from 
 
 import { sampleInside } from "./centroid";
 import { StageUnavailableError } from "./errors";
+import { page } from "../words/page/en";
 import type { TierSettings } from "./tiers";
 
 /** What `stage/exposure` multiplies: the room's light was set by it. */
@@ -24,10 +25,7 @@ export function createRenderer(canvas: HTMLCanvasElement, tier: TierSettings, tr
   };
   const context = canvas.getContext("webgl2", attributes);
   if (context === null) {
-    throw new StageUnavailableError(
-      "This browser cannot draw the stage: it has no WebGL 2. " +
-        "Switch on hardware acceleration in its settings, or open Reina in a current Firefox, Chrome, Edge or Safari.",
-    );
+    throw new StageUnavailableError(page.noWebGl);
   }
   sampleInside();
   const renderer = new WebGLRenderer({ canvas, context, ...attributes });

@@ -7,7 +7,14 @@ import { RigModel, loadRig, mergeMeshes } from "../rig";
 import { NoteBlocks } from "./blocks/blocks";
 import { paneColor } from "./blocks/player-colors";
 import { StageCamera } from "./camera";
-import { CAMERA_PRESETS, type CameraPreset, type CameraView, findPreset, VALVES } from "./camera-presets";
+import {
+  CAMERA_PRESETS,
+  type CameraPreset,
+  type CameraView,
+  findPreset,
+  type FramedView,
+  VALVES,
+} from "./camera-presets";
 import { castView, playerView, viewAt } from "./cast-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
@@ -333,7 +340,7 @@ export class Stage {
   }
 
   /** A view as it is of one of several players. */
-  #presetOf(preset: CameraPreset, player: number): CameraPreset {
+  #presetOf(preset: FramedView, player: number): FramedView {
     const stand = this.#players.count > 1 ? this.#players.stands()[player] : undefined;
     return stand === undefined ? preset : viewAt(preset, stand);
   }

@@ -67,7 +67,7 @@ export class PlaybackPath {
 
   get #first(): Leg {
     const [first] = this.#legs;
-    if (first === undefined) throw new Error("a path has a beginning");
+    if (first === undefined) throw new RangeError("a path has a beginning");
     return first;
   }
 }

@@ -1,5 +1,6 @@
 import type { SongSegments, SongState } from "../generated/protocol";
 import { ProblemError, type ReinaApi } from "../connection";
+import { told } from "../words/told/en";
 
 const PAUSE_S = 0.2;
 
@@ -63,7 +64,7 @@ async function whenMade(
     if (response.status !== 202) return response.arrayBuffer();
     const song = (await response.json()) as Partial<SongState>;
     if (song.status === "failed") {
-      throw new ProblemError({ status: 502, title: "The sound could not be made", detail: "", errors: [] });
+      throw new ProblemError({ status: 502, title: told.soundNotMade, detail: "", errors: [] });
     }
     onProgress?.(song.progress ?? 0);
     await pause(PAUSE_S, signal);

@@ -11,6 +11,7 @@ import { remember, remembered, type NoteNames, type Quality } from "./storage";
 import { SHORTEST_LOOP_S } from "../timeline/loop-span";
 import { arrivalOf, worthKnowing, type OctaveOffer } from "./findings";
 import { CAMERA_PRESETS, type CameraView, type PicturePoint, type Place, type ShowCamera } from "../scene";
+import { told } from "../words/told/en";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -139,7 +140,7 @@ export class Deck {
     if (shortcut === null) return false;
     const { view } = this.reina;
     if (shortcut.controls === true && view?.canControl === false) {
-      this.reina.word("You are watching", "Only whoever opened this session can play, stop or move it.");
+      this.reina.word(told.youWatch, told.youWatchMeans);
       return true;
     }
     this.run(shortcut.action);
@@ -256,7 +257,7 @@ export class Deck {
     if (end !== undefined && end > view.here + SHORTEST_LOOP_S) {
       return view.setLoop({ start: view.here, end });
     }
-    this.reina.word("The loop begins here", "Press ] where it should end.", {
+    this.reina.word(told.loopBegins, told.loopBeginsMeans, {
       over: () => view.transport.loop !== null || this.reina.view !== view,
     });
     return undefined;
@@ -265,7 +266,7 @@ export class Deck {
   #setLoopEnd(view: SessionView): unknown {
     const start = this.#loopStart ?? view.transport.loop?.start_s ?? 0;
     if (view.here > start + SHORTEST_LOOP_S) return view.setLoop({ start, end: view.here });
-    this.reina.word("The loop must end after it begins", "Move on a little, then press ] again.", {
+    this.reina.word(told.loopTooShort, told.loopTooShortMeans, {
       over: () => view.songTime > start + SHORTEST_LOOP_S || this.reina.view !== view,
     });
     return undefined;

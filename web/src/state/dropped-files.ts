@@ -1,4 +1,5 @@
 import type { FileRole } from "../generated/protocol";
+import { list } from "../words";
 
 /** Files that a person dropped or chose, sorted by what they are for. */
 export interface SortedFiles {
@@ -35,6 +36,5 @@ export async function sortFiles(
 
 /** The names of files that were left aside, in a sentence. */
 export function namesOf(files: readonly File[]): string {
-  const names = files.map(({ name }) => name);
-  return names.length < 2 ? (names[0] ?? "") : `${names.slice(0, -1).join(", ")} and ${names.at(-1) ?? ""}`;
+  return list(files.map(({ name }) => name));
 }

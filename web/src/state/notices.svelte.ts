@@ -1,4 +1,5 @@
 import { ProblemError } from "../connection";
+import { told } from "../words/told/en";
 
 /** A way on from a notice: a button beside its words. */
 export interface NoticeAction {
@@ -53,9 +54,9 @@ export class Notices {
       this.say("problem", error.title, error.detail, { lines });
       this.#unanswered = error.isUnanswered;
     } else if (error instanceof SyntaxError) {
-      this.say("problem", "This is not JSON", error.message);
+      this.say("problem", told.notJson, error.message);
     } else {
-      this.say("problem", "Something went wrong in the page", error instanceof Error ? error.message : String(error));
+      this.say("problem", told.pageFault, error instanceof Error ? error.message : String(error));
     }
   }
 

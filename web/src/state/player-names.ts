@@ -1,8 +1,9 @@
 import type { PartChoice } from "../generated/protocol";
+import { serverWords } from "../words";
 
-/** A rig's or a seat's name as it is read: `far left` as `Far left`. */
-export function shownName(name: string): string {
-  return name.charAt(0).toUpperCase() + name.slice(1).replaceAll(/[-_]/g, " ");
+/** A figure's or a seat's name as it is read: `far left` as `Far left`. */
+export function shownName(name: string, kind: "player" | "seat" = "player"): string {
+  return serverWords(kind, name, name.charAt(0).toUpperCase() + name.slice(1).replaceAll(/[-_]/g, " "));
 }
 
 /** Reasons in words; how much each weighs is for those who read the API. */

@@ -9,6 +9,7 @@ import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
 import { remember, remembered, rememberToken } from "./storage";
+import { told } from "../words/told/en";
 
 export type Phase = "opening" | "open" | "unknown" | "failed";
 
@@ -99,7 +100,7 @@ export class Reina {
 
   /** Make a session of a bundled piece and go to it. */
   async openExample(example: Example): Promise<void> {
-    await this.#make(`Opening ${example.title}`, async () => {
+    await this.#make(told.opening({ title: example.title }), async () => {
       const score = await this.api.file(example.score);
       const song = example.song === null ? {} : { song: await this.api.file(example.song) };
       const show = example.show === null ? {} : { show: await this.api.file(example.show) };
@@ -109,7 +110,7 @@ export class Reina {
 
   /** Make of dropped or chosen files what can be made of them: a new session, a song or a show for the open one. */
   async openFiles(files: readonly File[]): Promise<void> {
-    await this.attempt(`Looking at ${namesOf(files)}`, async () => {
+    await this.attempt(told.lookingAt({ names: namesOf(files) }), async () => {
       const { scores, songs, shows, unusable } = await sortFiles(files, (file) => this.api.fileRole(file));
       const [score, song, show] = [scores[0], songs[0], shows[0]];
       const aside = [...scores.slice(1), ...songs.slice(1), ...shows.slice(1)];
@@ -119,8 +120,9 @@ export class Reina {
       const [first] = unusable;
       // What went wrong with the score, or is asked of it, goes before.
       if (first !== undefined && (score === undefined || !this.notices.waits)) {
-        const lines = unusable.slice(1).map(({ file, told }) => `${file.name}: ${told.name}`);
-        this.problem(`${first.file.name} cannot be used: it is ${first.told.name}`, first.told.advice, { lines });
+        const lines = unusable.slice(1).map(({ file, told: role }) => `${file.name}: ${role.name}`);
+        const title = told.cannotUse({ name: first.file.name, what: first.told.name });
+        this.problem(title, first.told.advice, { lines });
       }
     });
   }
@@ -133,7 +135,7 @@ export class Reina {
     aside: readonly File[] = [],
   ): Promise<void> {
     this.#kept = null;
-    const made = await this.#make(`Reading ${score.name}`, () => ({
+    const made = await this.#make(told.reading({ name: score.name }), () => ({
       score,
       ...(song === undefined ? {} : { song }),
       ...(show === undefined ? {} : { show }),
@@ -146,11 +148,11 @@ export class Reina {
     }
     this.notices.say(
       "question",
-      `This is ${score.name}`,
-      `${arrivalOf(view.session).title}. ${namesOf(aside)} came with it, and one is played at a time.`,
+      told.thisIs({ name: score.name }),
+      `${arrivalOf(view.session).title}. ${told.cameWithIt({ names: namesOf(aside) })}`,
       {
         actions: aside.slice(0, OFFERED).map((file) => ({
-          label: `Open ${file.name}`,
+          label: told.open({ name: file.name }),
           run: () => this.openFiles([file]),
         })),
         over: () => this.view !== view,
@@ -162,12 +164,11 @@ export class Reina {
   async #askAboutSong(song: File): Promise<void> {
     const length = await audioLength(song);
     const { view } = this;
-    const lasts = length === null ? "" : `It lasts ${clockTime(length)}`;
     const keep = {
-      label: "Keep it for the next score",
+      label: told.keep,
       run: () => {
         this.#kept = song;
-        this.word(`${song.name} is kept`, "It plays with the score that you open next.");
+        this.word(told.kept({ name: song.name }), told.keptMeans);
       },
     };
     if (view === null) {
@@ -176,13 +177,14 @@ export class Reina {
     }
     const { title } = view.session;
     const unlike = length !== null && Math.abs(length - view.duration) > Math.max(ALIKE_SHARE * view.duration, ALIKE_S);
-    const than = `${title} ${clockTime(view.duration)}`;
+    const piece = { title, length: clockTime(view.duration) };
+    const compared = unlike ? told.unlikeLengths : told.lengths;
     this.notices.say(
       "question",
-      `What is ${song.name} a recording of?`,
-      length === null ? `${than} is open.` : `${lasts}, ${than}${unlike ? ": hardly the same music." : "."}`,
+      told.whatRecording({ name: song.name }),
+      length === null ? told.pieceIsOpen(piece) : compared({ ...piece, song: clockTime(length) }),
       {
-        actions: [{ label: `Play it with ${title}`, run: () => this.addSong(song) }, keep],
+        actions: [{ label: told.playWith({ title }), run: () => this.addSong(song) }, keep],
         over: () => this.view !== view,
       },
     );
@@ -192,7 +194,7 @@ export class Reina {
   async addSong(song: File): Promise<void> {
     const { view } = this;
     if (view === null) return;
-    await this.#make(`Adding ${song.name}`, async () => {
+    await this.#make(told.adding({ name: song.name }), async () => {
       const [score, cast, document] = await Promise.all([
         this.api.scoreFile(view.id),
         this.api.cast(view.id),
@@ -207,13 +209,13 @@ export class Reina {
   async putShow(file: File): Promise<void> {
     const { id, token = null } = this.view ?? {};
     if (id === undefined || token === null) {
-      this.problem("This session is not yours to change", "Drop a score first: that opens a session of your own.");
+      this.problem(told.notYours, told.notYoursMeans);
       return;
     }
-    await this.attempt(`Reading ${file.name}`, async () => {
+    await this.attempt(told.reading({ name: file.name }), async () => {
       const json: unknown = JSON.parse(await file.text());
       await this.api.request("PUT", this.api.sessionPath(id, "show"), { json, token });
-      this.word(`The show ${file.name} is on.`);
+      this.word(told.showIsOn({ name: file.name }));
     });
   }
 

@@ -36,6 +36,7 @@ import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
+import { told } from "../words/told/en";
 
 const CHECK_INTERVAL_MS = 100;
 const SHARE_INTERVAL_MS = 1000;
@@ -354,8 +355,8 @@ export class SessionView {
       this.#surroundings.tell(
         new ProblemError({
           status: 0,
-          title: "The page and the server do not fit each other",
-          detail: `${error.message}. Reload the page.`,
+          title: told.unlikeServer,
+          detail: told.reload({ fault: error.message }),
           errors: [],
         }),
       );
@@ -484,8 +485,7 @@ export class SessionView {
   #noSound(error: unknown, signal: AbortSignal): void {
     if (signal.aborted) return;
     this.#songHref = null;
-    this.soundError =
-      error instanceof ProblemError ? error.message : "This browser cannot play the song's audio format.";
+    this.soundError = error instanceof ProblemError ? error.message : told.cannotPlay;
     this.#startWithSound();
   }
 }

@@ -1,3 +1,5 @@
+import { keys as words } from "../words/keys/en";
+
 /** Everything that a key does; `?` lists it. */
 export type Action =
   | "toggle"
@@ -58,63 +60,79 @@ export interface Shortcut {
   readonly repeats?: boolean;
 }
 
+type Row = Omit<Shortcut, "says">;
+
+/** A shortcut with what it does in the language that is shown. */
+function said(row: Row): Shortcut {
+  return {
+    ...row,
+    get says() {
+      return words[row.action];
+    },
+  };
+}
+
 // prettier-ignore
-export const SHORTCUTS: readonly Shortcut[] = [
-  { action: "toggle", keys: [" ", "k"], shown: "Space", says: "Play or pause", controls: true },
-  { action: "back", keys: ["ArrowLeft"], shown: "←", says: "Two seconds back", controls: true, repeats: true },
-  { action: "forward", keys: ["ArrowRight"], shown: "→", says: "Two seconds on", controls: true, repeats: true },
-  { action: "barBack", keys: ["ArrowLeft"], shift: true, shown: "Shift ←", says: "To the bar before", controls: true, repeats: true },
-  { action: "barForward", keys: ["ArrowRight"], shift: true, shown: "Shift →", says: "To the next bar", controls: true, repeats: true },
-  { action: "begin", keys: ["Home"], shown: "Home", says: "To the beginning", controls: true },
-  { action: "end", keys: ["End"], shown: "End", says: "To the end", controls: true },
-  { action: "slower", keys: ["-"], shown: "−", says: "Slower", controls: true },
-  { action: "faster", keys: ["+", "="], shown: "+", says: "Faster", controls: true },
-  { action: "loopStart", keys: ["["], shown: "[", says: "Loop from here", controls: true },
-  { action: "loopEnd", keys: ["]"], shown: "]", says: "Loop to here", controls: true },
-  { action: "loopOff", keys: ["l"], shown: "L", says: "Loop this phrase, or end the loop", controls: true },
-  { action: "zoom", keys: ["z"], shown: "Z", says: "Zoom the timeline to the loop, or to these bars; again: all of it" },
-  { action: "louder", keys: ["ArrowUp"], shown: "↑", says: "Louder", repeats: true },
-  { action: "quieter", keys: ["ArrowDown"], shown: "↓", says: "Quieter", repeats: true },
-  { action: "mute", keys: ["m"], shown: "M", says: "Sound off or on" },
-  { action: "camera", keys: ["c"], shown: "C", says: "Give the camera back to the show" },
-  { action: "everybody", keys: ["a"], shown: "A", says: "Look at all players" },
-  { action: "onePlayer", keys: ["w"], shown: "W", says: "Look at the chosen player" },
-  { action: "nextPlayer", keys: ["j"], shown: "J", says: "Choose the next player" },
-  { action: "views", keys: ["v"], shown: "V", says: "Views, light and quality" },
-  { action: "view1", keys: ["1"], shown: "1", says: "The whole figure" },
-  { action: "view2", keys: ["2"], shown: "2", says: "Three-quarter" },
-  { action: "view3", keys: ["3"], shown: "3", says: "The valves" },
-  { action: "view4", keys: ["4"], shown: "4", says: "The face" },
-  { action: "view5", keys: ["5"], shown: "5", says: "As the player sees it" },
-  { action: "view6", keys: ["6"], shown: "6", says: "From the hall" },
-  { action: "inset", keys: ["i"], shown: "I", says: "The valves in a small picture" },
-  { action: "fullscreen", keys: ["f"], shown: "F", says: "Full screen" },
-  { action: "piece", keys: ["p"], shown: "P", says: "The piece" },
-  { action: "pieces", keys: ["g"], shown: "G", says: "My pieces, and sharing" },
-  { action: "show", keys: ["s"], shown: "S", says: "The show" },
-  { action: "film", keys: ["r"], shown: "R", says: "Film: record a video, or a still" },
-  { action: "paper", keys: ["t"], shown: "T", says: "The part on paper" },
-  { action: "names", keys: ["n"], shown: "N", says: "Name notes as written, or as they sound" },
-  { action: "open", keys: ["o"], shown: "O", says: "Open a score, a song or a show" },
-  { action: "help", keys: ["?"], shown: "?", says: "This list" },
+const ROWS: readonly Row[] = [
+  { action: "toggle", keys: [" ", "k"], shown: "Space", controls: true },
+  { action: "back", keys: ["ArrowLeft"], shown: "←", controls: true, repeats: true },
+  { action: "forward", keys: ["ArrowRight"], shown: "→", controls: true, repeats: true },
+  { action: "barBack", keys: ["ArrowLeft"], shift: true, shown: "Shift ←", controls: true, repeats: true },
+  { action: "barForward", keys: ["ArrowRight"], shift: true, shown: "Shift →", controls: true, repeats: true },
+  { action: "begin", keys: ["Home"], shown: "Home", controls: true },
+  { action: "end", keys: ["End"], shown: "End", controls: true },
+  { action: "slower", keys: ["-"], shown: "−", controls: true },
+  { action: "faster", keys: ["+", "="], shown: "+", controls: true },
+  { action: "loopStart", keys: ["["], shown: "[", controls: true },
+  { action: "loopEnd", keys: ["]"], shown: "]", controls: true },
+  { action: "loopOff", keys: ["l"], shown: "L", controls: true },
+  { action: "zoom", keys: ["z"], shown: "Z" },
+  { action: "louder", keys: ["ArrowUp"], shown: "↑", repeats: true },
+  { action: "quieter", keys: ["ArrowDown"], shown: "↓", repeats: true },
+  { action: "mute", keys: ["m"], shown: "M" },
+  { action: "camera", keys: ["c"], shown: "C" },
+  { action: "everybody", keys: ["a"], shown: "A" },
+  { action: "onePlayer", keys: ["w"], shown: "W" },
+  { action: "nextPlayer", keys: ["j"], shown: "J" },
+  { action: "views", keys: ["v"], shown: "V" },
+  { action: "view1", keys: ["1"], shown: "1" },
+  { action: "view2", keys: ["2"], shown: "2" },
+  { action: "view3", keys: ["3"], shown: "3" },
+  { action: "view4", keys: ["4"], shown: "4" },
+  { action: "view5", keys: ["5"], shown: "5" },
+  { action: "view6", keys: ["6"], shown: "6" },
+  { action: "inset", keys: ["i"], shown: "I" },
+  { action: "fullscreen", keys: ["f"], shown: "F" },
+  { action: "piece", keys: ["p"], shown: "P" },
+  { action: "pieces", keys: ["g"], shown: "G" },
+  { action: "show", keys: ["s"], shown: "S" },
+  { action: "film", keys: ["r"], shown: "R" },
+  { action: "paper", keys: ["t"], shown: "T" },
+  { action: "names", keys: ["n"], shown: "N" },
+  { action: "open", keys: ["o"], shown: "O" },
+  { action: "help", keys: ["?"], shown: "?" },
 ];
 
+export const SHORTCUTS: readonly Shortcut[] = ROWS.map(said);
+
 /** What keys do while the stage has the keyboard's focus; its arrows and signs go before the page's. */
-export const STAGE_SHORTCUTS: readonly Shortcut[] = [
-  { action: "orbitLeft", keys: ["ArrowLeft"], shown: "←", says: "Around the player to the left", repeats: true },
-  { action: "orbitRight", keys: ["ArrowRight"], shown: "→", says: "Around the player to the right", repeats: true },
-  { action: "orbitUp", keys: ["ArrowUp"], shown: "↑", says: "Look from higher up", repeats: true },
-  { action: "orbitDown", keys: ["ArrowDown"], shown: "↓", says: "Look from lower down", repeats: true },
-  { action: "closer", keys: ["+", "="], shown: "+", says: "Closer", repeats: true },
-  { action: "further", keys: ["-"], shown: "−", says: "Further away", repeats: true },
+const STAGE_ROWS: readonly Row[] = [
+  { action: "orbitLeft", keys: ["ArrowLeft"], shown: "←", repeats: true },
+  { action: "orbitRight", keys: ["ArrowRight"], shown: "→", repeats: true },
+  { action: "orbitUp", keys: ["ArrowUp"], shown: "↑", repeats: true },
+  { action: "orbitDown", keys: ["ArrowDown"], shown: "↓", repeats: true },
+  { action: "closer", keys: ["+", "="], shown: "+", repeats: true },
+  { action: "further", keys: ["-"], shown: "−", repeats: true },
 ];
+
+export const STAGE_SHORTCUTS: readonly Shortcut[] = STAGE_ROWS.map(said);
 
 const BY_ACTION = new Map([...SHORTCUTS, ...STAGE_SHORTCUTS].map((shortcut) => [shortcut.action, shortcut]));
 
 /** What `title` says of a control: what it does, and its key. */
 export function hint(action: Action, says?: string): string {
   const shortcut = BY_ACTION.get(action);
-  return shortcut === undefined ? (says ?? "") : `${says ?? shortcut.says} (${shortcut.shown})`;
+  return shortcut === undefined ? (says ?? "") : words.withKey({ says: says ?? shortcut.says, key: shortcut.shown });
 }
 
 /** The value of `aria-keyshortcuts` for a control. */

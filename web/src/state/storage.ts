@@ -1,3 +1,5 @@
+import type { Language } from "../words/language";
+
 export type NoteNames = "written" | "sounding";
 export type Paper = "A4" | "letter";
 export type Quality = "automatic" | "full" | "medium" | "low";
@@ -41,6 +43,8 @@ export interface Remembered {
   readonly quality: Quality;
   /** Whether the valves are seen in a picture of their own. */
   readonly valvesInset: boolean;
+  /** The page's language, where it was chosen by hand; null for the browser's. */
+  readonly language: Language | null;
   /** Somebody has pressed Play here before: the welcome has done its work. */
   readonly hasPlayed: boolean;
 }
@@ -66,6 +70,7 @@ const NOTHING: Remembered = {
   paper: null,
   quality: "automatic",
   valvesInset: false,
+  language: null,
   hasPlayed: false,
 };
 

@@ -1,0 +1,7 @@
+import { words } from "../words";
+
+/** What stands in index.html while the page is loading, and says what this is. */
+export const first = words("first", {
+  what: "Your MIDI, played by a trumpeter with true fingerings.",
+  loading: "Reina is loading",
+});

@@ -1,0 +1,18 @@
+import { language } from "./language";
+
+/** A number as the language that is shown writes it: `1,024`, `1.024`. */
+export function number(value: number, options?: Intl.NumberFormatOptions): string {
+  return new Intl.NumberFormat(language(), options).format(value);
+}
+
+/** What stands before tenths: a point or a comma. */
+export function decimalSign(): string {
+  const parts = new Intl.NumberFormat(language()).formatToParts(1.5);
+  return parts.find(({ type }) => type === "decimal")?.value ?? ".";
+}
+
+/** Things in a row: `1, 2 and 3`, `1, 2 und 3`, `1、2、3`. */
+export function list(items: readonly string[]): string {
+  // British English has no comma before its last "and".
+  return new Intl.ListFormat(language() === "en" ? "en-GB" : language(), { type: "conjunction" }).format(items);
+}

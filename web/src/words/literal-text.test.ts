@@ -1,0 +1,161 @@
+import { describe, expect, it } from "vitest";
+import { literalTexts } from "./literal-text";
+
+const SOURCES = import.meta.glob<string>(["../**/*.{ts,svelte}", "!../**/*.test.ts", "!../{generated,gallery}/**"], {
+  query: "?raw",
+  import: "default",
+  eager: true,
+});
+
+/** Whose words are for programs and those who write them, or are engraved the same in every language. */
+const NOT_FOR_THE_PAGE = new Set([
+  "../film/commissioned-film.ts",
+  "../paper/engrave.ts",
+  "../rig/merge-meshes.ts",
+  "../rig/skeleton-check.ts",
+  "../state/measures.ts",
+]);
+
+/** What looks like words and is none: names of the protocol and of three.js. */
+const NO_WORDS = new Set([
+  // A file's name.
+  "… film",
+  "Bearer …",
+  "part …",
+  "drawn …",
+  "drawn metal",
+  "contact shade",
+  "centroid varying",
+]);
+
+/** Whose words have still to be moved into messages; nothing is to be added here. */
+const NOT_YET = new Set<string>([
+  "../editor/commands/looks.ts",
+  "../editor/commands/loops.ts",
+  "../editor/commands/menus.ts",
+  "../editor/commands/timeline-menu.ts",
+  "../editor/panels/CameraPath.svelte",
+  "../editor/panels/ContextMenu.svelte",
+  "../editor/panels/CycleFields.svelte",
+  "../editor/panels/DockMenu.svelte",
+  "../editor/panels/LooksMenu.svelte",
+  "../editor/panels/PathSwitch.svelte",
+  "../editor/panels/PitchField.svelte",
+  "../editor/panels/RowSearch.svelte",
+  "../editor/state/camera-path.svelte.ts",
+  "../editor/state/names.ts",
+  "../editor/state/pitch-names.ts",
+  "../panels/Findings.svelte",
+  "../panels/Lyrics.svelte",
+  "../state/deck.svelte.ts",
+  "../state/findings.ts",
+  "../state/looks.svelte.ts",
+  "../state/touches.ts",
+  "../timeline/LoopStrip.svelte",
+  "../timeline/Timeline.svelte",
+  "../timeline/TimelineWords.svelte",
+  "../timeline/loop-text.ts",
+  "../App.svelte",
+  "../editor/canvas/draw-shots.ts",
+  "../editor/commands/keys.ts",
+  "../editor/commands/markers.ts",
+  "../editor/commands/places.ts",
+  "../editor/commands/show.ts",
+  "../editor/commands/tracks.ts",
+  "../editor/gestures/curve-gestures.svelte.ts",
+  "../editor/gestures/lane-gestures.svelte.ts",
+  "../editor/panels/AddTrack.svelte",
+  "../editor/panels/ColorField.svelte",
+  "../editor/panels/CurveCanvas.svelte",
+  "../editor/panels/Editor.svelte",
+  "../editor/panels/EventFields.svelte",
+  "../editor/panels/Inspector.svelte",
+  "../editor/panels/KeyFields.svelte",
+  "../editor/panels/KeyList.svelte",
+  "../editor/panels/Lanes.svelte",
+  "../editor/panels/MarkerFields.svelte",
+  "../editor/panels/PlaceFields.svelte",
+  "../editor/panels/SaveState.svelte",
+  "../editor/panels/ShowMenu.svelte",
+  "../editor/panels/Toolbar.svelte",
+  "../editor/panels/TrackFields.svelte",
+  "../editor/panels/TrackList.svelte",
+  "../editor/panels/ValueField.svelte",
+  "../editor/panels/WayPicker.svelte",
+  "../editor/shortcut-table.ts",
+  "../editor/shortcuts.ts",
+  "../editor/state/editor.svelte.ts",
+  "../editor/state/find-parameters.ts",
+  "../editor/state/show-store.svelte.ts",
+  "../lab/ClipsTable.svelte",
+  "../lab/JointSlider.svelte",
+  "../lab/KinematicsTable.svelte",
+  "../lab/Lab.svelte",
+  "../lab/NumberField.svelte",
+  "../lab/OrientationField.svelte",
+  "../lab/RotationsTable.svelte",
+  "../lab/SolverFields.svelte",
+  "../lab/scene/view.ts",
+  "../lab/state/hierarchy.ts",
+  "../lab/state/kinematics.svelte.ts",
+  "../lab/ways.ts",
+  "../panels/Cast.svelte",
+  "../panels/KeyHelp.svelte",
+  "../panels/NextNotes.svelte",
+  "../panels/Piece.svelte",
+  "../panels/Transport.svelte",
+  "../panels/Warnings.svelte",
+  "../panels/Welcome.svelte",
+]);
+const texts = Object.entries(SOURCES).flatMap(([path, source]) =>
+  path.startsWith("../words/") || path.startsWith("./") || NOT_FOR_THE_PAGE.has(path)
+    ? []
+    : literalTexts(source, path.endsWith(".svelte"))
+        .filter((text) => !NO_WORDS.has(text))
+        .map((text) => ({ path, text })),
+);
+
+describe("the page's source", () => {
+  it("holds no words for people: they are messages", () => {
+    expect(texts.filter(({ path }) => !NOT_YET.has(path)).map(({ path, text }) => `${path}: ${text}`)).toEqual([]);
+  });
+
+  it("has words left in each file that is still to be moved", () => {
+    expect([...NOT_YET].filter((path) => !texts.some((found) => found.path === path))).toEqual([]);
+  });
+});
+
+describe("literalTexts", () => {
+  it.each([
+    ["text between tags", "<p>Let go</p>", ["Let go"]],
+    ["one word", "<button>Undo</button>", ["Undo"]],
+    ["a label", '<i aria-label="Close the list"></i>', ["Close the list"]],
+    ["a choice in a label", `<i title="{one ? 'usual' : 'other'}: 1"></i>`, ["usual", "other", ": …"]],
+    ["a choice between tags", '<p>{count === 1 ? "note" : "notes"}</p>', ["note", "notes"]],
+    ["what a component is given", '<Drawer title="Film" />', ["Film"]],
+  ])("finds %s", (_, source, found) => {
+    expect(literalTexts(source, true).toSorted()).toEqual(found.filter((text) => /\p{L}/u.test(text)).toSorted());
+  });
+
+  it.each([
+    ["a notice", 'tell("The loop begins here")', ["The loop begins here"]],
+    ["a sentence with places", "say(`Reading ${name} now`)", ["Reading … now"]],
+    ["a table of words", 'const WORDS = { low: "Low" }', ["Low"]],
+    ["an error for people", 'throw new Error("The picture is too large")', ["The picture is too large"]],
+  ])("finds %s in a module", (_, source, found) => {
+    expect(literalTexts(source, false)).toEqual(found);
+  });
+
+  it.each([
+    ["classes and addresses", '<a class="button main" href="/lab"></a>', true],
+    ["names of every language", "<b>MIDI</b>", true],
+    ["a message", "<p>{film.cancel}</p>", true],
+    ["a message's key", "<p title={hint('names')}>{words[kind]}</p>", true],
+    ["imports and types", 'import x from "./Some File"; type Kind = "One thing" | "Other";', false],
+    ["comparisons and keys", 'if (key === "Escape") go({ "Some Key": 1 })', false],
+    ["errors for who programs", 'throw new TypeError("no such place")', false],
+    ["selectors and events", 'page.querySelector("main .notice"); on("ArrowLeft")', false],
+  ])("leaves out %s", (_, source, isComponent) => {
+    expect(literalTexts(source, isComponent)).toEqual([]);
+  });
+});

@@ -1,0 +1,46 @@
+import { counted, filled, words } from "../words";
+
+/** What stands around the stage, whatever panel is open, and what the page says in passing. */
+export const page = words("page", {
+  language: "Language",
+  languageFailed: "The words of this language could not be loaded",
+  languageAgain: "Check the connection, then choose it again.",
+  close: "Close (Esc)",
+  closePanel: filled("Close {panel}"),
+  putAway: "Put away",
+  others: counted({ one: "and {count} more", other: "and {count} more" }),
+  unknownSession: "This session is not here",
+  unknownSessionMeans:
+    "It may have ended, or its address is not complete. Open a piece of your own, or the one that comes with Reina.",
+  noAnswer: "Reina does not answer",
+  noAnswerMeans: "The page is here, but its server is not. Check that it is running, then try again.",
+  openReinasPiece: "Open Reina's piece",
+  tryAgain: "Try again",
+  dropMidi: "Drop your MIDI",
+  files: "A score, a song or a show",
+  letGo: "Let go",
+  letGoMeans: "MIDI or JSON, with its recording if you have one",
+  myPieces: "My pieces",
+  views: "Views and light",
+  partOnPaper: "The part on paper",
+  part: "Part",
+  show: "Show",
+  film: "Film",
+  keys: "Help",
+  watching: "Watching",
+  watchingMeans: "Only whoever opened this session can change it",
+  lost: "The connection is lost. Trying again …",
+  soundOn: "Sound on",
+  soundOff: "Sound off",
+  volume: "Volume",
+  onePlayerOnStage: "The player on the stage; drag, or use the arrow keys, to look around",
+  playersOnStage: "The players on the stage; drag, or use the arrow keys, to look around",
+  cannotDraw: "The stage cannot be drawn here. Try another browser, or turn its hardware acceleration on.",
+  noWebGl:
+    "This browser cannot draw the stage: it has no WebGL 2. " +
+    "Switch on hardware acceleration in its settings, or open Reina in a current Firefox, Chrome, Edge or Safari.",
+  loadingSound: "Loading the sound",
+  makingSound: "Making the sound",
+  startsWithSound: filled("Starts with its sound. {doing}"),
+  noSound: "No sound: see Piece",
+});

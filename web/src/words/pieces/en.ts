@@ -1,0 +1,31 @@
+import { filled, words } from "../words";
+
+/** The list of pieces, and links to them. */
+export const pieces = words("pieces", {
+  title: "My pieces",
+  panel: "my pieces",
+  deleted: filled("“{title}” is deleted."),
+  undo: "Undo",
+  none: "Pieces that you open stand here. Drop a MIDI file to begin.",
+  delete: "Delete this piece",
+  deleteNamed: filled("Delete {title}"),
+  open: "Open a score",
+  share: "Share",
+  shareThis: "Share this piece",
+  whatFor: "What for",
+  watch: "To watch",
+  control: "To control",
+  embed: "In a page",
+  watchMeans: "Whoever opens this address sees and hears what you do, and can change nothing.",
+  controlMeans: "Whoever opens this address can play, stop and change everything. Give it to those you trust.",
+  embedMeans: "Put this into a web page: the stage without panels.",
+  html: "HTML",
+  address: "Address",
+  copy: "Copy",
+  linesCopied: "The page's lines are copied",
+  addressCopied: "The address is copied",
+  copyMarked: "Copy the marked text",
+  codeToWatch: "QR code of the address to watch",
+  codeToControl: "QR code of the address to control",
+  localOnly: "This address works on this machine alone. README.md says how to start Reina for phones in your network.",
+});

@@ -1,0 +1,18 @@
+import { language } from "./language";
+import { named } from "./server/en";
+
+/** What the server names, told apart by what it is. */
+export type Kind = "instrument" | "player" | "seat" | "mood" | "problem";
+
+/**
+ * A name or a title of the server's in the language that is shown.
+ *
+ * @param kind what it names
+ * @param name its stable name: `far left`, or a problem's type
+ * @param english the server's own words, which stand where the page has no others: for what plugins bring
+ */
+export function serverWords(kind: Kind, name: string, english: string): string {
+  if (language() === "en") return english;
+  const key = `${kind}_${name.replace(/^urn:reina:problem:/, "").replaceAll(/[ -]/g, "_")}`;
+  return (named as Readonly<Record<string, string>>)[key] ?? english;
+}

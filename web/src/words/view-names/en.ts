@@ -1,0 +1,11 @@
+import { words } from "../words";
+
+/** What the camera's views are called, by their names. */
+export const viewNames = words("view-names", {
+  whole_figure: "Whole figure",
+  three_quarter: "Three-quarter",
+  valves: "Valves",
+  face: "Face",
+  player: "Player's view",
+  hall: "Hall",
+});
