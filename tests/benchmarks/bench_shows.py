@@ -68,7 +68,12 @@ def show(kinds: tuple[str, ...], keyframes: int) -> bytes:
             if kind == "color":
                 value = f"#{int(rng.integers(1 << 24)):06x}"
             interpolation = INTERPOLATIONS[place % len(INTERPOLATIONS)]
-            entry = {"key": f"k{place}", "time": place / 8, "value": value, "interpolation": interpolation}
+            entry: dict[str, object] = {
+                "key": f"k{place}",
+                "time": place / 8,
+                "value": value,
+                "interpolation": interpolation,
+            }
             if interpolation == "cubic_bezier":
                 entry["handles"] = [0.2, 0.0, 0.4, 1.0]
             entries.append(entry)

@@ -10,7 +10,7 @@ from tests.e2e.opened import OVERFLOWING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from playwright.sync_api import Locator
+    from playwright.sync_api import Locator, ViewportSize
     from tests.e2e.opened import Opened
 
     Visit = Callable[..., Opened]
@@ -39,7 +39,8 @@ BROWSER_LANGUAGES = (
     """Object.defineProperty(navigator, "languages", { get: () => ["fr-CH", "de-CH", "en"] })"""
 )
 NAMES = {"de": "Sprache", "ja": "言語", "en": "Language"}
-WIDE, NARROW = {"width": 1440, "height": 560}, {"width": 390, "height": 640}
+WIDE: ViewportSize = {"width": 1440, "height": 560}
+NARROW: ViewportSize = {"width": 390, "height": 640}
 
 
 def panel(opened: Opened, name: str | None) -> Locator:

@@ -43,7 +43,8 @@ def recording() -> bytes:
     """The march, slower, after three seconds of silence, as FLAC."""
     made = record(Rendition(NAME, tempo=(SLOWER, 0.0), lead_in_s=LEAD_IN_S))
     file = io.BytesIO()
-    soundfile.write(file, made.samples, RATE, format="FLAC")
+    with soundfile.SoundFile(file, "w", samplerate=RATE, channels=1, format="FLAC", subtype="PCM_16") as flac:
+        flac.write(made.samples[:, None])
     return file.getvalue()
 
 
@@ -84,10 +85,11 @@ def test_notes_bars_and_frames_are_where_they_are_heard(aligned: Owned) -> None:
 def test_the_score_in_time_with_the_recording_is_taken_away_as_midi(aligned: Owned) -> None:
     data = aligned.client.get(f"{aligned.path}/export.mid").raise_for_status().content
     file = mido.MidiFile(file=io.BytesIO(data))
-    at_s, begins = 0.0, []
+    at_s = 0.0
+    begins: list[float] = []
     for message in file:
         at_s += message.time
-        if message.type == "note_on" and message.velocity > 0:
+        if isinstance(message, mido.Message) and message.type == "note_on" and message.velocity > 0:
             begins.append(at_s)
     wanted = sorted(note["onset_s"] for note in notes(aligned))
     # A player's notes may be fewer: what nobody can play is gone.

@@ -39,8 +39,8 @@ async def put_alignment(
 ) -> AlignmentResource:
     """Put right where the score is heard, or put in place what was kept of it; everybody sees it at once.
 
-    Anchors and offset stand beside what was found, and replace those that were there; `{}` takes back all that
-    was put right. A document with `points` replaces what was found too.
+    Anchors and offset stand beside what was found, and replace those that were there; `{}` takes back all
+    that was put right. A document with `points` replaces what was found too.
     """
     if session.record.song is None:
         raise _no_song()

@@ -84,7 +84,9 @@ class Alignment(AlignmentState):
 class AlignmentCorrections(WireModel):
     """What a person puts right in an alignment."""
 
-    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
+    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = Field(
+        default_factory=list[AnchorDocument]
+    )
     """Places of the score that are put where they are heard; what was found goes through them."""
     offset_s: Seconds = 0.0
     """By how much everything is heard later, seconds."""

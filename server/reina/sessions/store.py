@@ -405,8 +405,8 @@ class SessionStore:
         # Ended while it was read: it must not come back.
         if session_id not in self._folders:
             return None
-        *rest, alignment = read
-        session = self._admit(*rest, alignment=alignment)
+        record, production, kept, notes, alignment = read
+        session = self._admit(record, production, kept, notes, alignment)
         if alignment is None:
             # It was still being looked for when the server ended.
             self.search_alignment(session)

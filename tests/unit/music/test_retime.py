@@ -28,9 +28,10 @@ class Heard:
         return np.interp(score_s, known, values) + beyond
 
     def is_heard(self, score_s: FloatArray, /) -> BoolArray:
-        return ~np.any(
-            [(score_s >= begin) & (score_s < end) for begin, end in ((0, 0), *self.absent)], axis=0
-        )
+        heard = np.ones(np.shape(score_s), dtype=np.bool_)
+        for begin, end in self.absent:
+            heard &= (score_s < begin) | (score_s >= end)
+        return heard
 
 
 def warp(places: list[tuple[float, float]], absent: list[tuple[float, float]] | None = None) -> Heard:

@@ -273,7 +273,11 @@ def test_the_event_loop_evaluates_nothing_while_it_sends(monkeypatch: pytest.Mon
 
     async def scenario() -> None:
         hall = Hall()
-        monkeypatch.setattr(hall.frames, "prefetch", lambda _: None)
+
+        def wait_for_need(_: object) -> None:
+            pass
+
+        monkeypatch.setattr(hall.frames, "prefetch", wait_for_need)
         inbox = hall.join()
         hall.performance.threads.clear()
         seen: set[int] = set()
