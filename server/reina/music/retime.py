@@ -87,10 +87,10 @@ def from_second_zero(score: Score) -> Score:
         return score
     metre = score.metre_map
     pickup = metre.pickup_beats
-    signatures = metre.signatures
+    signatures = list(metre.signatures)
     if pickup > 0 and len(signatures) > 1 and signatures[1].onset_beats == pickup:
         # The pickup is written as a metre of its own.
-        signatures = (replace(signatures[1], onset_beats=0.0), *signatures[2:])
+        signatures = [replace(signatures[1], onset_beats=0.0), *signatures[2:]]
     bar = signatures[0].bar_beats
     bars = max(1, round((begins_s / float(score.tempo_map.seconds_per_beat[0]) + pickup) / bar))
     lead = bars * bar - pickup

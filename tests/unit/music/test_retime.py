@@ -28,7 +28,7 @@ class Heard:
         return np.interp(score_s, known, values) + beyond
 
     def is_heard(self, score_s: FloatArray, /) -> BoolArray:
-        heard = np.ones(np.shape(score_s), dtype=np.bool_)
+        heard: BoolArray = np.ones(np.shape(score_s), dtype=np.bool_)
         for begin, end in self.absent:
             heard &= (score_s < begin) | (score_s >= end)
         return heard
