@@ -23,7 +23,8 @@ class Heard:
         return np.array([score_s for score_s, _ in self.places])
 
     def song_times(self, score_s: FloatArray, /) -> FloatArray:
-        known, values = np.array(self.places).T
+        known = self.bends_s
+        values: FloatArray = np.array([song_s for _, song_s in self.places])
         beyond = np.minimum(score_s - known[0], 0.0) + np.maximum(score_s - known[-1], 0.0)
         return np.interp(score_s, known, values) + beyond
 
