@@ -24,7 +24,7 @@ Fields = Annotated[
     Annotated[AlignmentCorrections, Tag("corrections")] | Annotated[AlignmentDocument, Tag("document")],
     Discriminator(_kind),
 ]
-EXAMPLES = [{"offset_s": 0.12}, {"anchors": [{"score_s": 8.0, "song_s": 9.25}]}]
+EXAMPLES = [{"offset_s": 0.12}, {"anchors": [{"score_s": 0.5, "song_s": 0.75}]}]
 
 
 @router.get("/sessions/{session_id}/alignment")

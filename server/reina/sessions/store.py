@@ -245,9 +245,7 @@ class SessionStore:
             session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
 
-    async def change_alignment(
-        self, session: Session, step: Callable[[Alignment | None], Alignment | None]
-    ) -> None:
+    async def change_alignment(self, session: Session, step: Callable[[Alignment | None], Alignment]) -> None:
         """Say anew where a session's score is heard in its song; edits of a session follow one another.
 
         Args:
@@ -255,14 +253,20 @@ class SessionStore:
             step: What is known -> what is to be known. What it raises is raised on, and nothing is changed.
         """
         async with self._edit(session):
-            alignment = await asyncio.to_thread(step, session.alignment.alignment)
-            if alignment == session.alignment.alignment:
+            before = session.alignment.alignment
+            alignment = await asyncio.to_thread(step, before)
+            if alignment == before:
                 return
-            production, kept = await self._plan_other(session, session.record.cast, alignment)
-            other_show = kept is not session.show_revision
-            await session.change_alignment(production, kept, alignment)
-            if other_show:
-                await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+            if (before is None or not before.moves) and not alignment.moves:
+                # Nothing is heard elsewhere than before.
+                session.alignment.alignment = alignment
+                session.tell_alignment()
+            else:
+                production, kept = await self._plan_other(session, session.record.cast, alignment)
+                other_show = kept is not session.show_revision
+                await session.change_alignment(production, kept, alignment)
+                if other_show:
+                    await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
             await asyncio.to_thread(self._folders.write_alignment, session.id, alignment)
 
     def search_alignment(self, session: Session) -> bool:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 import subprocess
 import sys
+import threading
 from typing import TYPE_CHECKING, cast
 
 from reina.errors import InputError
@@ -46,7 +48,7 @@ class Aligner:
         self._program = tuple(program)
         self._timeout_s = timeout_s
         self._turns = asyncio.Semaphore(most_at_once)
-        self._under_way: set[asyncio.Task[Alignment | InputError]] = set()
+        self._under_way: set[asyncio.Future[Alignment | InputError | None]] = set()
 
     async def align(self, song: Path, score: Score, tell: Callable[[float], None]) -> Alignment:
         """Find where a score is heard in a recording. Cancelled, it stops the process.
@@ -61,33 +63,26 @@ class Aligner:
         """
         loop = asyncio.get_running_loop()
         async with self._turns:
-            process = await asyncio.to_thread(
-                subprocess.Popen, (*self._program, str(song)), stdin=subprocess.PIPE, stdout=subprocess.PIPE
-            )
-
-            def tell_loop(share: float) -> None:
-                loop.call_soon_threadsafe(tell, share)
-
-            following = asyncio.create_task(asyncio.to_thread(_follow, process, score, tell_loop))
-            self._under_way.add(following)
-            following.add_done_callback(self._under_way.discard)
+            search = _Search((*self._program, str(song)), score, lambda share: _tell_loop(loop, tell, share))
+            # The thread's own future: a task would be cancelled with all others before the thread ends.
+            outcome = loop.run_in_executor(None, search.run)
+            self._under_way.add(outcome)
+            outcome.add_done_callback(self._under_way.discard)
             try:
                 async with asyncio.timeout(self._timeout_s):
-                    # Shielded: the thread reads on until the process is gone, and is waited for below.
-                    outcome = await asyncio.shield(following)
+                    told = await asyncio.shield(outcome)
             except TimeoutError as error:
                 detail = f"looking for the music in the recording took over {self._timeout_s:.0f} s"
                 raise InputError(detail) from error
-            except EOFError as error:
-                log.warning("the aligner of %s ended early", song.parent.name)
-                raise InputError("the search for the music in the recording failed") from error
             finally:
-                process.kill()
-                await asyncio.wait([following])
-                await asyncio.to_thread(_end, process)
-        if isinstance(outcome, InputError):
-            raise outcome
-        return outcome
+                search.stop()
+                await asyncio.wait([outcome])
+        if told is None:
+            log.warning("the aligner of %s ended early", song.parent.name)
+            raise InputError("the search for the music in the recording failed")
+        if isinstance(told, InputError):
+            raise told
+        return told
 
     async def aclose(self) -> None:
         """Wait until the processes of searches that were cancelled are gone."""
@@ -95,31 +90,54 @@ class Aligner:
             await asyncio.wait(self._under_way)
 
 
-def _follow(
-    process: subprocess.Popen[bytes], score: Score, tell: Callable[[float], None]
-) -> Alignment | InputError:
-    """Send the score, and hear what comes back.
-
-    Raises:
-        EOFError: The process ended before it had told an outcome.
-    """
-    to, back = cast("BinaryIO", process.stdin), cast("BinaryIO", process.stdout)
-    try:
-        send(to, score)
-    except OSError as error:
-        raise EOFError(str(error)) from error
-    while True:
-        told: object = receive(back)
-        if isinstance(told, Alignment | InputError):
-            return told
-        tell(cast("float", told))
+def _tell_loop(loop: asyncio.AbstractEventLoop, tell: Callable[[float], None], share: float) -> None:
+    # A loop that is closed meanwhile wants no news.
+    with contextlib.suppress(RuntimeError):
+        loop.call_soon_threadsafe(tell, share)
 
 
-def _end(process: subprocess.Popen[bytes]) -> None:
-    for pipe in (process.stdin, process.stdout):
-        if pipe is not None:
-            try:
-                pipe.close()
-            except OSError:
-                continue
-    process.wait()
+class _Search:
+    """One process, from its start to its end, on a thread; another may stop it at any time."""
+
+    def __init__(self, program: tuple[str, ...], score: Score, tell: Callable[[float], None]) -> None:
+        self._program = program
+        self._score = score
+        self._tell = tell
+        self._lock = threading.Lock()
+        self._stopped = False
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def run(self) -> Alignment | InputError | None:
+        """Send the score and hear what comes back; None if the process ended before it told an outcome."""
+        with self._lock:
+            if self._stopped:
+                return None
+            self._process = process = subprocess.Popen(  # noqa: S603
+                self._program, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+            )
+        try:
+            return self._followed(cast("BinaryIO", process.stdin), cast("BinaryIO", process.stdout))
+        except (OSError, EOFError):
+            return None
+        finally:
+            process.kill()
+            for pipe in (process.stdin, process.stdout):
+                if pipe is not None:
+                    with contextlib.suppress(OSError):
+                        pipe.close()
+            process.wait()
+
+    def stop(self) -> None:
+        """End the process, or let it not begin."""
+        with self._lock:
+            self._stopped = True
+            if self._process is not None:
+                self._process.kill()
+
+    def _followed(self, to: BinaryIO, back: BinaryIO) -> Alignment | InputError:
+        send(to, self._score)
+        while True:
+            told: object = receive(back)
+            if isinstance(told, Alignment | InputError):
+                return told
+            self._tell(cast("float", told))

@@ -9,6 +9,7 @@ closed, the one who asked is gone, and the process ends.
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import threading
 from pathlib import Path
@@ -32,7 +33,10 @@ def main() -> int:
     told = take_output()
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
-    score: Score = receive(sys.stdin.buffer)
+    try:
+        score: Score = receive(sys.stdin.buffer)
+    except EOFError:
+        return 2
     threading.Thread(target=end_with_parent, daemon=True).start()
     try:
         samples, rate = read_mono(Path(sys.argv[1]).read_bytes())
@@ -40,7 +44,8 @@ def main() -> int:
     except InputError as error:
         send(told, error)
         return 0
-    send(told, found)
+    with contextlib.suppress(OSError):
+        send(told, found)
     return 0
 
 
