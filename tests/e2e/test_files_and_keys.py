@@ -69,7 +69,7 @@ def test_the_server_says_what_a_dropped_file_is(visit: Visit, client: httpx.Clie
 
     opened.choose_files(("cover.json", "application/json", b"\x89PNG"))
     page.get_by_role("alert").get_by_text("cover.json cannot be used: it is a PNG picture").wait_for()
-    page.get_by_role("alert").get_by_text("export MIDI").wait_for()
+    page.get_by_role("alert").get_by_text("export MusicXML (.musicxml) or MIDI").wait_for()
     assert opened.session == session
 
 

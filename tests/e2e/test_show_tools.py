@@ -85,7 +85,7 @@ def test_curves_of_several_units_and_a_colours_handles(show: ShowPage) -> None:
         put(COLOR, ["#D9A441", "#4C6A9A"], interpolation="cubic_spline"),
     )
     page.get_by_role("button", name="Curves").click()
-    page.get_by_role("treeitem", name="blocks color").click()
+    page.get_by_role("treeitem", name="blocks colour").click()
     page.get_by_label("Timeline").focus()
     show.opened.until("window.reina.show.curvesSettled()")
     page.keyboard.press("Control+a")
@@ -118,7 +118,7 @@ def test_answers_take_pitches_by_name_and_values_in_turn(show: ShowPage) -> None
     swell = {"on": "notes", "decay": 0.25, "amount": 2, "blend": "add"}
     show.edit({"edit": "put_track", "track": {"parameter": GLOW, "keyframes": [], "events": swell}})
     page.get_by_role("treeitem", name="blocks glow").click()
-    answer = page.get_by_role("group", name="Answer to the music")
+    answer = page.get_by_role("group", name="Reacts to the music")
 
     # A B♭ trumpet's C5 sounds a tone lower.
     pitch = answer.get_by_label("Pitch")
