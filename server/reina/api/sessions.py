@@ -28,7 +28,7 @@ MAX_LISTED = 1000
 def _form() -> dict[str, Any]:
     """The form of POST /sessions: its files, and the fields as they are declared; nothing in it is null."""
     files = {
-        "score": "MIDI or JSON, gzip'd or zipped if need be, at most {} MB",
+        "score": "MIDI, MusicXML or JSON, gzip'd or zipped if need be, at most {} MB",
         "song": "WAV, MP3, Ogg, FLAC, M4A or WebM, at most {} MB; without it the score is rendered",
         "show": "JSON, at most {} MB",
     }

@@ -29,7 +29,7 @@ TOLD_S = 0.5
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("score", type=Path, metavar="SCORE", help="a MIDI file or a JSON score")
+    parser.add_argument("score", type=Path, metavar="SCORE", help="a MIDI, MusicXML or JSON file")
     parser.add_argument(
         "recording", type=Path, metavar="RECORDING", help="WAV, FLAC, MP3, Ogg Vorbis or Opus"
     )

@@ -23,7 +23,7 @@ SMALLEST_HEIGHT, LARGEST_HEIGHT = 144, 2160
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("score", type=Path, metavar="SCORE", help="a MIDI file or a JSON score")
+    parser.add_argument("score", type=Path, metavar="SCORE", help="a MIDI, MusicXML or JSON file")
     parser.add_argument(
         "-o",
         "--output",

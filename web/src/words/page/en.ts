@@ -19,7 +19,7 @@ export const page = words("page", {
   dropMidi: "Drop your MIDI",
   files: "A score, a song or a show",
   letGo: "Let go",
-  letGoMeans: "MIDI or JSON, with its recording if you have one",
+  letGoMeans: "MIDI, MusicXML or JSON, with its recording if you have one",
   myPieces: "My pieces",
   views: "Views and light",
   partOnPaper: "The part on paper",
