@@ -55,9 +55,8 @@ class Ensemble:
             if body is None:
                 posed[place] = self.performers[place].body.solve(motion)
             else:
-                alike.setdefault(
-                    (body.figure, None if motion.stance is None else motion.stance.shape[1]), []
-                ).append((place, body))
+                rows = 0 if motion.stance is None else motion.stance.shape[1]
+                alike.setdefault((body.figure, rows), []).append((place, body))
         for members in alike.values():
             rotations, roots = members[0][1].pose([motions[place] for place, _ in members])
             for (place, body), own_rotations, own_roots in zip(members, rotations, roots, strict=True):

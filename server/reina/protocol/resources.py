@@ -400,6 +400,26 @@ class InstrumentList(WireModel):
     """How many play at once at most."""
 
 
+class Stance(WireModel):
+    """A pose of a motion file that a session's players can stand in."""
+
+    name: str
+    """What the show's `player/stance` chooses it by."""
+    file: str | None
+    """What its sender called the motion file."""
+    time_s: float
+    """Of which of its frames the pose is."""
+    href: str
+    """Where it is taken away."""
+
+
+class StanceList(WireModel):
+    """A session's own stances."""
+
+    stances: list[Stance]
+    """In the order of the choices."""
+
+
 class Tempo(WireModel):
     """A tempo and where it begins."""
 

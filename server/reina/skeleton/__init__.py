@@ -1,10 +1,10 @@
 """Joints and their rest pose, forward kinematics, rigs and holds, motion clips."""
 
 from reina.skeleton.clip_warning import ClipWarning
-from reina.skeleton.errors import BvhError, RigError
+from reina.skeleton.errors import BvhError, PoseError, RigError
 from reina.skeleton.forward_kinematics import forward_kinematics
 from reina.skeleton.hold import Hold, load_hold, read_hold
-from reina.skeleton.human_pose import HumanPose, PoseError, human_pose, pose_numbers, pose_of
+from reina.skeleton.human_pose import HumanPose, human_pose, pose_numbers, pose_of
 from reina.skeleton.joint_aliases import humanoid_name
 from reina.skeleton.load_rig import load_rig, read_rig
 from reina.skeleton.motion_clip import MotionClip

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.errors import InputError
 from reina.rotations import conjugate, cross, from_axis_angle, from_matrix, multiply, rotate
+from reina.skeleton.errors import PoseError
 from reina.skeleton.joint_aliases import humanoid_name
 
 if TYPE_CHECKING:
@@ -31,17 +31,13 @@ _STRAIGHT = 0.94
 _MOST_LISTED = 40
 
 
-class PoseError(InputError):
-    """A motion file, or its frame, that shows no person standing; ``location`` names the joint or time."""
-
-
 @dataclass(frozen=True, eq=False)
 class HumanPose:
     """A person's pose without its place, its size and the way that it faces.
 
     Attributes:
-        turns: How each of `POSED` is turned from a person who stands upright with legs straight down and looks
-            ahead: a rotation in the world, (+x the person's left, +y up, +z ahead), ``(4,)``.
+        turns: How each of `POSED` is turned from a person who stands upright with legs straight down and
+            looks ahead: a rotation in the world (+x the person's left, +y up, +z ahead), ``(4,)``.
     """
 
     turns: dict[str, FloatArray]
@@ -157,8 +153,8 @@ def _standing(at_rest: FloatArray, joints: dict[str, int]) -> FloatArray:
     up, left = _nearest_axis(up), _nearest_axis(left)
     if _unit(at_rest[joints["top"]] - hips, "the neck is where the hips are") @ up < np.cos(STEEPEST):
         raise PoseError(
-            "the file's rest pose, all rotations 0, does not stand with the head above the hips and the legs below; "
-            "export it with one that does, such as a T-pose"
+            "in the file's rest pose, all rotations 0, the head is not above the hips and the legs below; "
+            "export it with a rest pose that stands, such as a T-pose"
         )
     left = _unit(left - up * (left @ up), "both thighs begin at one place")
     return from_matrix(np.stack([left, up, cross(left, up)], axis=-1))
@@ -179,8 +175,8 @@ def _onto_down(along: FloatArray, name: str) -> FloatArray:
     axis, cosine = cross(down, bone), float(np.clip(down @ bone, -1.0, 1.0))
     if np.arccos(cosine) > STEEPEST:
         raise PoseError(
-            "in the file's rest pose, all rotations 0, the legs do not hang down; export it with a rest pose that "
-            "stands, such as a T-pose",
+            "in the file's rest pose, all rotations 0, the legs do not hang down; export it with a rest "
+            "pose that stands, such as a T-pose",
             location=name,
         )
     sine = float(np.linalg.norm(axis))

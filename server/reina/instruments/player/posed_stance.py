@@ -119,7 +119,7 @@ def _facing(hips: FloatArray, rest: FloatArray) -> FloatArray:
 
 
 def _hung(rig: Rig, name: str, rest_world: FloatArray) -> FloatArray:
-    """A joint's rotation in the world when its bone hangs straight down, for thighs and shins; else at rest."""
+    """A joint's rotation in the world at rest; of thighs and shins when they hang straight down."""
     skeleton = rig.skeleton
     joint = skeleton.index(name)
     end = name.replace("UpperLeg", "LowerLeg") if "UpperLeg" in name else name.replace("LowerLeg", "Foot")
@@ -191,7 +191,7 @@ def _axis(rig: Rig, side: str, turned: FloatArray) -> FloatArray:
 
 
 def _hinge(rig: Rig, side: str, places: FloatArray, turned: FloatArray) -> FloatArray:
-    """The same of a posed leg: as thigh and shin lie where the knee is bent, as the thigh is turned if not."""
+    """The same of a posed leg: as thigh and shin lie where the knee is bent, else as the thigh is turned."""
     skeleton = rig.skeleton
     upper, lower, foot = (skeleton.index(f"{side}{bone}") for bone in ("UpperLeg", "LowerLeg", "Foot"))
     thigh, shin = places[lower] - places[upper], places[foot] - places[lower]

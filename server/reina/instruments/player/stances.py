@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from reina.skeleton import HumanPose, MotionClip, Rig
 
 STANCES: tuple[str, ...] = ("none", "breathing", "swaying", "shifting")
-"""Choices of ``player/stance`` that there always are: none, or a clip of the rig by its name; one that the rig
-has not is none. A session's own stances come after them."""
+"""Choices of ``player/stance`` that there always are: none, or a clip of the rig by its name; one that the
+rig has not is none. A session's own stances come after them."""
 
 _SEAM = 1e-3
 """How far a clip's last frame may be from its first, radians and metres, for the clip to be a loop."""
@@ -57,7 +57,7 @@ class Stances:
         self.count = len(STANCES) + len(poses)
         """How many stances there are."""
         rows = [] if held is None else [retarget_pose(pose, rig, held).row for pose in poses]
-        self._poses: FloatArray = np.array(rows).reshape(len(rows), -1)
+        self._poses: FloatArray = np.array(rows).reshape(len(rows), 3 * (len(self.joints) + 1 + LEGS))
 
     def evaluate(self, times_s: FloatArray, weights: FloatArray) -> FloatArray | None:
         """Rotation vectors of the joints, in their own frames, then the hips' shift in metres.
