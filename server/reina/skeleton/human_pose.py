@@ -96,9 +96,8 @@ def _frame(clip: MotionClip, time_s: float) -> int:
     frame = round(time_s / clip.frame_time_s)
     if not 0 <= frame < len(clip):
         last = (len(clip) - 1) * clip.frame_time_s
-        raise PoseError(
-            f"the file's frames are from 0 to {last:.2f} s, so there is none", location=f"{time_s:g} s"
-        )
+        detail = f"there is no frame; the file has them from 0 to {last:.2f} s"
+        raise PoseError(detail, location=f"{time_s:g} s")
     return frame
 
 

@@ -100,7 +100,6 @@ def figure(
     *,
     scale: float = 1.0,
     facing: float = 0.0,
-    without: str = "",
     place: tuple[float, float, float] = (0.0, 90.0, 0.0),
 ) -> MotionClip:
     """Two frames at 10 a second: at rest, then in the pose, turned about the vertical by degrees."""
@@ -108,7 +107,7 @@ def figure(
     named = dict(zip(_TRUNK, trunk.split(), strict=True))
     for limb, name in zip(_LIMBS, limbs.split(), strict=True):
         named |= {f"left{limb}": left.format(name), f"right{limb}": right.format(name)}
-    bones = [bone for bone in _BONES if bone != without]
+    bones = list(_BONES)
     angles = POSES[pose] if isinstance(pose, str) else pose
     turned: Any = np.tile(IDENTITY, (2, len(bones), 1))
     for joint, bone in enumerate(bones):
