@@ -123,7 +123,7 @@ def frames(request: pytest.FixtureRequest, played: Frames, most: Frames, posed: 
 
 def test_in_a_stance_from_a_motion_file_nothing_comes_apart(stood: Frames, hold: Hold) -> None:
     test_rotations_are_unit_and_on_the_side_of_rest(stood)
-    test_pads_stay_on_their_buttons(stood, at_least=100)
+    assert pressed_buttons(stood) > 100
     test_the_mouth_stays_on_the_mouthpiece_while_the_horn_is_up(stood)
     test_feet_stay_planted_and_hands_on_the_horn(stood, hold)
     test_no_joint_leaves_its_limits(stood)
@@ -189,7 +189,12 @@ def test_rotations_are_unit_and_on_the_side_of_rest(frames: Frames) -> None:
     assert np.all(frames.instrument[:, 3] >= 0.0)
 
 
-def test_pads_stay_on_their_buttons(frames: Frames, at_least: int = 300) -> None:
+def test_pads_stay_on_their_buttons(frames: Frames) -> None:
+    assert pressed_buttons(frames) > 300
+
+
+def pressed_buttons(frames: Frames) -> int:
+    """How often valves are down; pads are on their buttons whenever they are."""
     pressed = 0
     for button in frames.trumpet.buttons:
         down = frames.value(f"trumpet/valve/{button.valve}")
@@ -198,7 +203,7 @@ def test_pads_stay_on_their_buttons(frames: Frames, at_least: int = 300) -> None
         assert gap[down > 0.0].max() < 0.0005
         assert gap.max() < 0.008
         pressed += int(np.sum(down == 1.0))
-    assert pressed > at_least
+    return pressed
 
 
 def test_valves_follow_the_fingering(played: Frames) -> None:

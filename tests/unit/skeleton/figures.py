@@ -24,10 +24,10 @@ POSES: dict[str, Angles] = {
         "hips": (8, 15, 0),
         "spine": (8, -8, 0),
         "chest": (6, -8, 0),
-        "leftUpperLeg": (-70, 8, 6),
-        "leftLowerLeg": (62, 0, 0),
+        "leftUpperLeg": (-62, 8, 6),
+        "leftLowerLeg": (54, 0, 0),
         "rightUpperLeg": (22, 0, -6),
-        "rightLowerLeg": (22, 0, 0),
+        "rightLowerLeg": (34, 0, 0),
         "rightFoot": (-25, 0, 0),
     },
     "crouch": {

@@ -9,7 +9,7 @@ import numpy as np
 
 from reina.instruments.player.body_table import TRUNK
 from reina.kinematics import clamp_to_limits
-from reina.rotations import conjugate, cross, exp, from_axis_angle, log, multiply, rotate
+from reina.rotations import IDENTITY, conjugate, cross, exp, from_axis_angle, log, multiply, rotate
 from reina.skeleton import Limits, forward_kinematics
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ ROOM_RAD = np.radians(8.0)
 AIM_RAD = 0.20
 """How far neck and head turn back at most, so that the player looks and plays where the hold does."""
 NEAR_FLOOR_M = 0.05
-"""A foot no higher than this above the other stands on the floor too."""
+"""A foot that a pose has no higher than this above the other stands on the floor too."""
 HEEL_M = 0.055
 TOE_M = 0.07
 """How far a shoe reaches behind the ankle and ahead of the toes' joint."""
@@ -73,43 +73,55 @@ def retarget_pose(pose: HumanPose, rig: Rig, held: HeldPose) -> PosedStance:
         held: The playing position.
     """
     skeleton = rig.skeleton
-    _, rest_world = forward_kinematics(skeleton, skeleton.rest_rotations)
-    facing = _facing(held.world[0], rest_world[0])
-    local = held.rotations.copy()
-    world = held.world.copy()
-    for joint, parent in enumerate(skeleton.parents.tolist()):
-        name = skeleton.names[joint]
-        above = world[parent] if joint else np.array([0.0, 0.0, 0.0, 1.0])
-        if name in pose.turns:
-            world[joint] = multiply(multiply(facing, pose.turns[name]), _hung(rig, name, rest_world))
-            local[joint] = multiply(conjugate(above), world[joint])
-            limits = rig.limits.get(joint)
-            # What a knee may do the solver of the legs keeps to.
-            if limits is not None and not name.endswith("LowerLeg"):
-                kept = limits if name.endswith(("UpperLeg", "Foot")) else _narrowed(limits)
-                local[joint] = clamp_to_limits(local[joint], skeleton.rest_rotations[joint], kept)
-        world[joint] = multiply(above, local[joint])
-    _aim(rig, held, local, world)
-    trunk = [skeleton.index(name) for name in TRUNK if name in skeleton]
-    turns = log(multiply(conjugate(held.rotations[trunk]), local[trunk]))
-
+    local = _local(pose, rig, held, within_limits=True)
     places, turned = forward_kinematics(skeleton, local, np.zeros(3))
     feet = np.array([skeleton.index(f"{side}Foot") for side in SIDES])
-    soles = np.stack([_lowest(rig, side, places, turned, rest_world) for side in SIDES])
-    floor = min(_lowest(rig, side, held.positions, held.world, rest_world) for side in SIDES)
+    # How high the feet are above the floor the pose says; a limited leg does not lift its foot off it.
+    free = forward_kinematics(skeleton, _local(pose, rig, held, within_limits=False), np.zeros(3))
+    above_floor = _soles(rig, *free)
+    above_floor = above_floor - above_floor.min()
+    above_floor[above_floor < NEAR_FLOOR_M] = 0.0
+    wanted = _soles(rig, held.positions, held.world).min() + above_floor
+    heights = wanted - _soles(rig, places, turned)
     root = (held.positions[feet] - places[feet]).mean(axis=0)
-    root[1] = floor - soles.min()
+    root[1] = heights.min()
     ankles = places[feet] + root
-    above_floor = soles - soles.min()
-    ankles[:, 1] -= np.where(above_floor < NEAR_FLOOR_M, above_floor, 0.0)
+    ankles[:, 1] += heights - root[1]
+    trunk = [skeleton.index(name) for name in TRUNK if name in skeleton]
+    turns = log(multiply(conjugate(held.rotations[trunk]), local[trunk]))
     return PosedStance(
         turns=turns,
         hips=root - held.root,
         feet=ankles - held.positions[feet],
         feet_turns=log(multiply(turned[feet], conjugate(held.world[feet]))),
-        knees=np.stack([_hinge(rig, side, places, turned) for side in SIDES])
+        knees=np.stack([_axis(rig, side, turned) for side in SIDES])
         - np.stack([_axis(rig, side, held.world) for side in SIDES]),
     )
+
+
+def _local(pose: HumanPose, rig: Rig, held: HeldPose, *, within_limits: bool) -> FloatArray:
+    """Local rotations of all joints in a pose, rest included, ``(J, 4)``; others are as in the hold."""
+    skeleton = rig.skeleton
+    _, rest_world = forward_kinematics(skeleton, skeleton.rest_rotations)
+    facing = _facing(held.world[0], rest_world[0])
+    local, world = held.rotations.copy(), held.world.copy()
+    bent: dict[str, FloatArray] = {}
+    for joint, parent in enumerate(skeleton.parents.tolist()):
+        name = skeleton.names[joint]
+        above = world[parent] if joint else IDENTITY
+        if name in pose.turns:
+            turned = multiply(multiply(facing, pose.turns[name]), _hung(rig, name, rest_world))
+            if name.endswith("UpperLeg"):
+                lower = name.replace("Upper", "Lower")
+                shin = multiply(multiply(facing, pose.turns[lower]), _hung(rig, lower, rest_world))
+                turned, bent[lower] = _bent(rig, name, turned, shin)
+            local[joint] = bent[name] if name in bent else multiply(conjugate(above), turned)
+            if within_limits and joint in rig.limits:
+                kept = _narrowed(rig.limits[joint])
+                local[joint] = clamp_to_limits(local[joint], skeleton.rest_rotations[joint], kept)
+        world[joint] = multiply(above, local[joint])
+    _aim(rig, held, local, world)
+    return local
 
 
 def _facing(hips: FloatArray, rest: FloatArray) -> FloatArray:
@@ -165,21 +177,20 @@ def _aim(rig: Rig, held: HeldPose, local: FloatArray, world: FloatArray) -> None
         parent = turned
 
 
-def _lowest(
-    rig: Rig, side: str, places: FloatArray, turned: FloatArray, rest_world: FloatArray
-) -> FloatArray:
-    """The height of a shoe's lowest point: heel, ball or toe."""
+def _soles(rig: Rig, places: FloatArray, turned: FloatArray) -> FloatArray:
+    """The heights of both shoes' lowest points, heel, ball or toe, ``(2,)``."""
     skeleton = rig.skeleton
-    rest_places, _ = forward_kinematics(skeleton, skeleton.rest_rotations)
-    foot = skeleton.index(f"{side}Foot")
-    sole = rig.contact(f"{side}Sole")
-    below = rotate(rest_world[foot], sole.offset)[1]
-    reach = rest_places[skeleton.index(f"{side}Toes")] - rest_places[foot]
-    along = reach * [1.0, 0.0, 1.0]
-    length = float(np.linalg.norm(along))
-    points = np.stack([along * step for step in (-HEEL_M / length, 1.0, 1.0 + TOE_M / length)])
-    points[:, 1] = below
-    return np.min(places[foot, 1] + rotate(multiply(turned[foot], conjugate(rest_world[foot])), points)[:, 1])
+    rest_places, rest_world = forward_kinematics(skeleton, skeleton.rest_rotations)
+    heights: list[float] = []
+    for side in SIDES:
+        foot = skeleton.index(f"{side}Foot")
+        along = (rest_places[skeleton.index(f"{side}Toes")] - rest_places[foot]) * [1.0, 0.0, 1.0]
+        length = float(np.linalg.norm(along))
+        points = np.stack([along * step for step in (-HEEL_M / length, 1.0, 1.0 + TOE_M / length)])
+        points[:, 1] = rotate(rest_world[foot], rig.contact(f"{side}Sole").offset)[1]
+        moved = rotate(multiply(turned[foot], conjugate(rest_world[foot])), points)
+        heights.append(float(places[foot, 1] + moved[:, 1].min()))
+    return np.array(heights)
 
 
 def _axis(rig: Rig, side: str, turned: FloatArray) -> FloatArray:
@@ -190,13 +201,36 @@ def _axis(rig: Rig, side: str, turned: FloatArray) -> FloatArray:
     return rotate(turned[skeleton.parents[lower]], hinge)
 
 
-def _hinge(rig: Rig, side: str, places: FloatArray, turned: FloatArray) -> FloatArray:
-    """The same of a posed leg: as thigh and shin lie where the knee is bent, else as the thigh is turned."""
+def _bent(rig: Rig, name: str, upper: FloatArray, lower: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """A leg as a thigh and a shin lie, its knee a hinge.
+
+    Where the knee is bent thigh and shin say which way it points; where it is straight, or bent forward, the
+    thigh's own turn does.
+
+    Args:
+        rig: The player's rig.
+        name: The thigh's joint.
+        upper: The thigh's rotation in the world, ``(4,)``.
+        lower: The shin's, ``(4,)``.
+
+    Returns:
+        The thigh's rotation in the world, turned about itself, and the shin's local one, rest included.
+    """
     skeleton = rig.skeleton
-    upper, lower, foot = (skeleton.index(f"{side}{bone}") for bone in ("UpperLeg", "LowerLeg", "Foot"))
-    thigh, shin = places[lower] - places[upper], places[foot] - places[lower]
-    axis = _axis(rig, side, turned)
-    lies = cross(thigh, shin) / (np.linalg.norm(thigh) * np.linalg.norm(shin))
-    # A knee that is bent forward is read as straight.
-    mixed = BEND * axis + lies if lies @ axis > 0.0 else axis
-    return mixed / np.linalg.norm(mixed)
+    side = name.removesuffix("UpperLeg")
+    knee, foot = skeleton.index(f"{side}LowerLeg"), skeleton.index(f"{side}Foot")
+    rest, along = skeleton.rest_rotations[knee], skeleton.rest_translations[foot]
+    hinge = rotate(rest, np.array([1.0, 0.0, 0.0]))
+    thigh = skeleton.rest_translations[knee] / np.linalg.norm(skeleton.rest_translations[knee])
+    shin = rotate(conjugate(upper), rotate(lower, along / np.linalg.norm(along)))
+    across = hinge - thigh * (hinge @ thigh)
+    lies = cross(thigh, shin)
+    wanted = BEND * across + lies if lies @ across > 0.0 else across
+    twist = np.arctan2(cross(across, wanted) @ thigh, across @ wanted)
+    about = from_axis_angle(thigh, float(twist))
+    flat = rotate(conjugate(about), shin)
+    flat = flat - hinge * (flat @ hinge)
+    straight = rotate(rest, along)
+    straight = straight - hinge * (straight @ hinge)
+    angle = float(np.arctan2(cross(straight, flat) @ hinge, straight @ flat))
+    return multiply(upper, about), multiply(rest, from_axis_angle(np.array([1.0, 0.0, 0.0]), angle))
