@@ -1,7 +1,6 @@
 """A session's own stances: poses of motion files that its players can stand in."""
 
 from typing import TYPE_CHECKING, Annotated
-from urllib.parse import quote
 
 from fastapi import APIRouter, Path, Query, Request, Response
 
@@ -12,8 +11,8 @@ from reina.api.lab.clips import BODY, Positions, read_clip_file
 from reina.api.lab.work import compute
 from reina.instruments.player import STANCES
 from reina.protocol import resources
-from reina.protocol.links import session_href
 from reina.protocol.resources import Fault
+from reina.sessions.description import stance_resource, stances_of
 from reina.sessions.record import StanceRecord
 from reina.skeleton import HumanPose, PoseError, human_pose, pose_numbers
 
@@ -47,7 +46,7 @@ Filename = Annotated[str | None, Query(max_length=200, description="What the fil
 @router.get("/sessions/{session_id}/stances")
 async def list_stances(session: Watched) -> resources.StanceList:
     """The stances that were made for this session, in the order of `player/stance`'s choices."""
-    return resources.StanceList(stances=[_resource(session.id, one) for one in session.record.stances])
+    return resources.StanceList(stances=stances_of(session.record))
 
 
 @router.post("/sessions/{session_id}/stances", status_code=201, openapi_extra=BODY)
@@ -93,7 +92,7 @@ async def make_stance(
         return (*known, made)
 
     await store.change(session, restance=with_it)
-    stance = _resource(session.id, made)
+    stance = stance_resource(session.id, made)
     response.headers["Location"] = stance.href
     return stance
 
@@ -114,15 +113,6 @@ async def remove_stance(
         return left
 
     await store.change(session, restance=without_it)
-
-
-def _resource(session_id: str, stance: StanceRecord) -> resources.Stance:
-    return resources.Stance(
-        name=stance.name,
-        file=stance.file,
-        time_s=stance.time_s,
-        href=f"{session_href(session_id)}/stances/{quote(stance.name, safe='')}",
-    )
 
 
 def _pose(data: bytes, positions: "PositionMeaning", time_s: float) -> HumanPose:

@@ -249,6 +249,8 @@ export interface Session {
   findings: Finding[]
   song: SongState
   alignment: AlignmentState
+  /** Its own, in the order of the choices of player/stance. */
+  stances: Stance[]
   links: SessionLinks
 }
 
