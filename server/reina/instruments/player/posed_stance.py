@@ -20,10 +20,13 @@ if TYPE_CHECKING:
     from reina.skeleton import HumanPose, Rig
 
 SIDES = ("left", "right")
-ROOM_RAD = np.radians(8.0)
+ROOM_RAD = np.radians(10.0)
 """So far within the limits of its joints a pose keeps the trunk, for gestures that turn it further."""
-AIM_RAD = 0.20
-"""How far neck and head turn back at most, so that the player looks and plays where the hold does."""
+AIM_RAD = 0.25
+"""How far neck and head tip back at most, so that the player plays as level as in the hold. Sideways they go
+with the chest: the wrists bear no more."""
+CLOSED_M = 0.04
+"""How far the limits of its joints may take a leg from the pose, in height, for its foot to be brought back."""
 NEAR_FLOOR_M = 0.05
 """A foot that a pose has no higher than this above the other stands on the floor too."""
 HEEL_M = 0.055
@@ -64,8 +67,8 @@ def retarget_pose(pose: HumanPose, rig: Rig, held: HeldPose) -> PosedStance:
     Hips, spine and legs turn from the rig's rest pose as the person's do from theirs, the spine within its
     limits. The lower foot stands on the floor, and so the hips are as high as the player's own legs have
     them; both feet together stand where they do in the hold, and the hips face as there. Head and neck go
-    with the chest, and turn back by `AIM_RAD` at most to look where they do in the hold; arms and instrument
-    are left to the solvers.
+    with the chest, and tip back by `AIM_RAD` at most towards the level of the hold; arms and instrument are left
+    to the solvers.
 
     Args:
         pose: The pose.
@@ -84,9 +87,10 @@ def retarget_pose(pose: HumanPose, rig: Rig, held: HeldPose) -> PosedStance:
     wanted = _soles(rig, held.positions, held.world).min() + above_floor
     heights = wanted - _soles(rig, places, turned)
     root = (held.positions[feet] - places[feet]).mean(axis=0)
-    root[1] = heights.min()
+    # Two legs that the limits have made unequal share the difference.
+    root[1] = heights.max() - min(0.5 * np.ptp(heights), CLOSED_M)
     ankles = places[feet] + root
-    ankles[:, 1] += heights - root[1]
+    ankles[:, 1] += np.maximum(heights - root[1], -CLOSED_M)
     trunk = [skeleton.index(name) for name in TRUNK if name in skeleton]
     turns = log(multiply(conjugate(held.rotations[trunk]), local[trunk]))
     return PosedStance(
@@ -163,12 +167,13 @@ def _three(numbers: Sequence[float]) -> tuple[float, float, float]:
 
 
 def _aim(rig: Rig, held: HeldPose, local: FloatArray, world: FloatArray) -> None:
-    """Turn neck and head back towards where the hold has the head, half of it each."""
+    """Tip neck and head up or down towards where the hold has the head, half of it each."""
     skeleton = rig.skeleton
     head = skeleton.index("head")
     back = log(multiply(held.world[head], conjugate(world[head])))
-    size = float(np.linalg.norm(back))
-    back = back * min(1.0, AIM_RAD / size) if size > 0.0 else back
+    ahead = _facing(world[0], forward_kinematics(skeleton, skeleton.rest_rotations)[1][0])
+    left = rotate(ahead, np.array([1.0, 0.0, 0.0]))
+    back = left * float(np.clip(back @ left, -AIM_RAD, AIM_RAD))
     joints = [skeleton.index(name) for name in ("neck", "head") if name in skeleton]
     parent = world[skeleton.parents[joints[0]]]
     for share, joint in enumerate(joints, start=1):
