@@ -22,11 +22,15 @@ if TYPE_CHECKING:
 SIDES = ("left", "right")
 ROOM_RAD = np.radians(10.0)
 """So far within the limits of its joints a pose keeps the trunk, for gestures that turn it further."""
+Pairs = tuple[tuple[float, float], ...]
+THIGH_RAD: Pairs = ((-0.95, 0.45), (-0.5, 0.5), (-0.3, 0.3))
+"""How far thighs turn about x (forward is negative), y and z at most, before `ROOM_RAD`: as far as what
+players wear goes along with."""
 AIM_RAD = 0.25
 """How far neck and head tip back at most, so that the player plays as level as in the hold. Sideways they go
 with the chest: the wrists bear no more."""
 CLOSED_M = 0.04
-"""How far the limits of its joints may take a leg from the pose, in height, for its foot to be brought back."""
+"""How far, in height, the limits may take a leg from its pose for its foot to be brought back to it."""
 NEAR_FLOOR_M = 0.05
 """A foot that a pose has no higher than this above the other stands on the floor too."""
 HEEL_M = 0.055
@@ -67,8 +71,8 @@ def retarget_pose(pose: HumanPose, rig: Rig, held: HeldPose) -> PosedStance:
     Hips, spine and legs turn from the rig's rest pose as the person's do from theirs, the spine within its
     limits. The lower foot stands on the floor, and so the hips are as high as the player's own legs have
     them; both feet together stand where they do in the hold, and the hips face as there. Head and neck go
-    with the chest, and tip back by `AIM_RAD` at most towards the level of the hold; arms and instrument are left
-    to the solvers.
+    with the chest, and tip back by `AIM_RAD` at most towards the level of the hold; arms and instrument are
+    left to the solvers.
 
     Args:
         pose: The pose.
@@ -109,7 +113,6 @@ def _local(pose: HumanPose, rig: Rig, held: HeldPose, *, within_limits: bool) ->
     _, rest_world = forward_kinematics(skeleton, skeleton.rest_rotations)
     facing = _facing(held.world[0], rest_world[0])
     local, world = held.rotations.copy(), held.world.copy()
-    bent: dict[str, FloatArray] = {}
     for joint, parent in enumerate(skeleton.parents.tolist()):
         name = skeleton.names[joint]
         above = world[parent] if joint else IDENTITY
@@ -118,10 +121,11 @@ def _local(pose: HumanPose, rig: Rig, held: HeldPose, *, within_limits: bool) ->
             if name.endswith("UpperLeg"):
                 lower = name.replace("Upper", "Lower")
                 shin = multiply(multiply(facing, pose.turns[lower]), _hung(rig, lower, rest_world))
-                turned, bent[lower] = _bent(rig, name, turned, shin)
-            local[joint] = bent[name] if name in bent else multiply(conjugate(above), turned)
+                turned = _towards_knee(rig, name, turned, shin)
+            bends = name.endswith("LowerLeg")
+            local[joint] = _knee(rig, joint, above, turned) if bends else multiply(conjugate(above), turned)
             if within_limits and joint in rig.limits:
-                kept = _narrowed(rig.limits[joint])
+                kept = _narrowed(rig.limits[joint], THIGH_RAD if name.endswith("UpperLeg") else None)
                 local[joint] = clamp_to_limits(local[joint], skeleton.rest_rotations[joint], kept)
         world[joint] = multiply(above, local[joint])
     _aim(rig, held, local, world)
@@ -151,9 +155,11 @@ def _hung(rig: Rig, name: str, rest_world: FloatArray) -> FloatArray:
     return multiply(from_axis_angle(axis / sine, float(np.arctan2(sine, bone @ down))), rest_world[joint])
 
 
-def _narrowed(limits: Limits) -> Limits:
-    """Limits that leave `ROOM_RAD` on both sides, half of what there is at most."""
+def _narrowed(limits: Limits, further: Pairs | None) -> Limits:
+    """Limits no wider than others that leave `ROOM_RAD` on both sides, half of what there is at most."""
     pairs = list(zip(limits.minimum, limits.maximum, strict=True))
+    if further is not None:
+        pairs = [(max(a, c), min(b, d)) for (a, b), (c, d) in zip(pairs, further, strict=True)]
     return Limits(
         limits.order,
         _three([min(low + ROOM_RAD, 0.5 * low) if low < 0.0 else low for low, _ in pairs]),
@@ -206,36 +212,45 @@ def _axis(rig: Rig, side: str, turned: FloatArray) -> FloatArray:
     return rotate(turned[skeleton.parents[lower]], hinge)
 
 
-def _bent(rig: Rig, name: str, upper: FloatArray, lower: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A leg as a thigh and a shin lie, its knee a hinge.
+def _towards_knee(rig: Rig, name: str, upper: FloatArray, lower: FloatArray) -> FloatArray:
+    """A thigh's rotation in the world, turned about itself so that its knee bends to where the shin lies.
 
-    Where the knee is bent thigh and shin say which way it points; where it is straight, or bent forward, the
-    thigh's own turn does.
+    Where the knee is straight, or bent forward, the thigh keeps its turn.
 
     Args:
         rig: The player's rig.
         name: The thigh's joint.
         upper: The thigh's rotation in the world, ``(4,)``.
         lower: The shin's, ``(4,)``.
-
-    Returns:
-        The thigh's rotation in the world, turned about itself, and the shin's local one, rest included.
     """
     skeleton = rig.skeleton
     side = name.removesuffix("UpperLeg")
     knee, foot = skeleton.index(f"{side}LowerLeg"), skeleton.index(f"{side}Foot")
-    rest, along = skeleton.rest_rotations[knee], skeleton.rest_translations[foot]
-    hinge = rotate(rest, np.array([1.0, 0.0, 0.0]))
+    along = skeleton.rest_translations[foot]
+    hinge = rotate(skeleton.rest_rotations[knee], np.array([1.0, 0.0, 0.0]))
     thigh = skeleton.rest_translations[knee] / np.linalg.norm(skeleton.rest_translations[knee])
     shin = rotate(conjugate(upper), rotate(lower, along / np.linalg.norm(along)))
     across = hinge - thigh * (hinge @ thigh)
     lies = cross(thigh, shin)
     wanted = BEND * across + lies if lies @ across > 0.0 else across
     twist = np.arctan2(cross(across, wanted) @ thigh, across @ wanted)
-    about = from_axis_angle(thigh, float(twist))
-    flat = rotate(conjugate(about), shin)
-    flat = flat - hinge * (flat @ hinge)
-    straight = rotate(rest, along)
-    straight = straight - hinge * (straight @ hinge)
-    angle = float(np.arctan2(cross(straight, flat) @ hinge, straight @ flat))
-    return multiply(upper, about), multiply(rest, from_axis_angle(np.array([1.0, 0.0, 0.0]), angle))
+    return multiply(upper, from_axis_angle(thigh, float(twist)))
+
+
+def _knee(rig: Rig, joint: int, upper: FloatArray, lower: FloatArray) -> FloatArray:
+    """A knee's local rotation, rest included, with which the shin lies as near as can be to where it is to be.
+
+    Args:
+        rig: The player's rig.
+        joint: The shin's joint.
+        upper: The thigh's rotation in the world, ``(4,)``.
+        lower: That which the shin is to have, ``(4,)``.
+    """
+    skeleton = rig.skeleton
+    foot = skeleton.index(skeleton.names[joint].replace("LowerLeg", "Foot"))
+    rest, along = skeleton.rest_rotations[joint], skeleton.rest_translations[foot]
+    hinge = rotate(rest, np.array([1.0, 0.0, 0.0]))
+    shin, straight = rotate(conjugate(upper), rotate(lower, along)), rotate(rest, along)
+    shin, straight = (each - hinge * (each @ hinge) for each in (shin, straight))
+    angle = float(np.arctan2(cross(straight, shin) @ hinge, straight @ shin))
+    return multiply(rest, from_axis_angle(np.array([1.0, 0.0, 0.0]), angle))

@@ -154,7 +154,7 @@ def test_both_feet_of_a_pose_stand_on_the_floor(player_rig: Rig, hold: Hold, pos
         world = multiply(exp(turn), held.world[joint])
         height = float((ankle + place + rotate(world, sole))[1])
         # The sole's point is its middle: a heel that is lifted lifts it too.
-        assert -0.005 < height < 0.07, side
+        assert -0.005 < height < 0.09, side
 
 
 def test_poses_blend_as_clips_do(player_rig: Rig, hold: Hold) -> None:
@@ -168,7 +168,7 @@ def test_poses_blend_as_clips_do(player_rig: Rig, hold: Hold) -> None:
     assert moved is not None
     np.testing.assert_allclose(moved[1], 0.5 * moved[2])
     np.testing.assert_array_equal(moved[0], 0.0)
-    assert moved[2, len(stances.joints), 1] < -0.2
+    assert moved[2, len(stances.joints), 1] < -0.1
 
 
 def feet(rig: Rig) -> list[int]:
