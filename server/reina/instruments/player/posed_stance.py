@@ -238,7 +238,7 @@ def _towards_knee(rig: Rig, name: str, upper: FloatArray, lower: FloatArray) -> 
 
 
 def _knee(rig: Rig, joint: int, upper: FloatArray, lower: FloatArray) -> FloatArray:
-    """A knee's local rotation, rest included, with which the shin lies as near as can be to where it is to be.
+    """A knee's local rotation, rest included, with which the shin comes nearest to where it is to be.
 
     Args:
         rig: The player's rig.
