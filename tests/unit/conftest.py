@@ -17,7 +17,7 @@ from reina.instruments.player import Engagement
 from reina.music import read_score
 from reina.performance import Performance
 from reina.show import Show, TimeMap
-from reina.skeleton import Hold, Rig, load_hold, load_rig
+from reina.skeleton import Hold, HumanPose, Rig, load_hold, load_rig
 from reina.stage import stage_registry
 
 RIGS = Path(__file__).parents[2] / "rigs"
@@ -86,14 +86,17 @@ def perform(player_rig: Rig, trumpet_rig: Rig, hold: Hold, registry: ParameterRe
         tracks: Sequence[Mapping[str, Any]] = (),
         velocity: int = 90,
         seed: int = 0,
+        stances: Mapping[str, HumanPose] | None = None,
     ) -> Performance:
         score = read_score(midi(notes, velocity))
         instrument = INSTRUMENTS["trumpet"]
+        own = player_parameters(0, instrument, stances=tuple(stances or ()))
+        known = ParameterRegistry((*stage_registry(), *own)) if stances else registry
         constant = [
             {"parameter": path, "keyframes": [{"time": 0, "value": value}]}
             for path, value in (values or {}).items()
         ]
-        show = Show.from_document({"version": 1, "tracks": [*constant, *tracks]}, registry)
+        show = Show.from_document({"version": 1, "tracks": [*constant, *tracks]}, known)
         performer = Performer(
             instrument,
             Engagement(
@@ -102,11 +105,12 @@ def perform(player_rig: Rig, trumpet_rig: Rig, hold: Hold, registry: ParameterRe
                 player_rig=player_rig,
                 instrument_rigs={instrument.name: trumpet_rig},
                 hold=hold,
-                registry=registry,
+                registry=known,
                 seed=seed,
+                stances=stances or {},
             ),
         )
-        plan = show.plan(registry, TimeMap.steady())
+        plan = show.plan(known, TimeMap.steady())
         return Performance([performer], plan, duration_s=score.duration_s)
 
     return make

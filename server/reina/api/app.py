@@ -27,6 +27,7 @@ from reina.api import (
     show,
     show_edits,
     song,
+    stances,
     stream,
     tracks,
 )
@@ -109,6 +110,7 @@ def create_app(
         lab,
         cast,
         part,
+        stances,
         catalogue,
         stream,
     ):

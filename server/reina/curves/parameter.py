@@ -30,6 +30,8 @@ class Parameter:
         choices: What a choice chooses from; its float is the index into them.
         blend: Whether a page may blend it between two frames. Never true of booleans and choices.
         documentation: What it does, one sentence, for the person who sets it.
+        open_choices: Whether a session may have choices of its own. A show that names one that is not there
+            keeps that track, without effect.
     """
 
     path: str
@@ -41,6 +43,7 @@ class Parameter:
     choices: tuple[str, ...] = ()
     blend: bool = True
     documentation: str = ""
+    open_choices: bool = False
 
     def __post_init__(self) -> None:
         if _PATH.fullmatch(self.path) is None:

@@ -36,7 +36,7 @@ class Ensemble:
         Args:
             times_s: Song times, seconds.
             shown: The show's values ``(F, P)``.
-            stances: Of each performer, how much of each stance, ``(F, len(STANCES))``.
+            stances: Of each performer, how much of each stance, ``(F, N)``.
         """
         motions = [
             performer.move(times_s, shown, stance)
@@ -55,7 +55,8 @@ class Ensemble:
             if body is None:
                 posed[place] = self.performers[place].body.solve(motion)
             else:
-                alike.setdefault((body.figure, motion.stance is None), []).append((place, body))
+                rows = 0 if motion.stance is None else motion.stance.shape[1]
+                alike.setdefault((body.figure, rows), []).append((place, body))
         for members in alike.values():
             rotations, roots = members[0][1].pose([motions[place] for place, _ in members])
             for (place, body), own_rotations, own_roots in zip(members, rotations, roots, strict=True):

@@ -10,6 +10,7 @@ from reina.instruments.player.engagement import player_prefix
 from reina.instruments.player.face import Face
 from reina.instruments.player.glances import GLANCE_PARAMETER
 from reina.instruments.player.pose_keys import POSE_PARAMETERS
+from reina.instruments.player.stance_choice import PATH as STANCE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,31 +20,42 @@ if TYPE_CHECKING:
     from reina.skeleton import Rig
 
 
-def player_parameters(number: int, instrument: Instrument, *, alone: bool = True) -> tuple[Parameter, ...]:
+def player_parameters(
+    number: int, instrument: Instrument, *, alone: bool = True, stances: Sequence[str] = ()
+) -> tuple[Parameter, ...]:
     """What a show may move of a cast's player on an instrument.
 
     Args:
         number: The player's place in the cast, the first being 0.
         instrument: What is played.
         alone: Whether nobody else plays; there is nobody to look at then.
+        stances: Names of stances beside those that there always are.
     """
     prefix = player_prefix(number)
     own = (*PLAYER_PARAMETERS, *instrument.show_parameters, *POSE_PARAMETERS)
     own = own if alone else (*own, GLANCE_PARAMETER)
-    return tuple(replace(parameter, path=prefix + parameter.path) for parameter in own)
+    return tuple(
+        replace(
+            parameter,
+            path=prefix + parameter.path,
+            choices=(*parameter.choices, *stances) if parameter.path == STANCE else parameter.choices,
+        )
+        for parameter in own
+    )
 
 
-def cast_parameters(instruments: Sequence[Instrument]) -> tuple[Parameter, ...]:
+def cast_parameters(instruments: Sequence[Instrument], stances: Sequence[str] = ()) -> tuple[Parameter, ...]:
     """What a show may move of the players of a cast.
 
     Args:
         instruments: Each player's, in the cast's order.
+        stances: Names of stances beside those that there always are.
     """
     alone = len(instruments) == 1
     return tuple(
         parameter
         for number, instrument in enumerate(instruments)
-        for parameter in player_parameters(number, instrument, alone=alone)
+        for parameter in player_parameters(number, instrument, alone=alone, stances=stances)
     )
 
 

@@ -12,6 +12,7 @@ from reina.instruments.player import face
 from reina.instruments.player.amounts import Amounts
 from reina.instruments.player.face import Face
 from reina.instruments.player.glances import CURVES, GlanceAmount, add_glances
+from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.idle_motion import IdleMotion
 from reina.instruments.player.instrument_body import BodyMotion, Float32Array
 from reina.instruments.player.pose_keys import PoseKeys
@@ -87,7 +88,11 @@ class Performer:
         """What the paths of its parameters begin with."""
         self.seat = engagement.seat
         """Where the player stands."""
-        self._stances = Stances(player_rig)
+        self._stances = Stances(
+            player_rig,
+            tuple(engagement.stances.values()),
+            HeldPose(player_rig, engagement.hold) if engagement.stances else None,
+        )
         self._amounts = Amounts(registry, self.prefix)
         self._pose_keys = PoseKeys(registry, self.prefix)
         self._idle = IdleMotion(engagement.score, engagement.seed)
@@ -122,7 +127,7 @@ class Performer:
         Args:
             times_s: Song times, seconds.
             shown: The show's values ``(F, P)``.
-            stance: How much of each stance, ``(F, len(STANCES))``.
+            stance: How much of each stance, ``(F, N)``.
         """
         amounts = self._amounts.read(shown)
         curves = self._curves.evaluate(times_s)

@@ -43,6 +43,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.Score,
     resources.Cast,
     resources.InstrumentList,
+    resources.StanceList,
     WrittenPart,
     resources.ShowWarnings,
     timeline.ShowCurves,

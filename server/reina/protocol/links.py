@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from reina.protocol.messages import StreamLinks
 from reina.protocol.resources import SessionLinks
@@ -16,6 +17,11 @@ API = "/api/v1"
 def session_href(session_id: str) -> str:
     """A session."""
     return f"{API}/sessions/{session_id}"
+
+
+def stance_href(session_id: str, name: str) -> str:
+    """A session's own stance."""
+    return f"{session_href(session_id)}/stances/{quote(name, safe='')}"
 
 
 def rig_href(name: str) -> str:

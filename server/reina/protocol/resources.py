@@ -106,6 +106,19 @@ class SessionLinks(WireModel):
     stream: str
 
 
+class Stance(WireModel):
+    """A pose of a motion file that a session's players can stand in."""
+
+    name: str
+    """What the show's `player/stance` chooses it by."""
+    file: str | None
+    """What its sender called the motion file."""
+    time_s: float
+    """Of which of its frames the pose is."""
+    href: str
+    """Where it is taken away."""
+
+
 class Session(WireModel):
     """One session: a score, its player, its show and its clock."""
 
@@ -152,6 +165,8 @@ class Session(WireModel):
     """The warnings as a musician is told of them, after who plays what and why."""
     song: SongState
     alignment: AlignmentState
+    stances: list[Stance]
+    """Its own, in the order of the choices of `player/stance`."""
     links: SessionLinks
 
 
@@ -398,6 +413,13 @@ class InstrumentList(WireModel):
     """Where players can stand; left and right are theirs."""
     max_players: int
     """How many play at once at most."""
+
+
+class StanceList(WireModel):
+    """A session's own stances."""
+
+    stances: list[Stance]
+    """In the order of the choices."""
 
 
 class Tempo(WireModel):

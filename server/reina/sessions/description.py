@@ -16,6 +16,7 @@ from reina.instruments.describe import (
 )
 from reina.music.lyrics import lyric_lines
 from reina.protocol import resources
+from reina.protocol.links import stance_href
 from reina.protocol.messages import Transport
 from reina.protocol.notes import WireNote
 from reina.protocol.transport import Loop, TransportState
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from reina.music import ClockState, Finding, Score, ScoreWarning
     from reina.music.texts import TextKind
     from reina.sessions.production import Production
+    from reina.sessions.record import SessionRecord, StanceRecord
 
 
 def transport_state(state: ClockState) -> TransportState:
@@ -218,3 +220,18 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
     )
     notes = [Written(wire_note(table.note(int(index))).model_dump_json().encode()) for index in indices]
     return json_text({**head.model_dump(mode="json"), "notes": notes})
+
+
+def stances_of(record: SessionRecord) -> list[resources.Stance]:
+    """A session's own stances."""
+    return [stance_resource(record.id, stance) for stance in record.stances]
+
+
+def stance_resource(session_id: str, stance: StanceRecord) -> resources.Stance:
+    """One of them."""
+    return resources.Stance(
+        name=stance.name,
+        file=stance.file,
+        time_s=stance.time_s,
+        href=stance_href(session_id, stance.name),
+    )

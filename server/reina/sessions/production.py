@@ -13,13 +13,13 @@ from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.cast_plan import complete_cast, seats_of
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
-from reina.show import Show, ShowError, ShowPlan, UnknownTrack
+from reina.show import Show, ShowError, ShowPlan, Track, UnknownTrack, unknown_choices
 from reina.sound.plan import PlayedParts
 from reina.stage import CastForm, Place, write_default_show
 from reina.system.json_text import read_json
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from reina.curves import ParameterRegistry
     from reina.instruments import (
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from reina.instruments.player import Seat
     from reina.music import Finding, Score, ScoreWarning, SongTimes
     from reina.sessions.stage import Stage
+    from reina.skeleton import HumanPose
 
 
 def read_show(data: bytes, registry: ParameterRegistry) -> Show:
@@ -84,6 +85,7 @@ class Production:
         show: Show | None = None,
         cast: Cast | None = None,
         alignment: SongTimes | None = None,
+        stances: Mapping[str, HumanPose] | None = None,
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -95,6 +97,7 @@ class Production:
                 None.
             alignment: Where the score is heard in the song; where it is written when None. Who plays what
                 does not depend on it.
+            stances: Poses that its players can stand in, by name.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
@@ -105,11 +108,12 @@ class Production:
             cast = stage.found_cast(score, cast.sequence)
         heard = score if alignment is None else retimed(score, alignment)
         castings, played, rankings = complete_cast(stage, score, heard, cast)
-        registry = stage.registry(tuple(casting.instrument for casting in castings))
+        poses = stances or {}
+        registry = stage.registry(tuple(casting.instrument for casting in castings), tuple(poses))
         seats = seats_of(cast)
         glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, heard, part, registry, looks)
+            stage.performer(casting, number, seat, heard, part, registry, looks, poses)
             for number, (casting, seat, part, looks) in enumerate(
                 zip(castings, seats, played, glances, strict=True)
             )
@@ -226,8 +230,14 @@ class Production:
 
 def rebound(show: Show, registry: ParameterRegistry) -> Show:
     """A show whose tracks are those of a registry's parameters; others are kept and have no effect."""
-    fits = all(isinstance(track, UnknownTrack) != (track.parameter in registry) for track in show.tracks)
+    fits = all(isinstance(track, UnknownTrack) != _has_effect(track, registry) for track in show.tracks)
     return show if fits else Show.from_document(show.to_document(), registry)
+
+
+def _has_effect(track: Track | UnknownTrack, registry: ParameterRegistry) -> bool:
+    parameter = registry.get(track.parameter)
+    named = track if isinstance(track, Track) else track.document
+    return parameter is not None and not unknown_choices(named, parameter)
 
 
 def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat]) -> Show:

@@ -31,6 +31,20 @@ class SongRecord(BaseModel):
     """What its sender should know."""
 
 
+class StanceRecord(BaseModel):
+    """A pose that the session's players can stand in."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    file: str | None
+    """What its sender called the motion file."""
+    time_s: float
+    """Of which frame of that file it is."""
+    turns: tuple[tuple[float, float, float, float], ...]
+    """As `reina.skeleton.pose_numbers` has it."""
+
+
 class SessionRecord(BaseModel):
     """session.json."""
 
@@ -47,6 +61,8 @@ class SessionRecord(BaseModel):
     """The name that the score was uploaded under."""
     song: SongRecord | None
     """None: the server renders the score."""
+    stances: tuple[StanceRecord, ...] = ()
+    """Its own stances, in the order of the show's choices."""
     song_time_s: float = 0.0
     """Where the clock stood when the session was last unloaded."""
 

@@ -21,6 +21,7 @@ from reina.sessions.description import (
     note_table,
     part_choices,
     part_summaries,
+    stances_of,
     transport_state,
     warned,
     wire_note,
@@ -166,6 +167,7 @@ class Session:
             findings=found([*self.production.findings, *findings_of(of_song), *findings_of(of_show)]),
             song=self.song_state(),
             alignment=self.alignment.state(),
+            stances=stances_of(self.record),
             links=session_links(self.id),
         )
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.music import ScoreWarning
-from reina.show import Track
+from reina.show import Track, UnknownTrack, unknown_choices
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,17 +28,28 @@ def show_warnings(production: Production, duration_s: float) -> list[ScoreWarnin
     """
     show, times = production.show, production.show_plan.time_map
     return [
-        *_unknown(show),
+        *_unknown(production),
         *_late_keyframes(show, times, duration_s),
         *_late_markers(show, times, duration_s),
         *_never_answers(production),
     ]
 
 
-def _unknown(show: Show) -> Iterator[ScoreWarning]:
-    for path in show.unknown_parameters:
-        message = "no parameter of this name is known here; its track is kept as it came and has no effect"
-        yield ScoreWarning("show-unknown-parameter", path, message)
+def _unknown(production: Production) -> Iterator[ScoreWarning]:
+    for track in production.show.tracks:
+        if not isinstance(track, UnknownTrack):
+            continue
+        parameter, kept = (
+            production.registry.get(track.parameter),
+            "its track is kept as it came and has no effect",
+        )
+        if parameter is None:
+            message = f"no parameter of this name is known here; {kept}"
+            yield ScoreWarning("show-unknown-parameter", track.parameter, message)
+        else:
+            names = ", ".join(unknown_choices(track.document, parameter))
+            message = f"it names {names}, which is not here; there are {', '.join(parameter.choices)}; {kept}"
+            yield ScoreWarning("show-unknown-choice", track.parameter, message)
 
 
 def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[ScoreWarning]:

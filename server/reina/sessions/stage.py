@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from reina.instruments.player import Seat
     from reina.kinematics import Curve
     from reina.music import Score
-    from reina.skeleton import Hold, Rig
+    from reina.skeleton import Hold, HumanPose, Rig
 
 FIRST_PLAYER = "trumpeter"
 """Who is named first among those who could play."""
@@ -88,14 +88,17 @@ class Stage:
         """Who can play an instrument, by name."""
         return tuple(player for player, held in self.holds if held == instrument)
 
-    def registry(self, instruments: Sequence[str] | None = None) -> ParameterRegistry:
+    def registry(
+        self, instruments: Sequence[str] | None = None, stances: Sequence[str] = ()
+    ) -> ParameterRegistry:
         """Everything that a show can move where these are played, by the names that there are.
 
         Args:
             instruments: Each player's, in the cast's order; by default the first that there is, alone.
+            stances: Names of stances beside those that there always are.
         """
         played = self.instruments[:1] if instruments is None else instruments
-        own = cast_parameters([self.kinds[name] for name in played])
+        own = cast_parameters([self.kinds[name] for name in played], stances)
         return ParameterRegistry((*self.parameters, *own))
 
     def largest_registry(self) -> ParameterRegistry:
@@ -162,6 +165,7 @@ class Stage:
         played: PlayedPart,
         registry: ParameterRegistry,
         glances: Mapping[str, Curve],
+        stances: Mapping[str, HumanPose],
     ) -> Performer:
         """Who plays a casting that names what there is.
 
@@ -173,6 +177,7 @@ class Stage:
             played: The part as it is played.
             registry: The show's parameters.
             glances: How the player looks at the others.
+            stances: Poses to stand in, by name.
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
@@ -188,5 +193,6 @@ class Stage:
                 seat=seat,
                 seed=number,
                 glances=glances,
+                stances=stances,
             ),
         )

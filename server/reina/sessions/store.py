@@ -18,12 +18,13 @@ from reina.sessions.description import warned
 from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, Role, role_of
 from reina.sessions.file_role import SHOW as SHOW_DOCUMENT
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
-from reina.sessions.record import SessionRecord, SongRecord, created_now, new_id
+from reina.sessions.record import SessionRecord, SongRecord, StanceRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
+from reina.skeleton import pose_of
 from reina.sound.alignment.aligner_process import Aligner
 from reina.sound.recording.decoder import SongDecoder
 from reina.system.atomic_write import write_atomically
@@ -43,6 +44,8 @@ if TYPE_CHECKING:
 
 SONG_CACHE_BYTES = 2_000_000_000
 """How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
+
+Stances = tuple[StanceRecord, ...]
 
 UNDECODED = frozenset({"audio/mp4", "audio/webm"})
 """What only browsers decode."""
@@ -207,8 +210,9 @@ class SessionStore:
         title: str | None = None,
         public: bool | None = None,
         recast: Callable[[Cast], Cast] | None = None,
+        restance: Callable[[Stances], Stances] | None = None,
     ) -> None:
-        """Rename a session, list it or not, or change its cast; None leaves as it is.
+        """Rename a session, list it or not, or change its cast or its own stances; None leaves as it is.
 
         A title and a show that are still those of another sequence give way to this one's.
 
@@ -217,6 +221,7 @@ class SessionStore:
             title: What to call it.
             public: Whether the list of sessions shows it.
             recast: The cast as it is -> as it is to be.
+            restance: The session's own stances -> those that it is to have. What it raises is raised on.
 
         Raises:
             InputError: The cast names what there is not; nothing is changed then.
@@ -226,14 +231,15 @@ class SessionStore:
         async with self._edit(session):
             record, kept = session.record.model_copy(update=changes), session.show_revision
             wanted = recast(record.cast) if recast else record.cast
-            if wanted != record.cast:
+            stances = restance(record.stances) if restance else record.stances
+            if wanted != record.cast or stances != record.stances:
                 another_piece = wanted.sequence not in {None, session.production.score.sequence}
                 # Another piece is heard elsewhere, if at all.
                 alignment = None if another_piece else session.alignment.alignment
-                production, kept = await self._plan_other(session, wanted, alignment)
+                production, kept = await self._plan_other(session, wanted, alignment, stances)
                 before, after = session.production.score.title, production.score.title
                 titled = {"title": after} if title is None and record.title == before else {}
-                record = record.model_copy(update={"cast": production.cast, **titled})
+                record = record.model_copy(update={"cast": production.cast, "stances": stances, **titled})
                 await session.change_cast(record, production)
                 if kept is not session.show_revision:
                     await session.change_show(production, kept)
@@ -262,7 +268,9 @@ class SessionStore:
                 session.alignment.alignment = alignment
                 session.tell_alignment()
             else:
-                production, kept = await self._plan_other(session, session.record.cast, alignment)
+                production, kept = await self._plan_other(
+                    session, session.record.cast, alignment, session.record.stances
+                )
                 other_show = kept is not session.show_revision
                 await session.change_alignment(production, kept, alignment)
                 if other_show:
@@ -422,7 +430,9 @@ class SessionStore:
         folder = self._folders.folder(session_id)
         record = await asyncio.to_thread(self._folders.record, session_id)
         alignment = await asyncio.to_thread(self._folders.alignment, session_id)
-        planned = await self._plan(folder / SCORE, record.score_filename, record.cast, alignment)
+        planned = await self._plan(
+            folder / SCORE, record.score_filename, record.cast, alignment, record.stances
+        )
         show = await self.reader.show(await asyncio.to_thread((folder / SHOW).read_bytes), planned.registry)
 
         def prepared() -> tuple[SessionRecord, Production, ShowRevision, NoteMessages, Alignment | None]:
@@ -432,19 +442,27 @@ class SessionStore:
         return await asyncio.to_thread(prepared)
 
     async def _plan(
-        self, score: Path, filename: str | None, cast: Cast, alignment: Alignment | None = None
+        self,
+        score: Path,
+        filename: str | None,
+        cast: Cast,
+        alignment: Alignment | None = None,
+        stances: Stances = (),
     ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it."""
         heard = alignment if alignment is not None and alignment.moves else None
-        return await self.reader.production(score, filename=filename, cast=cast, alignment=heard)
+        poses = {stance.name: pose_of(stance.turns) for stance in stances}
+        return await self.reader.production(
+            score, filename=filename, cast=cast, alignment=heard, stances=poses
+        )
 
     async def _plan_other(
-        self, session: Session, wanted: Cast, alignment: Alignment | None
+        self, session: Session, wanted: Cast, alignment: Alignment | None, stances: Stances
     ) -> tuple[Production, ShowRevision]:
-        """Plan another cast, or the same heard elsewhere, in place of the session's."""
+        """Plan another cast, or the same heard elsewhere or with other stances, in place of the session's."""
         before, kept = session.production, session.show_revision
         path = self._folders.folder(session.id) / SCORE
-        planned = await self._plan(path, session.record.score_filename, wanted, alignment)
+        planned = await self._plan(path, session.record.score_filename, wanted, alignment, stances)
         another = (
             planned.score.sequence != before.score.sequence
             or planned.seats != before.seats

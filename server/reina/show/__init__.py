@@ -11,6 +11,7 @@ from reina.show.show_writer import keyframe_document, track_document
 from reina.show.time_map import TimeMap, TimeUnit
 from reina.show.track import Track, UnknownTrack
 from reina.show.triggers import Triggers
+from reina.show.unknown_choices import unknown_choices
 
 __all__ = [
     "EDITS",
@@ -29,5 +30,6 @@ __all__ = [
     "UnknownTrack",
     "keyframe_document",
     "track_document",
+    "unknown_choices",
     "with_edits",
 ]

@@ -17,6 +17,7 @@ from reina.show.show_writer import json_value, track_document
 from reina.show.time_map import TimeMap, TimeUnit
 from reina.show.track import Track, UnknownTrack
 from reina.show.triggers import Triggers
+from reina.show.unknown_choices import unknown_choices
 
 VERSION = 1
 MAX_KEYFRAMES = 500_000
@@ -54,7 +55,8 @@ class Show:
     def from_document(cls, document: object, registry: ParameterRegistry) -> "Show":
         """Read a show from JSON.
 
-        A track of a parameter that the registry does not know is kept and named in `unknown_parameters`.
+        A track of a parameter that the registry does not know is kept and named in `unknown_parameters`; so
+        is one of a parameter with `open_choices` that names a choice which is not there.
 
         Raises:
             ShowError: The document is no show; the error names track, key and field, and what would be
@@ -110,7 +112,7 @@ class Show:
 
     @property
     def unknown_parameters(self) -> tuple[str, ...]:
-        """Paths of the tracks that are kept but have no effect, because nothing here has such a parameter."""
+        """Paths of tracks that are kept without effect: their parameter, or what they choose, is not here."""
         return tuple(track.parameter for track in self.tracks if isinstance(track, UnknownTrack))
 
     def track(self, path: str) -> Track:
@@ -165,7 +167,7 @@ def _read_track(
     if not isinstance(path, str) or not path:
         raise ShowError("a parameter's path is needed here", field=f"tracks/{index}/parameter")
     parameter = registry.get(path)
-    if parameter is not None:
+    if parameter is not None and not unknown_choices(document, parameter):
         return read_track(document, parameter, unit)
     try:
         check_plain(document)

@@ -71,8 +71,8 @@ class ShowDraft:
         return track
 
     def track_or_new(self, parameter: Parameter) -> TrackDraft:
-        """A track to be edited, made where there is none."""
-        if parameter.path not in self._tracks:
+        """A track to be edited, made where there is none that has an effect."""
+        if isinstance(self._tracks.get(parameter.path), UnknownTrack | None):
             self.replace(TrackDraft(Track(parameter.path, (), time=self.show.time), parameter))
         return self.track(parameter)
 

@@ -97,10 +97,10 @@ class Track:
 
 @dataclass(frozen=True)
 class UnknownTrack:
-    """A track of a parameter that is not in the registry: kept as it came, without effect.
+    """A track of a parameter, or with a choice, that is not in the registry: kept as it came, without effect.
 
     Attributes:
-        parameter: The path that nobody knows.
+        parameter: The path.
         document: The track as JSON.
     """
 

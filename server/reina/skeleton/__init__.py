@@ -1,13 +1,15 @@
 """Joints and their rest pose, forward kinematics, rigs and holds, motion clips."""
 
 from reina.skeleton.clip_warning import ClipWarning
-from reina.skeleton.errors import BvhError, RigError
+from reina.skeleton.errors import BvhError, PoseError, RigError
 from reina.skeleton.forward_kinematics import forward_kinematics
 from reina.skeleton.hold import Hold, load_hold, read_hold
+from reina.skeleton.human_pose import HumanPose, human_pose, pose_numbers, pose_of
+from reina.skeleton.joint_aliases import humanoid_name
 from reina.skeleton.load_rig import load_rig, read_rig
 from reina.skeleton.motion_clip import MotionClip
 from reina.skeleton.read_bvh import PositionMeaning, read_bvh
-from reina.skeleton.retarget import blended, clip_of_motion, humanoid_name, looped, retarget
+from reina.skeleton.retarget import blended, clip_of_motion, looped, retarget
 from reina.skeleton.rig import SOLVERS, Button, Capsule, Chain, Limits, Morph, MovingPart, Point, Rig, Twist
 from reina.skeleton.skeleton import Skeleton
 from reina.skeleton.write_bvh import bvh_head, bvh_rows, write_bvh
@@ -20,11 +22,13 @@ __all__ = [
     "Chain",
     "ClipWarning",
     "Hold",
+    "HumanPose",
     "Limits",
     "Morph",
     "MotionClip",
     "MovingPart",
     "Point",
+    "PoseError",
     "PositionMeaning",
     "Rig",
     "RigError",
@@ -35,10 +39,13 @@ __all__ = [
     "bvh_rows",
     "clip_of_motion",
     "forward_kinematics",
+    "human_pose",
     "humanoid_name",
     "load_hold",
     "load_rig",
     "looped",
+    "pose_numbers",
+    "pose_of",
     "read_bvh",
     "read_hold",
     "read_rig",

@@ -9,5 +9,9 @@ class RigError(InputError):
     """A rig or a hold that cannot be used; ``where`` is the path in its document, ``joints/12/rotation``."""
 
 
+class PoseError(InputError):
+    """A motion file that has no person's pose at a time; ``where`` names the joint or the time."""
+
+
 class BvhError(InputError):
     """A BVH file that cannot be read; ``where`` names the line."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reina.rotations import conjugate, exp, log, multiply, rotate, slerp
 from reina.skeleton.forward_kinematics import forward_kinematics
+from reina.skeleton.joint_aliases import humanoid_name
 from reina.skeleton.motion_clip import MotionClip
 
 if TYPE_CHECKING:
@@ -16,50 +16,6 @@ if TYPE_CHECKING:
 
     from reina.rotations.arrays import ArrayLike, FloatArray
     from reina.skeleton.skeleton import Skeleton
-
-_TRUNK = {
-    "hips": "hips pelvis root",
-    "spine": "spine abdomen lowerback",
-    "chest": "spine1 chest",
-    "upperChest": "spine2 spine3 upperchest chest2",
-    "neck": "neck neck1",
-    "head": "head",
-}
-_SIDES = {
-    "Shoulder": "shoulder collar clavicle",
-    "UpperArm": "arm uparm upperarm uppershoulder",
-    "LowerArm": "forearm lowarm lowerarm elbow",
-    "Hand": "hand wrist",
-    "UpperLeg": "upleg upperleg thigh hip upleg1",
-    "LowerLeg": "leg lowleg lowerleg calf shin knee",
-    "Foot": "foot ankle",
-    "Toes": "toebase toe toes",
-}
-
-HUMANOID_NAMES: dict[str, str] = {
-    alias: name for name, aliases in _TRUNK.items() for alias in aliases.split()
-} | {
-    f"{side}{alias}": f"{side}{name}"
-    for side in ("left", "right")
-    for name, aliases in _SIDES.items()
-    for alias in aliases.split()
-}
-"""Joint names that motion files use, in lower case without prefix and separators, to VRM's humanoid names."""
-
-
-def humanoid_name(name: str) -> str | None:
-    """The VRM name of a joint in a motion file, None where it is none of `HUMANOID_NAMES`.
-
-    ``mixamorig:LeftForeArm``, ``LeftForeArm``, ``left_forearm``, ``lForeArm`` and ``forearm.L`` are all
-    ``leftLowerArm``.
-    """
-    plain = name.rpartition(":")[2]
-    side = re.fullmatch(r"(?P<base>.+?)[._ ](?P<side>[LlRr])", plain) or re.fullmatch(
-        r"(?P<side>[lr])(?P<base>[A-Z].*)", plain
-    )
-    if side:
-        plain = ("left" if side["side"].lower() == "l" else "right") + side["base"]
-    return HUMANOID_NAMES.get(re.sub(r"[^a-z0-9]", "", plain.lower()))
 
 
 def clip_of_motion(

@@ -14,9 +14,11 @@ import type {
   SessionChange,
   ShowParameter,
   ShowParameterList,
+  Stance,
   TransportCommand,
   TransportState,
 } from "../generated/protocol";
+import type { ShowTrack } from "../generated/show";
 import { problemOf, unreachable } from "./problem";
 
 /** What a new session is made of. */
@@ -84,6 +86,27 @@ export class ReinaApi {
 
   changeCast(id: string, fields: CastFields, token: string): Promise<Cast> {
     return this.#json("PUT", this.sessionPath(id, "cast"), { json: fields, token });
+  }
+
+  /** Make a stance of a frame of a motion file. */
+  makeStance(id: string, name: string, file: File, time_s: number, token: string): Promise<Stance> {
+    const query = new URLSearchParams({ name, time_s: String(time_s), filename: file.name.slice(0, 200) });
+    return this.#json("POST", `${this.sessionPath(id, "stances")}?${query}`, { body: file, token });
+  }
+
+  /** What a show chooses throughout by a parameter: its one keyframe; undefined without a track, null if it changes. */
+  async chosen(id: string, path: string): Promise<unknown> {
+    const address = `${this.sessionPath(id, "show")}?${new URLSearchParams({ parameter: path })}`;
+    const show = (await (await this.request("GET", address)).json()) as { tracks: ShowTrack[] };
+    const track = show.tracks.find(({ parameter }) => parameter === path);
+    if (track === undefined) return undefined;
+    return track.keyframes?.length === 1 && track.events === undefined ? track.keyframes[0]?.value : null;
+  }
+
+  /** Let a show choose the same by a parameter throughout; one step that can be undone. */
+  async choose(id: string, path: string, value: unknown, token: string): Promise<void> {
+    const json = { parameter: path, keyframes: [{ time: 0, value }] };
+    await this.request("PUT", this.sessionPath(id, `show/tracks/${path}`), { json, token });
   }
 
   /** What a cast can be made of. */

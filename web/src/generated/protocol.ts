@@ -249,6 +249,8 @@ export interface Session {
   findings: Finding[]
   song: SongState
   alignment: AlignmentState
+  /** Its own, in the order of the choices of player/stance. */
+  stances: Stance[]
   links: SessionLinks
 }
 
@@ -396,6 +398,12 @@ export interface InstrumentList {
   seats: string[]
   /** How many play at once at most. */
   max_players: number
+}
+
+/** A session's own stances. */
+export interface StanceList {
+  /** In the order of the choices. */
+  stances: Stance[]
 }
 
 /** What one player plays, as notation. */
@@ -1071,6 +1079,18 @@ export interface SongState {
   progress: number
   /** Null for an uploaded song, and until a rendered one is planned. */
   segments: SongSegments | null
+}
+
+/** A pose of a motion file that a session's players can stand in. */
+export interface Stance {
+  /** What the show's player/stance chooses it by. */
+  name: string
+  /** What its sender called the motion file. */
+  file: string | null
+  /** Of which of its frames the pose is. */
+  time_s: number
+  /** Where it is taken away. */
+  href: string
 }
 
 /** Where a viewer finds what the stream does not carry. */

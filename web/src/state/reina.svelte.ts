@@ -30,7 +30,14 @@ export class Reina {
   readonly notices = new Notices();
   /** Called with the session of a score that was just uploaded. */
   arrived: ((view: SessionView) => void) | null = null;
-  parameters = $state.raw<readonly ShowParameter[]>([]);
+  /** What a show can move, with the open session's own stances among the choices. */
+  readonly parameters: readonly ShowParameter[] = $derived.by(() => {
+    const own = (this.view?.session.stances ?? []).map(({ name }) => name);
+    if (own.length === 0) return this.#listed;
+    return this.#listed.map((each) =>
+      each.path.endsWith("player/stance") ? { ...each, choices: [...each.choices, ...own] } : each,
+    );
+  });
   examples = $state.raw<readonly Example[]>([]);
   /** What a cast can be made of; null until the server has said it. */
   instruments = $state.raw<InstrumentList | null>(null);
@@ -38,6 +45,7 @@ export class Reina {
   muted = $state(remembered().muted);
   hasPlayed = $state(remembered().hasPlayed);
 
+  #listed = $state.raw<readonly ShowParameter[]>([]);
   /** A recording that waits for its score. */
   #kept: File | null = null;
   #opening = 0;
@@ -272,7 +280,7 @@ export class Reina {
       this.api.instruments(),
     ]);
     if (instruments.status === "fulfilled") this.instruments = instruments.value;
-    if (parameters.status === "fulfilled") this.parameters = parameters.value;
+    if (parameters.status === "fulfilled") this.#listed = parameters.value;
     if (examples.status === "fulfilled") this.examples = examples.value;
   }
 

@@ -49,6 +49,7 @@ BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,
     ("POST", "/sessions/{session_id}/show/curves"): TRACK,
     ("POST", "/files/role"): BodyLimit(MEGABYTE, "file"),
+    ("POST", "/sessions/{session_id}/stances"): CLIP,
     ("POST", "/lab/bvh"): CLIP,
     ("POST", "/lab/bvh/rewritten"): CLIP,
 }

@@ -58,7 +58,7 @@ async def read_clip(request: Request, positions: Positions = "replace") -> Respo
     """Read a BVH file: its joints, and where everything is in the world; long clips are thinned."""
     data = await request.body()
     # Megabytes: written as JSON in the thread too, where no viewer waits for it.
-    text = await compute(request, lambda: _parsed(_read(data, positions)).model_dump_json())
+    text = await compute(request, lambda: _parsed(read_clip_file(data, positions)).model_dump_json())
     return Response(text, media_type="application/json")
 
 
@@ -70,7 +70,7 @@ async def rewrite_clip(request: Request, positions: Positions = "replace") -> St
     add the two as for those that do not.
     """
     data = await request.body()
-    clip = await compute(request, lambda: _read(data, positions).without_still_positions())
+    clip = await compute(request, lambda: read_clip_file(data, positions).without_still_positions())
     return StreamingResponse(
         _written(clip, request.app.state.computing),
         media_type="text/plain; charset=utf-8",
@@ -89,7 +89,12 @@ async def _written(clip: MotionClip, computing: asyncio.Semaphore) -> AsyncItera
         yield text
 
 
-def _read(data: bytes, positions: PositionMeaning) -> MotionClip:
+def read_clip_file(data: bytes, positions: PositionMeaning) -> MotionClip:
+    """The clip in an uploaded BVH file.
+
+    Raises:
+        ProblemError: 422, it cannot be read.
+    """
     try:
         return read_bvh(data, positions=positions)
     except BvhError as error:

@@ -129,7 +129,7 @@ class BrassBody:
         """The poses of K bodies that are like this one, F frames each, solved as one of K F frames.
 
         Args:
-            motions: One a body; all with a stance, or none.
+            motions: One a body; all with a stance of as many rows, or none.
 
         Returns:
             Local rotations ``(K, F, J, 4)`` and root positions ``(K, F, 2, 3)``.

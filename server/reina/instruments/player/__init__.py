@@ -16,10 +16,12 @@ from reina.instruments.player.phrasing import (
 from reina.instruments.player.seats import SEATS, SEATS_FOR, Seat
 from reina.instruments.player.skeleton_layout import SkeletonLayout
 from reina.instruments.player.stance_choice import StanceChoice
+from reina.instruments.player.stances import STANCES
 
 __all__ = [
     "SEATS",
     "SEATS_FOR",
+    "STANCES",
     "BodyFrames",
     "BodyMotion",
     "Engagement",

@@ -50,6 +50,7 @@ PLAYER_PARAMETERS: tuple[Parameter, ...] = (
         choices=STANCES,
         blend=False,
         documentation="How the player stands under all playing; going to another takes a second and a half.",
+        open_choices=True,
     ),
     _amount("stance/amount", "How far the player moves in that stance.", maximum=1.5),
 )

@@ -1,4 +1,4 @@
-"""A player's body: gestures turn the trunk, hands go where they are asked to, feet stay."""
+"""A player's body: gestures turn the trunk, hands go where they are asked to, feet stay where they stand."""
 
 from __future__ import annotations
 
@@ -42,6 +42,12 @@ class Standing:
     """The points that the body was made with, ``(F, K, 3)``, metres."""
     elbows: FloatArray
     """Which way the elbows' hinges point, as the chest turns them, ``(F, 2, 3)``."""
+    feet: FloatArray
+    """Where the ankles are, metres, ``(F, 2, 3)`` or ``(2, 3)``."""
+    feet_rotations: FloatArray
+    """The feet's rotations in the world, ``(F, 2, 4)`` or ``(2, 4)``."""
+    knees: FloatArray
+    """Which way the knees' hinges point, ``(F, 2, 3)`` or ``(2, 3)``."""
     turns: FloatArray
     """What `body_matrix` turns beside the joints, ``(F, len(turns), 4)``."""
     shifts: FloatArray
@@ -126,13 +132,14 @@ class PlayerBody:
         self.still: FloatArray = same_hemisphere(held.rotations, skeleton.rest_rotations)
         """All joints' local rotations in the hold, ``(J, 4)``."""
 
-    def _drop(self, legs: FloatArray) -> FloatArray:
+    def _drop(self, legs: FloatArray, feet: FloatArray) -> FloatArray:
         """How far the hips must sink for both legs to reach their feet, ``(F,)``, metres.
 
         Args:
             legs: Where the legs begin, ``(F, 2, 3)``.
+            feet: Where they end, ``(F, 2, 3)`` or ``(2, 3)``.
         """
-        apart = legs - self._feet_positions
+        apart = legs - feet
         across = apart[..., 0] * apart[..., 0] + apart[..., 2] * apart[..., 2]
         needed = apart[..., 1] - np.sqrt(np.maximum(self._leg_reach * self._leg_reach - across, 0.0))
         needed = np.maximum(needed[:, 0], needed[:, 1])
@@ -154,7 +161,8 @@ class PlayerBody:
         Args:
             signals: By name, ``(F,)`` each: `SIGNALS`, and those that the body was made with.
             stance: What a way of standing turns the trunk by, under everything else, and shifts the hips,
-                ``(F, trunk joints + 1, 3)``, as `Stances.evaluate` gives it.
+                ``(F, trunk joints + 1, 3)``; six rows more where it takes the feet along; as
+                `Stances.evaluate` gives it.
         """
         rows = stacked(signals, self._signals)
         moved = (rows.T @ self._matrix).reshape(rows.shape[1], -1, 3)
@@ -163,19 +171,25 @@ class PlayerBody:
             turns = exp(moved[:, : self._hips])
         else:
             # One exponential for both.
-            turns = exp(np.concatenate([moved[:, : self._hips], stance[:, :-1]], axis=1))
-            hips += stance[:, -1]
+            turns = exp(np.concatenate([moved[:, : self._hips], stance[:, : len(self.trunk)]], axis=1))
+            hips += stance[:, len(self.trunk)]
         count = len(self._held)
         if self._eyes is not None:
             turns[:, self._eyes] = _glance(moved[:, self._eyes.start], self._sight)[:, None]
         base = self._held
         if stance is not None:
-            trunk = stance.shape[1] - 1
+            trunk = len(self.trunk)
             base = np.repeat(base[None], len(hips), axis=0)
             base[:, :trunk] = multiply(self._held[:trunk], turns[:, self._hips :])
         local = multiply(base, turns[:, :count])
         world, points, elbows = self._trunk.solve(local[:, : len(self.trunk)], hips)
-        drop = self._drop(points[:, 2:4])
+        feet, feet_rotations, knees = self._feet_positions, self._feet_rotations, self._knees
+        if stance is not None and stance.shape[1] > len(self.trunk) + 1:
+            legs = stance[:, len(self.trunk) + 1 :]
+            feet = feet + legs[:, :2]
+            feet_rotations = multiply(exp(legs[:, 2:4]), feet_rotations)
+            knees = knees + legs[:, 4:]
+        drop = self._drop(points[:, 2:4], feet)
         hips[:, 1] -= drop
         points[..., 1] -= drop[:, None]
         return Standing(
@@ -185,6 +199,9 @@ class PlayerBody:
             limbs=points[:, :4],
             points=points[:, 4:],
             elbows=elbows,
+            feet=feet,
+            feet_rotations=feet_rotations,
+            knees=knees,
             turns=turns[:, count : self._hips],
             shifts=moved[:, self._hips + 1 :],
         )
@@ -214,16 +231,16 @@ class PlayerBody:
         frames = len(standing.hips)
         targets = np.empty((frames, 4, 3))
         targets[:, :2] = hand_positions
-        targets[:, 2:] = self._feet_positions
+        targets[:, 2:] = standing.feet
         hinges = np.empty((frames, 4, 3))
         hinges[:, :2] = standing.elbows if elbows is None else elbows
-        hinges[:, 2:] = self._knees
+        hinges[:, 2:] = standing.knees
         limbs = self._limbs.solve(standing.limbs, targets, hinges)
 
         outer = np.empty((frames, 8, 4))  # world rotations: uppers, then ends
         outer[:, :4] = limbs.upper
         outer[:, 4:6] = hand_rotations
-        outer[:, 6:] = self._feet_rotations
+        outer[:, 6:] = standing.feet_rotations
         inner = np.empty((frames, 8, 4))  # what each of them hangs on
         inner[:, :4] = standing.world[:, self._limb_parents]
         inner[:, 4:] = multiply(limbs.upper, limbs.lower_local)

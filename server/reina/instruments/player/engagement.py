@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from reina.instruments.played import PlayedPart
     from reina.kinematics import Curve
     from reina.music.score import Score
-    from reina.skeleton import Hold, Rig
+    from reina.skeleton import Hold, HumanPose, Rig
 
 
 def player_prefix(number: int) -> str:
@@ -37,6 +37,8 @@ class Engagement:
         seat: Where the player stands.
         seed: Which of many equal ways of moving.
         glances: How the player looks at the others, as `plan_glances` gives it.
+        stances: Poses that the player can stand in beside those of the rig, by name, in the order of the
+            registry's choices.
     """
 
     score: Score
@@ -49,6 +51,7 @@ class Engagement:
     seat: Seat = SEATS["middle"]
     seed: int = 0
     glances: Mapping[str, Curve] = field(default_factory=dict[str, "Curve"])
+    stances: Mapping[str, HumanPose] = field(default_factory=dict[str, "HumanPose"])
 
     @property
     def prefix(self) -> str:

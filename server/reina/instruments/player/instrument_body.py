@@ -80,7 +80,7 @@ class FigureBody(InstrumentBody, Protocol):
         """The poses of K players, F frames each.
 
         Args:
-            motions: One a player; all with a stance, or none.
+            motions: One a player; all with a stance of as many rows, or none.
 
         Returns:
             Rotations ``(K, F, J, 4)`` and root positions ``(K, F, S, 3)``, each player's as `BodyFrames` has

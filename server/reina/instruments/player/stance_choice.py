@@ -25,12 +25,12 @@ _IN_A_ROW = 1000
 
 
 class StanceChoice:
-    """Weights of `STANCES` at any times, a pure function of the show.
+    """Weights of the stances at any times, a pure function of the show.
 
     A choice steps, a body does not: the weights follow it with minimum jerk over the time before each frame.
 
     Args:
-        show_plan: The show; where it has no `PATH` the first of `STANCES` is chosen.
+        show_plan: The show; where it has no `PATH` the first of `STANCES` is chosen, and there are no others.
         prefix: What the player's paths begin with.
     """
 
@@ -38,6 +38,7 @@ class StanceChoice:
         registry, path = show_plan.registry, prefix + PATH
         track = show_plan.tracks.get(path)
         self._column = registry.layout()[path][0] if path in registry else None
+        self._count = len(registry[path].choices) if path in registry else len(STANCES)
         self._steady = 0 if self._column is None else int(registry.defaults()[self._column])
         self._plan = (
             None
@@ -48,9 +49,9 @@ class StanceChoice:
         self._steps: FloatArray = np.diff(done)
 
     def weights(self, times_s: FloatArray) -> FloatArray:
-        """``(F, len(STANCES))``, each row's sum 1."""
+        """``(F, how many stances there are)``, each row's sum 1."""
         if self._plan is None or self._column is None:
-            chosen = np.zeros((len(times_s), len(STANCES)))
+            chosen = np.zeros((len(times_s), self._count))
             chosen[:, self._steady] = 1.0
             return chosen
         tick = np.floor(times_s * GRID_FPS + 1e-6).astype(np.int64)[:, None]
@@ -61,5 +62,5 @@ class StanceChoice:
         values, _ = self._plan.evaluate(np.maximum(read, 0) / GRID_FPS)
         chosen = values[:, self._column].astype(np.int64)
         if np.all(chosen == chosen[0]):
-            return np.broadcast_to(np.eye(len(STANCES))[chosen[0]], (len(times_s), len(STANCES)))
-        return np.einsum("t,ftc->fc", self._steps, np.eye(len(STANCES))[chosen[place].reshape(asked.shape)])
+            return np.broadcast_to(np.eye(self._count)[chosen[0]], (len(times_s), self._count))
+        return np.einsum("t,ftc->fc", self._steps, np.eye(self._count)[chosen[place].reshape(asked.shape)])

@@ -1,4 +1,4 @@
-"""Ways of standing laid under the playing: what a rig's clips do to the trunk beside their first frame."""
+"""Ways of standing under the playing: a rig's clips, laid over the hold, and poses in its place."""
 
 from __future__ import annotations
 
@@ -7,34 +7,46 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.instruments.player.body_table import TRUNK
+from reina.instruments.player.posed_stance import retarget_pose
 from reina.rotations import conjugate, log, multiply
 from reina.skeleton import retarget
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.instruments.player.held_pose import HeldPose
     from reina.rotations.arrays import FloatArray
-    from reina.skeleton import MotionClip, Rig
+    from reina.skeleton import HumanPose, MotionClip, Rig
 
 STANCES: tuple[str, ...] = ("none", "breathing", "swaying", "shifting")
-"""Choices of ``player/stance``: none, or a clip of the rig by its name; one that the rig has not is none."""
+"""Choices of ``player/stance`` that there always are: none, or a clip of the rig by its name; one that the
+rig has not is none. A session's own stances come after them."""
 
 _SEAM = 1e-3
 """How far a clip's last frame may be from its first, radians and metres, for the clip to be a loop."""
 
 
+LEGS = 6
+"""Rows that a pose has after trunk and hips: feet, their turns, knees, left and right."""
+
+
 class Stances:
-    """The clips of a rig as turns of its trunk and a shift of its hips, at any time, each looped.
+    """The clips of a rig as turns of its trunk and a shift of its hips, at any time, each looped; and poses.
 
     An additive layer: of each frame the difference from the clip's first counts, so that the hold stays the
-    posture and hands, horn and feet are brought back to their places by the solvers.
+    posture and hands, horn and feet are brought back to their places by the solvers. A pose is the difference
+    from the hold, and takes the feet along.
 
     Args:
         rig: Its clips and the joints of `TRUNK`.
+        poses: Further stances, after `STANCES`.
+        held: The playing position, which poses differ from; not needed without any.
 
     Raises:
         ValueError: A clip does not end where it begins.
     """
 
-    def __init__(self, rig: Rig) -> None:
+    def __init__(self, rig: Rig, poses: Sequence[HumanPose] = (), held: HeldPose | None = None) -> None:
         self.joints = tuple(name for name in TRUNK if name in rig.skeleton)
         """Columns of the turns."""
         self._tables = {
@@ -42,16 +54,21 @@ class Stances:
             for choice, name in enumerate(STANCES)
             if name in rig.clips
         }
+        self.count = len(STANCES) + len(poses)
+        """How many stances there are."""
+        rows = [] if held is None else [retarget_pose(pose, rig, held).row for pose in poses]
+        self._poses: FloatArray = np.array(rows).reshape(len(rows), 3 * (len(self.joints) + 1 + LEGS))
 
     def evaluate(self, times_s: FloatArray, weights: FloatArray) -> FloatArray | None:
         """Rotation vectors of the joints, in their own frames, then the hips' shift in metres.
 
         Args:
             times_s: Song times, ``(F,)``.
-            weights: How much of each of `STANCES`, ``(F, len(STANCES))``.
+            weights: How much of each stance, ``(F, count)``; of a pose no more than all.
 
         Returns:
-            ``(F, len(joints) + 1, 3)``, or None where nothing is to be added.
+            ``(F, len(joints) + 1, 3)``; where there is something of a pose, `LEGS` more rows each, as
+            `PosedStance.row` has them; None where nothing is to be added.
         """
         total: FloatArray | None = None
         for choice, (table, frame_time_s) in self._tables.items():
@@ -61,6 +78,12 @@ class Stances:
             place, share = _taps(times_s, frame_time_s, len(table))
             moved = np.einsum("ft,ftc->fc", share * weight[:, None], table[place])
             total = moved if total is None else total + moved
+        posed = weights[:, len(STANCES) :]
+        if posed.any():
+            added = np.minimum(posed, 1.0) @ self._poses
+            if total is not None:
+                added[:, : total.shape[1]] += total
+            total = added
         return None if total is None else total.reshape(len(times_s), -1, 3)
 
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from reina.sessions.stage import Stage
     from reina.show import Track
     from reina.show.time_map import TimeUnit
+    from reina.skeleton import HumanPose
 
 T = TypeVar("T")
 
@@ -53,7 +54,13 @@ class Reader:
         self._pool = pool or WorkerPool(shared_of(stage))
 
     async def production(
-        self, path: Path, *, filename: str | None, cast: Cast, alignment: SongTimes | None = None
+        self,
+        path: Path,
+        *,
+        filename: str | None,
+        cast: Cast,
+        alignment: SongTimes | None = None,
+        stances: Mapping[str, HumanPose] | None = None,
     ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it.
 
@@ -62,12 +69,13 @@ class Reader:
             filename: What its sender called it.
             cast: Who plays what, and which of its sequences.
             alignment: Where it is heard in the song.
+            stances: Poses that its players can stand in, by name.
 
         Raises:
             InputError: It cannot be read, or not be played so.
         """
         size = await asyncio.to_thread(_weight, path)
-        return await self._read(size, read_and_plan, self._stage, path, filename, cast, alignment)
+        return await self._read(size, read_and_plan, self._stage, path, filename, cast, alignment, stances)
 
     async def show(self, data: bytes, registry: ParameterRegistry) -> Show:
         """Read a show from JSON text.
@@ -124,11 +132,16 @@ def _weight(path: Path) -> int:
 
 
 def read_and_plan(
-    stage: Stage, path: Path, filename: str | None, cast: Cast, alignment: SongTimes | None = None
+    stage: Stage,
+    path: Path,
+    filename: str | None,
+    cast: Cast,
+    alignment: SongTimes | None = None,
+    stances: Mapping[str, HumanPose] | None = None,
 ) -> Production:
     """What `Reader.production` does."""
     score = read_score(path.read_bytes(), filename=filename, sequence=cast.sequence)
-    return Production.plan(stage, score, cast=cast, alignment=alignment)
+    return Production.plan(stage, score, cast=cast, alignment=alignment, stances=stances)
 
 
 def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:

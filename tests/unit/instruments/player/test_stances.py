@@ -3,13 +3,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.unit.skeleton.figures import POSES, figure
 
 from reina.curves import ParameterRegistry
+from reina.instruments.player.held_pose import HeldPose
+from reina.instruments.player.posed_stance import retarget_pose
 from reina.instruments.player.stance_choice import PASSAGE_S, StanceChoice
 from reina.instruments.player.stances import STANCES, Stances
 from reina.performance import Performance
+from reina.rotations import angle_between, exp, multiply, rotate
 from reina.show import Show, TimeMap
-from reina.skeleton import Rig
+from reina.skeleton import Hold, Rig, clip_of_motion, human_pose, read_bvh, write_bvh
 
 NoteBeats = tuple[float, float, int]
 Perform = Callable[..., Performance]
@@ -118,3 +122,54 @@ def test_a_change_of_stance_is_no_jump_in_the_frames(
     assert np.abs(roots - other)[:100].max() > 0.005
     np.testing.assert_array_equal(roots[-100:], other[-100:])
     assert np.linalg.norm(np.diff(roots, axis=0), axis=1).max() * 60.0 < 0.1
+
+
+def test_an_exported_pose_put_back_is_that_pose(
+    perform: Perform, tune: list[NoteBeats], player_rig: Rig, hold: Hold
+) -> None:
+    """Trunk and legs, in a frame of a performance written as BVH and read again."""
+    skeleton, held = player_rig.skeleton, HeldPose(player_rig, hold)
+    values = {"player/stance": "none", "player/sway": 0.0}
+    block = perform(tune, values=values).evaluate(2)
+    rotations = block.rotations[:1, : len(skeleton)].astype(np.float64)
+    clip = clip_of_motion(skeleton, rotations, block.root_positions[:1, 0], 1.0 / 60.0)
+    stance = retarget_pose(human_pose(read_bvh(write_bvh(clip)), 0.0), player_rig, held)
+    trunk = [skeleton.index(name) for name in ("hips", "spine", "chest", "upperChest")]
+    shown = multiply(held.rotations[trunk], exp(stance.turns[: len(trunk)]))
+    assert np.degrees(angle_between(shown, rotations[0, trunk])).max() < 1.0
+    assert np.degrees(np.linalg.norm(stance.feet_turns, axis=1)).max() < 1.0
+    assert np.abs(stance.feet).max() < 0.015
+    assert np.abs(stance.hips - (block.root_positions[0, 0] - held.root)).max() < 0.015
+
+
+@pytest.mark.parametrize("pose", POSES)
+def test_both_feet_of_a_pose_stand_on_the_floor(player_rig: Rig, hold: Hold, pose: str) -> None:
+    held = HeldPose(player_rig, hold)
+    stance = retarget_pose(human_pose(figure(pose), 0.1), player_rig, held)
+    for side, ankle, turn, place in zip(
+        ("left", "right"), held.positions[feet(player_rig)], stance.feet_turns, stance.feet, strict=True
+    ):
+        joint = player_rig.skeleton.index(f"{side}Foot")
+        sole = player_rig.contact(f"{side}Sole").offset
+        world = multiply(exp(turn), held.world[joint])
+        height = float((ankle + place + rotate(world, sole))[1])
+        # The sole's point is its middle: a heel that is lifted lifts it too.
+        assert -0.005 < height < 0.09, side
+
+
+def test_poses_blend_as_clips_do(player_rig: Rig, hold: Hold) -> None:
+    pose = human_pose(figure("crouch"), 0.1)
+    stances = Stances(player_rig, [pose], HeldPose(player_rig, hold))
+    assert stances.count == len(STANCES) + 1
+    weights = np.zeros((3, stances.count))
+    weights[:, STANCES.index("none")] = [1.0, 0.5, 0.0]
+    weights[:, -1] = [0.0, 0.5, 1.5]
+    moved = stances.evaluate(np.zeros(3), weights)
+    assert moved is not None
+    np.testing.assert_allclose(moved[1], 0.5 * moved[2])
+    np.testing.assert_array_equal(moved[0], 0.0)
+    assert moved[2, len(stances.joints), 1] < -0.1
+
+
+def feet(rig: Rig) -> list[int]:
+    return [rig.skeleton.index(f"{side}Foot") for side in ("left", "right")]
