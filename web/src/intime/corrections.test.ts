@@ -72,7 +72,7 @@ describe("the history of corrections", () => {
   const same = (one: number, other: number): boolean => one === other;
 
   it("goes back and on, a step at a time", () => {
-    const history = new History(0, same).take(1).take(2);
+    const history = new History<number>(0, same).take(1).take(2);
     expect([history.undone?.present, history.undone?.undone?.present]).toEqual([1, 0]);
     expect(history.undone?.undone?.undone).toBeNull();
     expect(history.undone?.redone?.present).toBe(2);
@@ -80,12 +80,12 @@ describe("the history of corrections", () => {
   });
 
   it("forgets what was taken back once something else is put", () => {
-    const history = new History(0, same).take(1).undone?.take(5);
+    const history = new History<number>(0, same).take(1).undone?.take(5);
     expect([history?.redone, history?.undone?.present]).toEqual([null, 0]);
   });
 
   it("takes what somebody else put as a step, and the same as none", () => {
-    const history = new History(0, same).take(1).take(1);
+    const history = new History<number>(0, same).take(1).take(1);
     expect(history.undone?.present).toBe(0);
   });
 });

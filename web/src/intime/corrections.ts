@@ -44,7 +44,10 @@ export function moved(corrections: Corrections, by: number): Corrections {
 }
 
 export function withoutAnchor(corrections: Corrections, score_s: number): Corrections {
-  return { ...corrections, anchors: corrections.anchors.filter((anchor) => Math.abs(anchor.score_s - score_s) >= SAME_S) };
+  return {
+    ...corrections,
+    anchors: corrections.anchors.filter((anchor) => Math.abs(anchor.score_s - score_s) >= SAME_S),
+  };
 }
 
 /** A bar line that is dragged to where it is heard. */
@@ -142,7 +145,8 @@ export function heardAt(beats: readonly AlignedBeat[], score_s: number): number 
   const index = Math.max((after === -1 ? beats.length : after) - 1, 0);
   const [one, next] = [beats[index], beats[index + 1]];
   if (one === undefined) return score_s;
-  if (next === undefined || next.score_s <= one.score_s || score_s < one.score_s) return one.song_s + score_s - one.score_s;
+  if (next === undefined || next.score_s <= one.score_s || score_s < one.score_s)
+    return one.song_s + score_s - one.score_s;
   return one.song_s + ((score_s - one.score_s) / (next.score_s - one.score_s)) * (next.song_s - one.song_s);
 }
 

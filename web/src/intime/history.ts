@@ -5,12 +5,7 @@ export class History<T> {
   readonly #future: readonly T[];
   readonly present: T;
 
-  constructor(
-    present: T,
-    same: (one: T, other: T) => boolean,
-    past: readonly T[] = [],
-    future: readonly T[] = [],
-  ) {
+  constructor(present: T, same: (one: T, other: T) => boolean, past: readonly T[] = [], future: readonly T[] = []) {
     this.present = present;
     this.#same = same;
     this.#past = past;

@@ -72,7 +72,13 @@ describe("taps", () => {
   });
 
   it("replace what was put where they were tapped, and hold what is beside", () => {
-    const there = { anchors: [{ score_s: 6, song_s: 6.5 }, { score_s: 30, song_s: 31 }], offset_s: 0 };
+    const there = {
+      anchors: [
+        { score_s: 6, song_s: 6.5 },
+        { score_s: 30, song_s: 31 },
+      ],
+      offset_s: 0,
+    };
     const late = taps(17, 4, 0.5).map((tap, index) => tap + 0.012 * index);
     const read = readTaps(tapping({ taps: late, corrections: there, around: true, firstBar: 2 }));
     const places = read?.corrections.anchors.map(({ score_s }) => score_s) ?? [];

@@ -160,7 +160,8 @@ function anchored(
   }));
   const atLines = places.filter(({ beat }) => lines.has(beat));
   // One bar line alone would move all: the first and the last beat say the tempo too.
-  const wanted = atLines.length >= 2 ? atLines : places.filter((_, index) => index === 0 || index === places.length - 1);
+  const wanted =
+    atLines.length >= 2 ? atLines : places.filter((_, index) => index === 0 || index === places.length - 1);
   const [from, to] = [places[0]?.score_s ?? 0, places.at(-1)?.score_s ?? 0];
   const others = corrections.anchors.filter(({ score_s }) => score_s < from - SAME_S || score_s > to + SAME_S);
   const span = [
