@@ -168,6 +168,21 @@ export interface ShowState {
   redo: number
 }
 
+/** How far a session's score is in time with its song. */
+export interface AlignmentState {
+  /**
+   * none: the song is rendered from the score, or is not decoded by the server; unlike: it is other
+   * music, and both begin at 0.
+   */
+  status: "none" | "searching" | "found" | "unlike" | "failed"
+  /** 0 to 1; 1 once something is known. */
+  progress: number
+  /** 0 to 1, how sure it is on the whole; null until something is known. */
+  confidence: number | null
+  /** Why it failed. */
+  detail: string | null
+}
+
 /** One note of a part, with its fingering where a player plays that part. */
 export interface WireNote {
   /** The note's place in the score's table of notes. */
@@ -252,21 +267,6 @@ export interface Session {
   links: SessionLinks
 }
 
-/** How far a session's score is in time with its song. */
-export interface AlignmentState {
-  /**
-   * none: the song is rendered from the score, or is not decoded by the server; unlike: it is other
-   * music, and both begin at 0.
-   */
-  status: "none" | "searching" | "found" | "unlike" | "failed"
-  /** 0 to 1; 1 once something is known. */
-  progress: number
-  /** 0 to 1, how sure it is on the whole; null until something is known. */
-  confidence: number | null
-  /** Why it failed. */
-  detail: string | null
-}
-
 /** First on every stream: whoever joins late or again needs nothing else. */
 export interface Hello extends Manifest {
   type: "hello"
@@ -320,6 +320,15 @@ export interface ScoreChanged {
 export interface SongReady {
   type: "song_ready"
   song: SongState
+}
+
+/**
+ * The search for the score in the song went on or came to an end, or somebody put something right.
+ *
+ * Where it moves the music score_changed comes too.
+ */
+export interface AlignmentChanged extends AlignmentState {
+  type: "alignment_changed"
 }
 
 /** A note of the played part begins (or sounds already, after a seek into it). */
@@ -1234,6 +1243,7 @@ export type ServerMessage =
   | ShowChanged
   | ScoreChanged
   | SongReady
+  | AlignmentChanged
   | NoteOn
   | NoteOff
   | Pong

@@ -76,7 +76,7 @@ export function readTaps(tapping: Tapping): TapReading | null {
 export function unitOf(interval: number, beat: number): number {
   const off = (unit: number): number => Math.abs(Math.log(interval / (unit * beat)));
   if (off(1) <= Math.log(OTHER_UNIT)) return 1;
-  return UNITS.reduce((best, unit) => (off(unit) < off(best) ? unit : best), 1 as number);
+  return UNITS.reduce<number>((best, unit) => (off(unit) < off(best) ? unit : best), 1);
 }
 
 function withoutSlips(taps: readonly number[]): number[] {
@@ -117,7 +117,7 @@ function paired(taps: readonly number[], beats: readonly AlignedBeat[], { bars, 
   return [nearest - 1, nearest, nearest + 1]
     .filter((first) => first >= 0)
     .map(pairsFrom)
-    .reduce((best, pairs) => (off(pairs) < off(best) ? pairs : best), [] as Pair[]);
+    .reduce<Pair[]>((best, pairs) => (off(pairs) < off(best) ? pairs : best), []);
 }
 
 function withoutAwry(pairs: readonly Pair[]): Pair[] {
