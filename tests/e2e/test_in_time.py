@@ -45,7 +45,7 @@ def test_a_dropped_recording_is_found_and_put_right_by_hand(visit: Visit, client
 
     bars = kept()["bars"]
     page.keyboard.press("h")
-    panel = page.get_by_role("region", name="in time with the recording")
+    panel = page.get_by_role("region", name="score and recording")
     status = panel.get_by_role("status").first
     status.get_by_text("In time with the recording · ").wait_for()
     panel.get_by_text("The music begins at 0:0").wait_for()

@@ -2,8 +2,8 @@ import { counted, filled, words } from "../words";
 
 /** A score that is put in time with a recording. */
 export const inTime = words("intime", {
-  title: "In time with the recording",
-  panel: "in time with the recording",
+  title: "Score and recording",
+  panel: "score and recording",
   reading: "Reading …",
   rendered: "The sound is made from the score, and in time with it.",
   notListened: "M4A and WebM cannot be listened to here: move everything, tap along, or drag bar lines.",
