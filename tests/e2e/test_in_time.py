@@ -22,7 +22,7 @@ pytestmark = pytest.mark.browser
 
 SCORE = "ode-to-joy.json"
 LEAD_IN_S, SLOWER = 2.0, 1.2
-SIZE = (1000, 640)
+SIZE = (800, 600)
 
 
 def recording() -> bytes:
@@ -34,10 +34,13 @@ def recording() -> bytes:
 
 
 def test_a_dropped_recording_is_found_and_put_right_by_hand(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=SIZE, refusals=("422",))
+    # Where no session is, none has to be drawn first.
+    opened = visit("/s/no-such-session-0000000", size=SIZE, refusals=("404", "422"))
+    opened.page.get_by_role("heading", name="This session is not here").wait_for()
     page = opened.page
     score = (SCORES / SCORE).read_bytes()
-    opened.open_files((SCORE, "application/json", score), ("ode.flac", "audio/flac", recording()))
+    opened.choose_files((SCORE, "application/json", score), ("ode.flac", "audio/flac", recording()))
+    opened.until("window.reina?.session && window.reina.drawn")
     page.get_by_text("In time with the recording · ").first.wait_for()
 
     def kept() -> dict[str, Any]:

@@ -10,6 +10,8 @@ export interface RecordingPicture {
   /** Where each bar line is, seconds of the recording. */
   readonly lines: readonly number[];
   readonly corrections: Corrections;
+  /** Whether something was found, so that a bar may be unsure. */
+  readonly isFound: boolean;
   /** The bar that is chosen, a place in `bars`. */
   readonly chosen: number | null;
   /** Song time at the left edge, seconds, and pixels a second. */
@@ -57,7 +59,7 @@ function drawWave(context: CanvasRenderingContext2D, { peaks, from, scale, width
 }
 
 function drawBars(context: CanvasRenderingContext2D, picture: RecordingPicture): void {
-  const { bars, lines, corrections, chosen, from, scale, width, height } = picture;
+  const { bars, lines, corrections, isFound, chosen, from, scale, width, height } = picture;
   const step = numberStep(lines, scale);
   context.font = `500 11px "Instrument Sans", system-ui, sans-serif`;
   context.textBaseline = "middle";
@@ -68,7 +70,7 @@ function drawBars(context: CanvasRenderingContext2D, picture: RecordingPicture):
     if (x < -NUMBER_GAP || x > width + NUMBER_GAP) return;
     const anchored = anchorAt(corrections, lineOf(bar)?.score_s ?? -1) !== null;
     if (!bar.is_heard && !anchored) return;
-    const unsure = !anchored && bar.confidence < UNSURE;
+    const unsure = isFound && !anchored && bar.confidence < UNSURE;
     const numbered = index === chosen || anchored || (index % step === 0 && x - free >= NUMBER_GAP * 0.8);
     context.strokeStyle = anchored ? ANCHOR : unsure ? UNSURE_LINE : LINE;
     context.lineWidth = index === chosen ? 2 : 1;

@@ -43,7 +43,7 @@ export const told = words("told", {
   unlike: "This recording is not this score's music, or too unlike it",
   unlikeMeans: "Both begin at 0. You can put them in time by hand.",
   notListened: "The score could not be looked for in the recording",
-  byHand: "A recording plays. M4A and WebM are put in time by hand.",
+  byHand: "M4A and WebM are put in time by hand",
   putRight: "Put it right",
   putInTime: "Put in time",
   details: "Details",
