@@ -103,7 +103,7 @@ class Alignment(AlignmentState):
     song_duration_s: float | None
     """Length of the recording; null where the song is rendered, or its length is not known."""
     bars: list[AlignedBar]
-    """Empty where the song is rendered."""
+    """Where music ends with a whole bar, the last is the bar line there. Empty where the song is rendered."""
     alignment: AlignmentDocument | None
     """What was found and what people put right: a document that can be kept, and put into a session of the
     same score and song. Null until something is known."""

@@ -410,7 +410,7 @@ export interface Alignment extends AlignmentState {
   is_searchable: boolean
   /** Length of the recording; null where the song is rendered, or its length is not known. */
   song_duration_s: number | null
-  /** Empty where the song is rendered. */
+  /** Where music ends with a whole bar, the last is the bar line there. Empty where the song is rendered. */
   bars: AlignedBar[]
   /**
    * What was found and what people put right: a document that can be kept, and put into a session of the
