@@ -29,7 +29,8 @@ def recording() -> bytes:
     """The piece, slower, after silence, as FLAC."""
     made = record(Rendition(SCORE.removesuffix(".json"), tempo=(SLOWER, 0.0), lead_in_s=LEAD_IN_S))
     file = io.BytesIO()
-    soundfile.write(file, made.samples, RATE, format="FLAC")
+    with soundfile.SoundFile(file, "w", samplerate=RATE, channels=1, format="FLAC", subtype="PCM_16") as flac:
+        flac.write(made.samples[:, None])
     return file.getvalue()
 
 

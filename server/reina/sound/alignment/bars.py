@@ -28,12 +28,13 @@ def aligned_bars(score: Score, alignment: Alignment | None) -> list[AlignedBar]:
         return []
     ends = np.append(lines[1:], max(score.duration_beats, lines[-1]))
     signatures = score.metre_map.signatures
-    holds = np.searchsorted([s.onset_beats for s in signatures], lines + SAME_BEAT, side="right") - 1
+    begin = np.array([signature.onset_beats for signature in signatures])
+    holds: list[int] = (np.searchsorted(begin, lines + SAME_BEAT, side="right") - 1).tolist()
     beats = [
         np.append(line, np.arange(line + step, end - SAME_BEAT, step))
         for line, end, step in (
             (line, end, _beat(signatures[index]))
-            for line, end, index in zip(lines.tolist(), ends.tolist(), holds.tolist(), strict=True)
+            for line, end, index in zip(lines.tolist(), ends.tolist(), holds, strict=True)
         )
     ]
     first_s = score.tempo_map.seconds(lines)
