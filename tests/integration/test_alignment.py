@@ -79,6 +79,16 @@ def test_notes_bars_and_frames_are_where_they_are_heard(aligned: Owned) -> None:
     assert answer["tempi"][0]["onset_s"] == pytest.approx(LEAD_IN_S, abs=0.05)
     session = aligned.client.get(aligned.path).json()
     assert session["alignment"]["status"] == "found"
+
+    assert told["is_searchable"] is True
+    bars = told["bars"]
+    assert [bar["number"] for bar in bars] == list(range(1, len(bars) + 1))
+    assert all(bar["is_heard"] and bar["confidence"] > 0.4 and len(bar["beats"]) == 4 for bar in bars[:-1])
+    lines = score.tempo_map.seconds(score.metre_map.bar_lines(score.duration_beats))
+    assert [bar["beats"][0]["score_s"] for bar in bars[: len(lines)]] == pytest.approx(lines, abs=1e-3)
+    assert [bar["beats"][0]["song_s"] for bar in bars[: len(lines)]] == pytest.approx(
+        answer["bar_lines_s"][: len(lines)], abs=1e-3
+    )
     assert session["duration_s"] >= LEAD_IN_S + SLOWER * score.duration_s - 0.1
 
 
@@ -172,6 +182,9 @@ def test_a_rendered_song_is_in_time_already(client: httpx.Client) -> None:
         "progress": 0.0,
         "confidence": None,
         "detail": None,
+        "is_searchable": False,
+        "song_duration_s": None,
+        "bars": [],
         "alignment": None,
     }
     for refused in (

@@ -1,5 +1,6 @@
 """Where a session's score is heard in its song."""
 
+import asyncio
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body
@@ -11,7 +12,9 @@ from reina.api.http.problems import ProblemError
 from reina.protocol.alignment import Alignment as AlignmentResource
 from reina.protocol.alignment import AlignmentCorrections, AlignmentDocument
 from reina.sessions.session import Session
+from reina.sessions.store import UNDECODED
 from reina.sound.alignment import Alignment, Anchor, alignment_of, document_of
+from reina.sound.alignment.bars import aligned_bars
 
 router = APIRouter(tags=["alignment"], route_class=BoundedRoute)
 
@@ -30,7 +33,7 @@ EXAMPLES = [{"offset_s": 0.12}, {"anchors": [{"score_s": 0.5, "song_s": 0.75}]}]
 @router.get("/sessions/{session_id}/alignment")
 async def get_alignment(session: Watched) -> AlignmentResource:
     """Whether the score is in time with the song, how sure that is, and the whole map."""
-    return _resource(session)
+    return await _resource(session)
 
 
 @router.put("/sessions/{session_id}/alignment")
@@ -52,7 +55,7 @@ async def put_alignment(
         return (known or _unknown(session)).with_anchors(anchors).with_offset(fields.offset_s)
 
     await store.change_alignment(session, put)
-    return _resource(session)
+    return await _resource(session)
 
 
 @router.post("/sessions/{session_id}/alignment/search", status_code=202)
@@ -68,13 +71,19 @@ async def search_alignment(session: Controlled, store: Store) -> AlignmentResour
             f"{session.record.song.media_type} is decoded by browsers alone: send WAV, FLAC, MP3 or Ogg to "
             "have the score found in it, or put anchors",
         )
-    return _resource(session)
+    return await _resource(session)
 
 
-def _resource(session: Session) -> AlignmentResource:
-    known = session.alignment.alignment
+async def _resource(session: Session) -> AlignmentResource:
+    known, song = session.alignment.alignment, session.record.song
+    score = session.production.written_score
+    bars = [] if song is None else await asyncio.to_thread(aligned_bars, score, known)
     return AlignmentResource(
-        **dict(session.alignment.state()), alignment=None if known is None else document_of(known)
+        **dict(session.alignment.state()),
+        is_searchable=song is not None and song.media_type not in UNDECODED,
+        song_duration_s=None if song is None else song.duration_s,
+        bars=bars,
+        alignment=None if known is None else document_of(known),
     )
 
 

@@ -73,9 +73,37 @@ class AlignmentState(WireModel):
     """Why it failed."""
 
 
+class AlignedBeat(WireModel):
+    """A beat of the score, and where it is heard."""
+
+    score_s: float
+    """In the score as it is written: what an anchor's `score_s` is."""
+    song_s: float
+
+
+class AlignedBar(WireModel):
+    """A bar of the score, and where it is heard."""
+
+    number: int
+    """As musicians count: the first whole bar is 1, a pickup before it 0."""
+    confidence: float
+    """0 to 1, how surely it begins where it is thought to."""
+    is_heard: bool
+    """False where the recording leaves it out."""
+    beats: list[AlignedBeat]
+    """As they are conducted (dotted quarters in 6/8); the first is the bar line."""
+
+
 class Alignment(AlignmentState):
     """Where a session's score is heard in its song."""
 
+    is_searchable: bool
+    """Whether the server can look for the score in the song: not in M4A and WebM, nor is there anything to
+    look for in what is rendered."""
+    song_duration_s: float | None
+    """Length of the recording; null where the song is rendered, or its length is not known."""
+    bars: list[AlignedBar]
+    """Where music ends with a whole bar, the last is the bar line there. Empty where the song is rendered."""
     alignment: AlignmentDocument | None
     """What was found and what people put right: a document that can be kept, and put into a session of the
     same score and song. Null until something is known."""

@@ -6,6 +6,7 @@ import inspect
 from typing import TYPE_CHECKING, get_args
 
 from reina.protocol import messages, notes, transport
+from reina.protocol.alignment import AlignmentState
 from reina.protocol.frame import ALIGNMENT, HEADER, FrameFlag, fields_of
 from reina.protocol.manifest import (
     PROTOCOL_VERSION,
@@ -19,23 +20,14 @@ from reina.protocol.typescript import field_types
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-FROM_SERVER: tuple[type[BaseModel], ...] = (
-    messages.Hello,
-    messages.Transport,
-    messages.ShowChanged,
-    messages.ScoreChanged,
-    messages.SongReady,
-    messages.NoteOn,
-    messages.NoteOff,
-    messages.Pong,
-    messages.StreamError,
-)
+FROM_SERVER: tuple[type[BaseModel], ...] = get_args(get_args(messages.ServerMessage)[0])
 FROM_VIEWER: tuple[type[BaseModel], ...] = (messages.Ping,)
 PARTS: tuple[type[BaseModel], ...] = (
     SkeletonManifest,
     ParameterManifest,
     messages.StreamLinks,
     messages.SongState,
+    AlignmentState,
     transport.TransportState,
     transport.Loop,
     notes.WireNote,

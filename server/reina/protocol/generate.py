@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from reina.instruments import INSTRUMENTS
 from reina.performance import any_player_pattern, schema_parameters
-from reina.protocol import resources, timeline, transport
+from reina.protocol import alignment, resources, timeline, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
 from reina.protocol.reader import frame_reader
@@ -41,6 +41,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.CreatedSession,
     resources.SessionList,
     resources.Score,
+    alignment.Alignment,
     resources.Cast,
     resources.InstrumentList,
     resources.StanceList,
@@ -72,6 +73,7 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *COMMANDS,
     resources.SessionChange,
     resources.CastFields,
+    alignment.AlignmentCorrections,
 )
 """What the server is sent: fields with a default may be left out."""
 

@@ -168,6 +168,21 @@ export interface ShowState {
   redo: number
 }
 
+/** How far a session's score is in time with its song. */
+export interface AlignmentState {
+  /**
+   * none: the song is rendered from the score, or is not decoded by the server; unlike: it is other
+   * music, and both begin at 0.
+   */
+  status: "none" | "searching" | "found" | "unlike" | "failed"
+  /** 0 to 1; 1 once something is known. */
+  progress: number
+  /** 0 to 1, how sure it is on the whole; null until something is known. */
+  confidence: number | null
+  /** Why it failed. */
+  detail: string | null
+}
+
 /** One note of a part, with its fingering where a player plays that part. */
 export interface WireNote {
   /** The note's place in the score's table of notes. */
@@ -309,6 +324,15 @@ export interface SongReady {
   song: SongState
 }
 
+/**
+ * The search for the score in the song went on or came to an end, or somebody put something right.
+ *
+ * Where it moves the music score_changed comes too.
+ */
+export interface AlignmentChanged extends AlignmentState {
+  type: "alignment_changed"
+}
+
 /** A note of the played part begins (or sounds already, after a seek into it). */
 export interface NoteOn extends WireNote {
   type: "note_on"
@@ -377,6 +401,24 @@ export interface Score {
   /** Other words that the file has, by time. */
   texts: ScoreText[]
   warnings: Warned[]
+}
+
+/** Where a session's score is heard in its song. */
+export interface Alignment extends AlignmentState {
+  /**
+   * Whether the server can look for the score in the song: not in M4A and WebM, nor is there anything to
+   * look for in what is rendered.
+   */
+  is_searchable: boolean
+  /** Length of the recording; null where the song is rendered, or its length is not known. */
+  song_duration_s: number | null
+  /** Where music ends with a whole bar, the last is the bar line there. Empty where the song is rendered. */
+  bars: AlignedBar[]
+  /**
+   * What was found and what people put right: a document that can be kept, and put into a session of the
+   * same score and song. Null until something is known.
+   */
+  alignment: AlignmentDocument | null
 }
 
 /** Who plays what, in the order of the players, with what else each could play. */
@@ -588,19 +630,53 @@ export interface CastFields {
   sequence?: number | null
 }
 
-/** How far a session's score is in time with its song. */
-export interface AlignmentState {
-  /**
-   * none: the song is rendered from the score, or is not decoded by the server; unlike: it is other
-   * music, and both begin at 0.
-   */
-  status: "none" | "searching" | "found" | "unlike" | "failed"
-  /** 0 to 1; 1 once something is known. */
-  progress: number
-  /** 0 to 1, how sure it is on the whole; null until something is known. */
-  confidence: number | null
-  /** Why it failed. */
-  detail: string | null
+/** What a person puts right in an alignment. */
+export interface AlignmentCorrections {
+  /** Places of the score that are put where they are heard; what was found goes through them. */
+  anchors?: AnchorDocument[]
+  /** By how much everything is heard later, seconds. */
+  offset_s?: number
+}
+
+/** A bar of the score, and where it is heard. */
+export interface AlignedBar {
+  /** As musicians count: the first whole bar is 1, a pickup before it 0. */
+  number: number
+  /** 0 to 1, how surely it begins where it is thought to. */
+  confidence: number
+  /** False where the recording leaves it out. */
+  is_heard: boolean
+  /** As they are conducted (dotted quarters in 6/8); the first is the bar line. */
+  beats: AlignedBeat[]
+}
+
+/** A beat of the score, and where it is heard. */
+export interface AlignedBeat {
+  /** In the score as it is written: what an anchor's score_s is. */
+  score_s: number
+  song_s: number
+}
+
+/** Where each place of a score is heard in a recording, as Alignment. */
+export interface AlignmentDocument {
+  version?: 1
+  points: PointDocument[]
+  score_duration_s: number
+  song_duration_s: number
+  gaps?: GapDocument[]
+  is_same_music?: boolean
+  transposition?: number
+  tuning_cents?: number
+  count_in?: number
+  sounds_after?: boolean
+  anchors?: AnchorDocument[]
+  offset_s?: number
+}
+
+/** A place of the score that a person has put where they hear it, as Anchor. */
+export interface AnchorDocument {
+  score_s: number
+  song_s: number
 }
 
 /** Who plays what, in the order of the players, and why nobody plays the rest. */
@@ -741,6 +817,14 @@ export interface Finding {
   player: number | null
   /** The warnings, one by one; of very many the first. */
   details: Warned[]
+}
+
+/** What one of both leaves out, as Gap. */
+export interface GapDocument {
+  score_from_s: number
+  score_to_s: number
+  song_from_s: number
+  song_to_s: number
 }
 
 /** An instrument that somebody can play. */
@@ -954,6 +1038,13 @@ export interface PartTempo {
   bpm: number | null
   /** rit., accel. or nothing. */
   word: string
+}
+
+/** A place of the score and where it is heard, as MapPoint. */
+export interface PointDocument {
+  score_s: number
+  song_s: number
+  confidence?: number
 }
 
 /** A rig in the list. */
@@ -1172,6 +1263,7 @@ export type ServerMessage =
   | ShowChanged
   | ScoreChanged
   | SongReady
+  | AlignmentChanged
   | NoteOn
   | NoteOff
   | Pong

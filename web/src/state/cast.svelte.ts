@@ -40,7 +40,8 @@ export class CastState {
 
   /** Take the cast as the server has it now. */
   take(cast: Cast): void {
-    this.castings = cast.castings;
+    // Where the score only moved in time, it is the same cast.
+    if (JSON.stringify(cast.castings) !== JSON.stringify(this.castings)) this.castings = cast.castings;
     this.unplayed = cast.unplayed;
   }
 

@@ -10,6 +10,7 @@ import type { SessionView } from "./session-view.svelte";
 import { remember, remembered, type NoteNames, type Quality } from "./storage";
 import { SHORTEST_LOOP_S } from "../timeline/loop-span";
 import { arrivalOf, worthKnowing, type OctaveOffer } from "./findings";
+import { alignmentWords } from "./alignment-words";
 import { CAMERA_PRESETS, type CameraView, type PicturePoint, type Place, type ShowCamera } from "../scene";
 import { told } from "../words/told/en";
 
@@ -111,6 +112,7 @@ export class Deck {
     show: () => this.panels.toggle("show"),
     film: () => this.panels.toggle("film"),
     paper: () => this.panels.toggle("paper"),
+    inTime: (view) => this.#openInTime(view),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
@@ -195,6 +197,25 @@ export class Deck {
   nameNotes(noteNames: NoteNames): void {
     this.noteNames = noteNames;
     remember({ noteNames });
+  }
+
+  /** A song that is made from the score is in time with it. */
+  #openInTime(view: SessionView): void {
+    if (view.isRecording) this.panels.toggle("inTime");
+    else this.reina.word(told.inTimeAlready, told.inTimeAlreadyMeans);
+  }
+
+  /** Say what a search for the score in the recording came to. */
+  tellInTime(view: SessionView): void {
+    view.searchEnded = false;
+    const words = alignmentWords(view);
+    if (words === null || this.panels.isOpen("inTime")) return;
+    const { status } = view.alignment;
+    const label = !view.canControl || status === "found" ? told.details : told.putInTime;
+    this.reina.word(words.title, words.detail, {
+      actions: [{ label, run: () => this.panels.toggle("inTime", true) }],
+      over: () => this.reina.view !== view || view.alignment.status !== status || this.panels.isOpen("inTime"),
+    });
   }
 
   /** Say who plays what of a score that was just opened, and what can be done about it. */

@@ -8,6 +8,7 @@ const PLACES = {
   views: "right",
   film: "right",
   show: "foot",
+  inTime: "foot",
 } as const;
 
 export type Panel = keyof typeof PLACES;
@@ -31,7 +32,7 @@ export class Panels {
 
   /** Whether a panel of the sides covers a narrow window's stage. */
   get coversStage(): boolean {
-    return this.narrow && this.#open.some((panel) => panel !== "show");
+    return this.narrow && this.#open.some((panel) => PLACES[panel] !== "foot");
   }
 
   toggle(panel: Panel, open = !this.isOpen(panel)): void {

@@ -315,7 +315,11 @@ export class Reina {
       rememberToken(made.id, made.control_token);
       if (wasHome) history.replaceState(null, "", addressOf(made.id));
       else history.pushState(null, "", addressOf(made.id));
-      await this.open(made.id);
+      if (!(await this.open(made.id))) return;
+      // A short recording is searched by the time the page has looked.
+      if (made.alignment.status === "searching" && this.view?.alignment.status !== "searching") {
+        if (this.view !== null) this.view.searchEnded = true;
+      }
     });
     if (this.view === null && this.phase === "opening") this.phase = "failed";
     return made;

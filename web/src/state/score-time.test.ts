@@ -38,6 +38,17 @@ describe("score time", () => {
     expect(barBeatAt(score, 8.5)).toEqual({ bar: 4, beat: 1 });
   });
 
+  it("counts back before the music begins", () => {
+    const later = {
+      tempi: [{ onset_beats: 0, onset_s: 4, bpm: 60 }],
+      metres: [{ onset_beats: 0, onset_s: 4, numerator: 3, denominator: 4 }],
+      bar_lines_s: [4, 7, 10],
+    };
+    expect(barBeatAt(later, 4)).toEqual({ bar: 1, beat: 1 });
+    expect(barBeatAt(later, 3.5)).toEqual({ bar: 0, beat: 3 });
+    expect(barBeatAt(later, 0)).toEqual({ bar: -1, beat: 3 });
+  });
+
   it("goes from bar line to bar line", () => {
     expect(neighbouringBarLine(score, 1, 1, 12)).toBe(4);
     expect(neighbouringBarLine(score, 10.5, 1, 12)).toBe(12);

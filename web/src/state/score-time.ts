@@ -34,13 +34,19 @@ export function firstBarNumber(score: ScoreGrid): number {
   return length < barLength(metreAt(score.metres, second)) - 1e-6 ? 0 : 1;
 }
 
-/** Bar and beat at a song time, seconds; the beat counts the metre's own note values (eighths in 6/8). */
+/**
+ * Bar and beat at a song time, seconds; before the music the bars go on counting back. The beat counts the metre's
+ * own note values (eighths in 6/8).
+ */
 export function barBeatAt(score: ScoreGrid, songTime: number): BarBeat {
   const index = barIndexAt(score.bar_lines_s, songTime);
   const barBegin = score.bar_lines_s[index] ?? 0;
   const quarters = beatsAt(score.tempi, songTime) - beatsAt(score.tempi, barBegin);
-  const { denominator } = metreAt(score.metres, songTime);
-  return { bar: index + firstBarNumber(score), beat: Math.floor((quarters * denominator) / 4 + 1e-6) + 1 };
+  const { numerator, denominator } = metreAt(score.metres, songTime);
+  const beats = Math.floor((quarters * denominator) / 4 + 1e-6);
+  // In a recording the first bar may begin after a while.
+  const before = beats < 0 ? Math.floor(beats / numerator) : 0;
+  return { bar: index + firstBarNumber(score) + before, beat: beats - before * numerator + 1 };
 }
 
 /**

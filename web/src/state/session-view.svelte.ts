@@ -9,6 +9,7 @@ import {
   type StreamState,
 } from "../connection";
 import type {
+  AlignmentState,
   Cast,
   Hello,
   Score,
@@ -78,6 +79,10 @@ export class SessionView {
   soundError = $state<string | null>(null);
   /** Play was asked for, and waits for the sound of this place. */
   starting = $state(false);
+  /** How far the score is in time with the recording. */
+  alignment: AlignmentState;
+  /** A search for the score in the recording has come to its end, and nobody was told yet. */
+  searchEnded = $state(false);
   /** The last change of the show that the server told of. */
   showTold = $state.raw<ShowChanged | null>(null);
 
@@ -139,6 +144,7 @@ export class SessionView {
       (error) => this.#fail(error),
     );
     this.transport = $state.raw(transport);
+    this.alignment = $state.raw(session.alignment);
     this.duration = session.duration_s;
     this.songTime = transport.song_time_s;
     this.#surroundings = surroundings;
@@ -260,6 +266,17 @@ export class SessionView {
     });
   }
 
+  /** Take what the server says of how far score and recording are in time. */
+  followAlignment(alignment: AlignmentState): void {
+    if (this.alignment.status === "searching" && alignment.status !== "searching") this.searchEnded = true;
+    this.alignment = alignment;
+  }
+
+  /** Whether the song is a recording, and was not made from the score. */
+  get isRecording(): boolean {
+    return (this.hello?.song.source ?? this.session.song.source) === "uploaded";
+  }
+
   /** Let a moment of the song be heard where nothing plays: for a pointer on a timeline. */
   scrub(songTime: number): void {
     this.#player.scrub(songTime);
@@ -319,6 +336,7 @@ export class SessionView {
         this.hello = message;
         this.duration = message.duration_s;
         this.#setTransport(message.transport, true);
+        this.followAlignment(message.alignment);
         this.#loadSong(message.song);
         break;
       case "transport":
@@ -331,6 +349,9 @@ export class SessionView {
         break;
       case "show_changed":
         this.showTold = message;
+        break;
+      case "alignment_changed":
+        this.followAlignment(message);
         break;
       case "song_ready":
         this.soundShare = message.song.segments === null ? this.soundShare : null;

@@ -42,6 +42,7 @@ export type Action =
   | "show"
   | "film"
   | "paper"
+  | "inTime"
   | "names"
   | "open"
   | "help";
@@ -108,6 +109,7 @@ const ROWS: readonly Row[] = [
   { action: "show", keys: ["s"], shown: "S" },
   { action: "film", keys: ["r"], shown: "R" },
   { action: "paper", keys: ["t"], shown: "T" },
+  { action: "inTime", keys: ["h"], shown: "H" },
   { action: "names", keys: ["n"], shown: "N" },
   { action: "open", keys: ["o"], shown: "O" },
   { action: "help", keys: ["?"], shown: "?" },

@@ -2,7 +2,7 @@ import type { Score, WireNote } from "../../generated/protocol";
 import { pitchRange } from "../../state/overview";
 import { clockTime } from "../../state/readout";
 import type { LoopSpan } from "../../timeline/loop-span";
-import type { Peaks } from "../state/peaks.svelte";
+import type { Peaks } from "../../timeline/peaks";
 import type { TimeAxis } from "../state/time-axis";
 import { gridLines, timeStep } from "./grid";
 import { font, INK } from "./ink";

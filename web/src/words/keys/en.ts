@@ -37,6 +37,7 @@ export const keys = words("keys", {
   show: "The show",
   film: "Film: record a video, or a still",
   paper: "The part on paper",
+  inTime: "The score in time with the recording",
   names: "Name notes as written, or as they sound",
   open: "Open a score, a song or a show",
   help: "This list",

@@ -1,4 +1,4 @@
-import type { ReinaApi } from "../../connection";
+import type { ReinaApi } from "../connection";
 
 /** The shape of a song's sound: its lowest and highest sample by stretches of equal length. */
 export class Peaks {
@@ -36,16 +36,21 @@ interface ToldPeaks {
 
 const PAUSE_MS = 2000;
 
-/** Read the shape of a session's song, and read it anew while more of it comes. */
+/**
+ * Read the shape of a session's song, and read it anew while more of it comes.
+ *
+ * @param points how many stretches there are to be
+ */
 export async function readPeaks(
   api: ReinaApi,
   session: string,
   signal: AbortSignal,
   take: (peaks: Peaks) => void,
+  points = 1000,
 ): Promise<void> {
   try {
     for (;;) {
-      const response = await api.request("GET", api.sessionPath(session, "song/peaks"), { signal });
+      const response = await api.request("GET", api.sessionPath(session, `song/peaks?points=${points}`), { signal });
       if (signal.aborted || response.status === 204) return;
       if (response.status === 200) {
         const told = (await response.json()) as ToldPeaks;
