@@ -1,3 +1,4 @@
+import { keyLabel } from "../state/key-label";
 import { showKeys } from "../words/show-keys/en";
 
 /** Everything that a key does in the show's editor; `?` lists it. */
@@ -81,5 +82,5 @@ export const EDITOR_SHORTCUTS: readonly EditorShortcut[] = ROWS.map(said);
 /** What `title` says of a control: what it does, and its key. */
 export function editorHint(action: EditorAction): string {
   const found = EDITOR_SHORTCUTS.find((each) => each.action === action);
-  return found === undefined ? "" : showKeys.withKey({ says: found.says, key: found.shown });
+  return found === undefined ? "" : showKeys.withKey({ says: found.says, key: keyLabel(found.shown) });
 }

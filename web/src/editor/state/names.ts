@@ -16,11 +16,7 @@ const TYPES = ["boolean", "choice", "color", "number", "orientation", "transform
 const OPTIONS = ["amplitude", "handles", "overshoot", "period"] as const;
 
 /** Words of paths whose English name is not their own. */
-const WORDS: Readonly<Record<string, string>> = {
-  bloom: "glow",
-  color: "colour",
-  fov: "angle of view",
-};
+const WORDS = ["bloom", "color", "fov"] as const;
 
 /** An easing's name: `sine_in_out` as `sine in out`. */
 export function easingName(name: string): string {
@@ -41,7 +37,7 @@ export function shownPath(path: string): string {
         part,
         part
           .split("_")
-          .map((word) => WORDS[word] ?? word)
+          .map((word) => nameOf(WORDS, word) ?? word)
           .join(" "),
       ),
     )

@@ -19,4 +19,6 @@ export const names = words("editor-names", {
   handles: "Handles",
   overshoot: "Goes beyond by",
   period: "Swing's length",
+  bloom: "glow",
+  fov: "angle of view",
 });

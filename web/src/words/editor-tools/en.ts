@@ -72,8 +72,6 @@ export const tools = words("editor-tools", {
   normalise: "Normalise",
   noCurve: "Choose a track of numbers, places or colours: its curve is drawn here.",
   menu: "Menu",
-  ctrl: "Ctrl",
-  del: "Del",
   cameraPosition: "Camera position",
   cameraTarget: "Camera target",
   lanes: "Timeline: comma and full stop go from keyframe to keyframe",
