@@ -16,8 +16,7 @@ const READ = new Set([
 /** Errors for those who program: people see their words only where the page is broken. */
 const FOR_PROGRAMMERS = /^(Type|Range|Rig|Layout)Error$/;
 /** Calls whose strings are the browser's or the API's. */
-const NOT_READ =
-  /^(startsWith|querySelector|querySelectorAll|closest|matchMedia|getContext|execCommand|matches)$/;
+const NOT_READ = /^(startsWith|querySelector|querySelectorAll|closest|matchMedia|getContext|execCommand|matches)$/;
 /** What is the same in every language. */
 const NAMES = new Set(["Reina", "MIDI", "JSON", "BVH", "PNG", "PDF", "HTML", "MP4", "WebM", "Opus", "kB", "MB", "mm"]);
 /** What stands on keys, which `keyLabel` says. */
