@@ -54,8 +54,9 @@ export function optionName(name: string): string {
   return nameOf(OPTIONS, name) ?? name.replaceAll("_", " ");
 }
 
-function nameOf<Name extends keyof typeof names>(known: readonly Name[], name: string): string | undefined {
-  return known.includes(name as Name) ? names[name as Name] : undefined;
+function nameOf(known: readonly (keyof typeof names)[], name: string): string | undefined {
+  const found = known.find((each) => each === name);
+  return found === undefined ? undefined : names[found];
 }
 
 /** What the language that is shown calls a name of the server's, as a whole or word by word, else its English. */
