@@ -98,5 +98,5 @@ def test_double_clicks_insert_and_open_and_rows_are_found_by_words(show: ShowPag
     assert show.measure("chosen") == [[HAZE, "h1"]]
     page.keyboard.press("Control+f")
     page.keyboard.press("Escape")
-    page.get_by_role("treeitem", name="blocks color").wait_for()
+    page.get_by_role("treeitem", name="blocks colour").wait_for()
     assert show.times(COLOR) == {"c1": 0}
