@@ -42,13 +42,13 @@ def test_menus_of_keyframes_rows_and_the_ruler_by_mouse_and_keyboard(show: ShowP
     menu.get_by_text("Keyframe at the playhead").wait_for()
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Escape")
-    show.opened.until("document.activeElement.ariaLabel === 'lights haze, 1 keyframes'")
+    show.opened.until("document.activeElement.ariaLabel === 'lights haze, 1 keyframe'")
     page.locator(".lanes").focus()
     page.mouse.click(*show.key(HAZE, "h1"))
     page.keyboard.press("Shift+F10")
     page.keyboard.press("h")
     page.keyboard.press("ArrowRight")
-    menu.get_by_role("menuitemcheckbox", name="linear", exact=True).wait_for()
+    menu.get_by_role("menuitemcheckbox", name="straight", exact=True).wait_for()
     page.keyboard.press("ArrowLeft")
     page.keyboard.press("Enter")
     page.keyboard.press("b")
@@ -91,9 +91,9 @@ def test_double_clicks_insert_and_open_and_rows_are_found_by_words(show: ShowPag
     page.keyboard.type("fog")
     rows = page.get_by_role("treeitem")
     show.opened.until("document.querySelectorAll('[role=treeitem]').length === 2")
-    assert rows.nth(1).get_attribute("aria-label") == "lights haze, 1 keyframes"
+    assert rows.nth(1).get_attribute("aria-label") == "lights haze, 1 keyframe"
     page.keyboard.press("Enter")
-    show.opened.until("document.activeElement.ariaLabel === 'lights haze, 1 keyframes'")
+    show.opened.until("document.activeElement.ariaLabel === 'lights haze, 1 keyframe'")
     page.keyboard.press("Control+a")
     assert show.measure("chosen") == [[HAZE, "h1"]]
     page.keyboard.press("Control+f")

@@ -24,6 +24,8 @@ PANELS = {
         "r": ("Film", "Film erstellen"),
         "t": ("Das Notenblatt", "Grifftabelle"),
         "p": (None, "Nur übliche Griffe"),
+        "s": ("Die Show", "Kamera"),
+        "?": ("Tasten", "Solange die Show offen ist"),
     },
     "ja": {
         "g": ("マイ曲集", "この曲を共有"),
@@ -31,6 +33,8 @@ PANELS = {
         "r": ("動画", "動画を作る"),
         "t": ("パート譜", "運指表"),
         "p": (None, "ふつうの運指だけ"),
+        "s": ("演出", "カメラ"),
+        "?": ("キー操作", "演出を開いている間"),
     },
     "en": {"g": ("my pieces", "Share this piece")},
 }

@@ -14,6 +14,7 @@ import { goToKey, showChosen } from "./commands/places";
 import { muteTrack, removeTrack, soloTrack } from "./commands/tracks";
 import { EDITOR_SHORTCUTS, type EditorAction } from "./shortcut-table";
 import type { Editor } from "./state/editor.svelte";
+import { does } from "../words/editor-does/en";
 
 const ZOOM = 1.3;
 
@@ -88,7 +89,7 @@ export function pressEditorKey(editor: Editor, event: KeyboardEvent, within: boo
   if (shortcut === undefined) return false;
   if (shortcut.needsKeys === true && editor.selection.size === 0) return false;
   if (shortcut.edits === true && !editor.editable) {
-    editor.reina.word("You are watching", "Only whoever opened this session can change its show.");
+    editor.reina.word(does.youWatch, does.youWatchMeans);
     return true;
   }
   runEditorAction(editor, shortcut.action);

@@ -13,6 +13,7 @@ import { arrivalOf, worthKnowing, type OctaveOffer } from "./findings";
 import { alignmentWords } from "./alignment-words";
 import { CAMERA_PRESETS, type CameraView, type PicturePoint, type Place, type ShowCamera } from "../scene";
 import { told } from "../words/told/en";
+import { page } from "../words/page/en";
 
 const STEP_S = 2;
 const VOLUME_STEP = 0.05;
@@ -225,16 +226,16 @@ export class Deck {
     const { castings } = view.cast;
     const covered = this.panels.coversStage;
     const octaves = offers.slice(0, OCTAVES_OFFERED).map((offer) => ({
-      label: several ? `Move player ${offer.player + 1} ${offer.move}` : `Move ${offer.move}`,
+      label: moveLabel(offer, several),
       run: () => this.#fitOctave(view, offer),
     }));
     const change = drumsAlone
-      ? { label: "Open another file", run: () => this.run("open") }
+      ? { label: told.openAnother, run: () => this.run("open") }
       : several
-        ? { label: "Change who plays", run: () => this.openPiece("cast") }
-        : { label: "Change the part", run: () => this.openPiece("part") };
+        ? { label: told.changeWho, run: () => this.openPiece("cast") }
+        : { label: told.changePart, run: () => this.openPiece("part") };
     const known = worthKnowing(view.session.findings).length > 0;
-    const details = known ? [{ label: "Details", run: () => this.openPiece("findings") }] : [];
+    const details = known ? [{ label: told.details, run: () => this.openPiece("findings") }] : [];
     this.reina.word(title, detail, {
       lines,
       actions: [...octaves, change, ...details],
@@ -247,14 +248,15 @@ export class Deck {
     });
   }
 
-  async #fitOctave(view: SessionView, { player, move }: OctaveOffer): Promise<void> {
+  async #fitOctave(view: SessionView, { player, octaves }: OctaveOffer): Promise<void> {
     await view.cast.change(player, { octave_fit: true });
     if (view.cast.castings[player]?.octave_fit !== true) {
-      if (view.cast.refusal !== null) this.reina.problem("It cannot be moved", view.cast.refusal.words);
+      if (view.cast.refusal !== null) this.reina.problem(told.cannotMove, view.cast.refusal.words);
       return;
     }
-    this.reina.word(`Moved ${move}`, "", {
-      actions: [{ label: "Undo", run: () => view.cast.change(player, { octave_fit: false }) }],
+    const count = Math.abs(octaves);
+    this.reina.word(octaves > 0 ? told.movedUp({ count }) : told.movedDown({ count }), "", {
+      actions: [{ label: page.undo, run: () => view.cast.change(player, { octave_fit: false }) }],
       over: () => this.reina.view !== view || view.cast.castings[player]?.octave_fit !== true,
     });
   }
@@ -296,6 +298,13 @@ export class Deck {
   #changeVolume(step: number): void {
     this.reina.setVolume(this.reina.volume + step, false);
   }
+}
+
+/** What an offer of another octave says; of several players, whose part it is. */
+function moveLabel({ player: place, octaves }: OctaveOffer, several: boolean): string {
+  const [count, player] = [Math.abs(octaves), place + 1];
+  if (several) return octaves > 0 ? told.movePlayerUp({ player, count }) : told.movePlayerDown({ player, count });
+  return octaves > 0 ? told.moveUp({ count }) : told.moveDown({ count });
 }
 
 /** The phrase that is played, or the next one; the whole piece without any. */

@@ -36,7 +36,7 @@ test("each player of several is told apart, and offered the octave that fits", (
   });
   const told = arrivalOf(session([CHOSEN, finding("parts_heard", "choice", { text: "Flute is heard" }), far], 2));
   expect(told.lines).toEqual(["Flute is heard", "Player 2: 9 of 9 notes lie outside"]);
-  expect(told.offers).toEqual([{ player: 1, move: "2 octaves up" }]);
+  expect(told.offers).toEqual([{ player: 1, octaves: 2 }]);
 });
 
 test("of drums alone the first sentence is the title", () => {

@@ -1,5 +1,6 @@
 import type { Look } from "../generated/show";
 import { pageStorage } from "./storage";
+import { looksWords } from "../words/editor-looks/en";
 
 /** A look that somebody has saved in this browser. */
 export interface KeptLook extends Look {
@@ -82,7 +83,7 @@ export class LookLibrary {
 
   #free(title: string, others: readonly KeptLook[] = this.looks): string {
     const taken = others.map((each) => each.title);
-    const wanted = title.trim() === "" ? "Look" : title.trim();
+    const wanted = title.trim() === "" ? looksWords.look : title.trim();
     if (!taken.includes(wanted)) return wanted;
     for (let number = 2; ; number += 1) if (!taken.includes(`${wanted} ${number}`)) return `${wanted} ${number}`;
   }
@@ -99,19 +100,19 @@ function readLooks(text: string): NewLook[] {
   try {
     file = JSON.parse(text);
   } catch {
-    throw new LookFileError("This is not JSON. A file of looks is one that “Export” here has written.");
+    throw new LookFileError(looksWords.notJson);
   }
   const { reina, version, looks } = Object(file) as Record<string, unknown>;
   if (reina !== KIND || !Array.isArray(looks)) {
-    throw new LookFileError("This is no file of looks. A show is opened from the show's own menu.");
+    throw new LookFileError(looksWords.noLooks);
   }
   if (version !== VERSION) {
-    throw new LookFileError(`These looks are of version ${JSON.stringify(version)}; version ${VERSION} is read here.`);
+    throw new LookFileError(looksWords.wrongVersion({ theirs: JSON.stringify(version), ours: VERSION }));
   }
   return looks.map((look: unknown, index) => {
     const { title, values = {}, tracks = [], rest = [] } = Object(look) as Partial<NewLook>;
     if (typeof title !== "string" || typeof values !== "object" || !Array.isArray(tracks) || !Array.isArray(rest)) {
-      throw new LookFileError(`Look ${index + 1} of the file has no title, or its values, tracks or rest are none.`);
+      throw new LookFileError(looksWords.incomplete({ number: index + 1 }));
     }
     return { title, values, tracks, rest };
   });

@@ -1,3 +1,4 @@
+import { keyLabel } from "./key-label";
 import { keys as words } from "../words/keys/en";
 
 /** Everything that a key does; `?` lists it. */
@@ -134,7 +135,9 @@ const BY_ACTION = new Map([...SHORTCUTS, ...STAGE_SHORTCUTS].map((shortcut) => [
 /** What `title` says of a control: what it does, and its key. */
 export function hint(action: Action, says?: string): string {
   const shortcut = BY_ACTION.get(action);
-  return shortcut === undefined ? (says ?? "") : words.withKey({ says: says ?? shortcut.says, key: shortcut.shown });
+  return shortcut === undefined
+    ? (says ?? "")
+    : words.withKey({ says: says ?? shortcut.says, key: keyLabel(shortcut.shown) });
 }
 
 /** The value of `aria-keyshortcuts` for a control. */

@@ -1,47 +1,51 @@
+import { help } from "../words/help/en";
+
+type Word = keyof typeof help;
+
 /** What a finger does in one place of the page. */
 export interface Touch {
   /** `Tap`, `Drag`, `Pinch`, `Hold`. */
-  readonly shown: string;
-  readonly says: string;
+  readonly shown: Word;
+  readonly says: Word;
 }
 
 export interface TouchPlace {
-  readonly place: string;
+  readonly place: Word;
   readonly touches: readonly Touch[];
 }
 
-/** Everything that is done by touch; the help lists it where there is no mouse. */
+/** Everything that is done by touch, each by the name of its message; the help lists it where there is no mouse. */
 export const TOUCHES: readonly TouchPlace[] = [
   {
-    place: "The stage",
+    place: "placeStage",
     touches: [
-      { shown: "Drag", says: "Look around the player" },
-      { shown: "Pinch", says: "Closer or further away" },
-      { shown: "Drag with two", says: "Move the picture" },
-      { shown: "Tap a player", says: "Follow that player's notes" },
-      { shown: "Tap the camera", says: "Give the camera back to the show" },
+      { shown: "drag", says: "lookAround" },
+      { shown: "pinch", says: "closer" },
+      { shown: "dragTwo", says: "movePicture" },
+      { shown: "tapPlayer", says: "follow" },
+      { shown: "tapCamera", says: "giveBack" },
     ],
   },
   {
-    place: "The music",
+    place: "placeMusic",
     touches: [
-      { shown: "Tap the line", says: "Go to that place; drag along it to search" },
-      { shown: "Hold, then drag", says: "Along the line: play it in a loop; a tap on the loop ends it" },
-      { shown: "Pinch", says: "Zoom the line" },
-      { shown: "Tap a note", says: "Why it is fingered so" },
-      { shown: "Tap the part", says: "On paper: go to that note" },
+      { shown: "tapLine", says: "goThere" },
+      { shown: "holdDrag", says: "loop" },
+      { shown: "pinch", says: "zoomLine" },
+      { shown: "tapNote", says: "why" },
+      { shown: "tapPart", says: "goToNote" },
     ],
   },
   {
-    place: "The show, while it is open",
+    place: "placeShow",
     touches: [
-      { shown: "Drag", says: "Along the time, up and down the rows" },
-      { shown: "Pinch", says: "Zoom the time" },
-      { shown: "Tap a keyframe", says: "Choose it; Values shows what it holds" },
-      { shown: "Drag a keyframe", says: "Move it" },
-      { shown: "Hold", says: "A menu of what can be done there" },
-      { shown: "Hold, then drag", says: "Choose all keyframes in a box" },
-      { shown: "Tap the ruler", says: "Go to that time" },
+      { shown: "drag", says: "scroll" },
+      { shown: "pinch", says: "zoomTime" },
+      { shown: "tapKey", says: "chooseKey" },
+      { shown: "dragKey", says: "moveKey" },
+      { shown: "hold", says: "menu" },
+      { shown: "holdDrag", says: "chooseBox" },
+      { shown: "tapRuler", says: "goToTime" },
     ],
   },
 ];

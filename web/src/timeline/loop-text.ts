@@ -1,5 +1,6 @@
 import { barBeatAt, type BarBeat } from "../state/score-time";
 import type { LoopSpan } from "./loop-span";
+import { transport } from "../words/transport/en";
 
 type ScoreGrid = Parameters<typeof barBeatAt>[0];
 
@@ -11,10 +12,10 @@ export function loopText(score: ScoreGrid, { start, end }: LoopSpan, duration: n
   const onLine = (time: number) => score.bar_lines_s.some((line) => Math.abs(line - time) < ON_LINE_S);
   const first = barBeatAt(score, start + ON_LINE_S);
   if (!onLine(start) || !(onLine(end) || end > duration - ON_LINE_S)) {
-    return `${placeText(first)} to ${placeText(barBeatAt(score, end))}`;
+    return transport.fromTo({ from: placeText(first), to: placeText(barBeatAt(score, end)) });
   }
   const last = barBeatAt(score, end - ON_LINE_S).bar;
-  return first.bar === last ? `Bar ${last}` : `Bars ${first.bar} to ${last}`;
+  return first.bar === last ? transport.bar({ bar: last }) : transport.bars({ from: first.bar, to: last });
 }
 
 function placeText({ bar, beat }: BarBeat): string {

@@ -1,4 +1,4 @@
 import { areasOf } from "./areas";
 
-/** All of the page in German, loaded where it is read. */
-export default areasOf(import.meta.glob("./*/de.json", { eager: true, import: "default" }));
+/** What the page says first in German, loaded where it is read. */
+export default areasOf(import.meta.glob(["./*/de.json", "!./{editor,lab}*/*"], { eager: true, import: "default" }));

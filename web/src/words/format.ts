@@ -16,3 +16,8 @@ export function list(items: readonly string[]): string {
   // British English has no comma before its last "and".
   return new Intl.ListFormat(language() === "en" ? "en-GB" : language(), { type: "conjunction" }).format(items);
 }
+
+/** Names beside each other, without an "and": `A, B`, `A、B`. */
+export function row(items: readonly string[]): string {
+  return items.join(language() === "ja" ? "、" : ", ");
+}

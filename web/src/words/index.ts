@@ -1,5 +1,6 @@
-export { beginLanguage, chooseLanguage } from "./choose-language";
-export { decimalSign, list, number } from "./format";
+export { beginLanguage, beginMessages, chooseLanguage } from "./choose-language";
+export { decimalSign, list, number, row } from "./format";
 export { isLanguage, language, LANGUAGES, type Language } from "./language";
 export { keyName, noteName } from "./note-names";
+export { serverMessage } from "./server-message";
 export { serverWords } from "./server-words";

@@ -1,4 +1,4 @@
 import { areasOf } from "./areas";
 
-/** All of the page in Japanese, loaded where it is read. */
-export default areasOf(import.meta.glob("./*/ja.json", { eager: true, import: "default" }));
+/** What the page says first in Japanese, loaded where it is read. */
+export default areasOf(import.meta.glob(["./*/ja.json", "!./{editor,lab}*/*"], { eager: true, import: "default" }));

@@ -16,9 +16,11 @@ const READ = new Set([
 /** Errors for those who program: people see their words only where the page is broken. */
 const FOR_PROGRAMMERS = /^(Type|Range|Rig|Layout)Error$/;
 /** Calls whose strings are the browser's or the API's. */
-const NOT_READ = /^(querySelector|querySelectorAll|closest|matchMedia|getContext|execCommand|matches)$/;
+const NOT_READ = /^(startsWith|querySelector|querySelectorAll|closest|matchMedia|getContext|execCommand|matches)$/;
 /** What is the same in every language. */
 const NAMES = new Set(["Reina", "MIDI", "JSON", "BVH", "PNG", "PDF", "HTML", "MP4", "WebM", "Opus", "kB", "MB", "mm"]);
+/** What stands on keys, which `keyLabel` says. */
+const KEYS = /^((Ctrl|Shift|Alt|Del|Esc)( |$))*(\S|F10|[←→])?$/;
 /** What keys are called by KeyboardEvent, and other words of the web. */
 const WEB =
   /^(Arrow(Up|Down|Left|Right)|Home|End|Enter|Escape|Delete|Backspace|Tab|Space|Plus|Page(Up|Down)|Shift(\+.*)?|Control|Alt|Meta|Bearer|Accept|Authorization|Content-Type|If-Match|AbortError|Files)$/;
@@ -90,7 +92,8 @@ function hasWord(text: string): boolean {
 /** Two words in a row, or one that begins with a capital. */
 function isSentence(text: string): boolean {
   const trimmed = text.trim();
-  if (WEB.test(trimmed) || /[;{}=]|^[.#[(/-]|gl_|vec\d|\bserif$|^\d+px /.test(trimmed)) return false;
+  if (WEB.test(trimmed) || KEYS.test(trimmed) || /[;{}=]|^[.#[(/-]|gl_|vec\d|\bserif$|^\d+px /.test(trimmed))
+    return false;
   return /\p{L}[\p{L}’']*[,.:;]? [“„(]?(\p{L}|…)|… \p{L}{2}/u.test(trimmed) || /^\p{Lu}\p{Ll}+[ .!?…]*$/u.test(trimmed);
 }
 

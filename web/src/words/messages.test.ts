@@ -10,7 +10,7 @@ type Messages = Readonly<Record<string, Message>>;
 
 /** What may be the same in German or Japanese as in English. */
 const SAME =
-  /^(\p{P}|\s|\{\w+\}|%|Film|Show|Name|HTML|Letter|Detail|Instrument|Position|MIDI|BVH|Euphonium|Spot|Tempo|Solo)*$/u;
+  /^(\p{P}|\s|\{\w+\}|%|Film|Show|Name|HTML|Letter|Detail|Instrument|Position|MIDI|BVH|Euphonium|Spot|Tempo|Solo|Keyframes?|Looks?|Ctrl|Del|CCD|FABRIK|Slerp|Matrix|Shift|Home|End)*$/u;
 
 const areas = Object.keys(ENGLISH).map((path) => path.split("/")[1] ?? "");
 

@@ -6,20 +6,40 @@ import { languageStore, type Language } from "./language";
 /** The messages of a language other than English, by area: what its JSON files hold. */
 export type Translated = ComponentsJSON;
 
-const LOADERS: Readonly<Record<Exclude<Language, "en">, () => Promise<{ default: Translated }>>> = {
-  de: () => import("./de"),
-  ja: () => import("./ja"),
+/** What is loaded at once: the page's first messages, what its editor adds, and the lab. */
+export type Share = "page" | "editor" | "lab";
+
+type Loader = () => Promise<{ default: Translated }>;
+const LOADERS: Readonly<Record<Exclude<Language, "en">, Readonly<Record<Share, Loader>>>> = {
+  de: { page: () => import("./de"), editor: () => import("./de-editor"), lab: () => import("./de-lab") },
+  ja: { page: () => import("./ja"), editor: () => import("./ja-editor"), lab: () => import("./ja-lab") },
 };
+
+/** What has been asked for: another language must have all of it before it is shown. */
+const asked = new Set<Share>();
 
 const i18n = createI18n(languageStore, { baseLocale: "en", get: messagesOf });
 
 async function messagesOf(code: Language): Promise<Translated> {
-  return code === "en" ? {} : (await LOADERS[code]()).default;
+  if (code === "en") return {};
+  const loaded = await Promise.all([...asked].map((share) => LOADERS[code][share]()));
+  return Object.assign({}, ...loaded.map(({ default: messages }) => messages)) as Translated;
 }
 
-/** Load a language, so that all its messages are there when it is shown. */
-export async function loadMessages(code: Language): Promise<void> {
+/**
+ * Load a language, so that all its messages are there when it is shown.
+ *
+ * @param share what of it is needed, beside what was needed before
+ */
+export async function loadMessages(code: Language, share: Share = "page"): Promise<void> {
+  asked.add(share);
   if (code !== "en") i18n.cache[code] = (await messagesOf(code)) as unknown as Translations;
+}
+
+/** What another language says of an area that has no English here, as JSON holds it; null for English. */
+export function foreign(area: string, code: Language): Readonly<Record<string, unknown>> | null {
+  // An area of a share that was not asked for is not there.
+  return code === "en" ? null : ((i18n.cache[code][area] as Readonly<Record<string, unknown>> | undefined) ?? {});
 }
 
 /**
@@ -55,7 +75,8 @@ export const counted = transform(
   forms: Forms,
 ) => TranslationFunction<[Values<Forms["other"]> & { readonly count: number }], string>;
 
-function fill(code: string, text: string, values: Record<string, string | number>): string {
+/** A text with its places filled, and numbers written as a language does. */
+export function fill(code: string, text: string, values: Readonly<Record<string, string | number>>): string {
   return text.replaceAll(/\{(\w+)\}/g, (place, name: string) => {
     const value = values[name];
     return typeof value === "number" ? new Intl.NumberFormat(code).format(value) : (value ?? place);

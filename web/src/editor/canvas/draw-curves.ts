@@ -1,4 +1,5 @@
-import { shownNumber, shownPath, shownUnit } from "../state/parameter-value";
+import { shownPath } from "../state/names";
+import { shownNumber, shownUnit } from "../state/parameter-value";
 import { componentNames, componentsOf } from "../state/component-values";
 import type { CurvedTrack } from "../state/curve-view.svelte";
 import type { Handle } from "../state/curve-handles";

@@ -1,6 +1,7 @@
 import type { Shot } from "../state/shots";
 import type { KeysView } from "./draw-keys";
 import { font, INK } from "./ink";
+import { does } from "../../words/editor-does/en";
 
 /** Room between two blocks, and to the row's edges, pixels. */
 const GAP = 1;
@@ -29,6 +30,11 @@ export function drawShots(
     context.stroke();
     if (right - left < NAMED) return;
     context.fillStyle = INK.soft;
-    context.fillText(`Shot ${index + 1}`, Math.max(left, 0) + 9, y + height / 2 + 3.5, right - Math.max(left, 0) - 12);
+    context.fillText(
+      does.shotNumber({ number: index + 1 }),
+      Math.max(left, 0) + 9,
+      y + height / 2 + 3.5,
+      right - Math.max(left, 0) - 12,
+    );
   });
 }

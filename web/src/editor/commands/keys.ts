@@ -5,11 +5,13 @@ import type { Editor } from "../state/editor.svelte";
 import { withEdits, type Changes, type Edit } from "../state/edits";
 import { nearest } from "../state/key-times";
 import { hasCurve } from "../state/component-values";
-import { shownPath, valueOf } from "../state/parameter-value";
+import { shownPath } from "../state/names";
+import { valueOf } from "../state/parameter-value";
 import { groupOf } from "../state/rows";
 import { byTrack, keysOf } from "../state/selection.svelte";
 import { trackOf, type ShowTrack } from "../state/show-document";
 import { movedBy, stretched, type Retiming } from "../state/spans";
+import { does } from "../../words/editor-does/en";
 
 /** What was copied last, on whatever session. */
 let clipboard: Copied | null = null;
@@ -40,7 +42,7 @@ function keysHere(
     const time = editor.axis.toTrackTime(track === null ? document.time : editor.times.unitOf(track), at);
     return { edit: "add_keyframe", parameter, keyframe: { key, time, value, ...wayTo(editor, track, parameter, at) } };
   });
-  editor.edit(values.length === 1 ? "Keyframe added" : `${values.length} keyframes added`, edits);
+  editor.edit(does.keyAdded({ count: values.length }), edits);
   editor.selection.set(keys);
 }
 
@@ -67,7 +69,7 @@ function wayTo(editor: Editor, track: ShowTrack | null, path: string, at: number
 export function addKeyHere(editor: Editor, path = editor.active): void {
   const parameter = path === null ? null : editor.parameter(path);
   if (parameter === null) {
-    editor.reina.word("Choose a track first", "Then Enter puts a keyframe at the playhead.", {
+    editor.reina.word(does.chooseTrack, does.thenEnter, {
       over: () => editor.active !== null,
     });
     return;
@@ -116,7 +118,7 @@ export function chooseKeys(editor: Editor, tracks: readonly ShowTrack[], from = 
       return keys.map(({ key }) => [track.parameter, key] as const);
     }),
   );
-  editor.said = `${editor.selection.size} keyframes chosen`;
+  editor.said = does.chosen({ count: editor.selection.size });
 }
 
 /** Keyframes of the camera's four tracks from a view, as one step. */
@@ -144,21 +146,21 @@ export function removeKeys(editor: Editor): void {
   const edits = editor.chosen.map(({ track, keyframe }): Edit => {
     return { edit: "remove_keyframe", parameter: track.parameter, key: keyframe.key };
   });
-  editor.remove(`${counted(edits.length, "removed")}: ${tracksOf(editor)}`, edits);
-  editor.selection.clear();
-}
-
-/** Whose the chosen keyframes are, in few words. */
-function tracksOf(editor: Editor): string {
   const paths = [...new Set(editor.chosen.map(({ track }) => track.parameter))];
-  return paths.length > 1 ? `of ${paths.length} tracks` : shownPath(paths[0] ?? "");
+  const count = edits.length;
+  const says =
+    paths.length > 1
+      ? does.keyRemovedOf({ count, tracks: paths.length })
+      : does.keyRemoved({ count, track: shownPath(paths[0] ?? "") });
+  editor.remove(says, edits);
+  editor.selection.clear();
 }
 
 export function copyKeys(editor: Editor): void {
   const taken = copied(editor.axis, editor.times, editor.chosen);
   if (taken === null) return;
   clipboard = taken;
-  editor.said = counted(taken.count, "copied");
+  editor.said = does.keyCopied({ count: taken.count });
 }
 
 export function cutKeys(editor: Editor): void {
@@ -175,7 +177,7 @@ export function pasteKeys(editor: Editor, at = editor.playhead, from = clipboard
   const onto =
     ontoActive && from.tracks.length === 1 && target !== null && target.type === source?.type ? target.path : null;
   const { edits, keys } = pasted(editor.axis, editor.times, document, from, at, onto);
-  editor.edit(counted(keys.length, "pasted"), edits);
+  editor.edit(does.keyPasted({ count: keys.length }), edits);
   editor.selection.set(keys);
 }
 
@@ -208,14 +210,19 @@ export function carriedKeys(editor: Editor): Record<string, string[]> {
 /** Move the chosen keyframes so that their first comes to a song time, seconds. */
 export function moveTo(editor: Editor, songTime: number): void {
   const { span } = editor;
-  if (span !== null) retime(editor, counted(editor.chosen.length, "moved"), movedBy(editor.axis, span.start, songTime));
+  if (span !== null)
+    retime(editor, does.keyMoved({ count: editor.chosen.length }), movedBy(editor.axis, span.start, songTime));
 }
 
 /** Stretch the chosen keyframes so that their last comes to a song time, seconds. */
 export function stretchTo(editor: Editor, songTime: number): void {
   const { span } = editor;
   if (span === null || span.end <= span.start) return;
-  retime(editor, counted(editor.chosen.length, "stretched"), stretched(editor.axis, span.start, span.end, songTime));
+  retime(
+    editor,
+    does.keyStretched({ count: editor.chosen.length }),
+    stretched(editor.axis, span.start, span.end, songTime),
+  );
 }
 
 export type NudgeStep = "frame" | "beat" | "bar";
@@ -241,8 +248,4 @@ export function changeKeys(editor: Editor, says: string, changes: Changes): void
     return [{ edit: "change_keyframe", parameter: track.parameter, key: keyframe.key, changes }];
   });
   editor.edit(says, edits);
-}
-
-export function counted(count: number, done: string): string {
-  return count === 1 ? `Keyframe ${done}` : `${count} keyframes ${done}`;
 }

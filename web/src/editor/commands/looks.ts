@@ -6,6 +6,7 @@ import { CAMERA_GROUP } from "../state/shots";
 import { byTrack } from "../state/selection.svelte";
 import type { ShowKeyframe } from "../state/show-document";
 import { round } from "../state/time-axis";
+import { looksWords } from "../../words/editor-looks/en";
 
 /** What a look is made of. */
 export type LookSource = "light" | "stage" | "keyframes";
@@ -21,7 +22,7 @@ export function applyLook(editor: Editor, title: string, { values, tracks, rest 
     ...(rest === undefined ? {} : { rest }),
   };
   const at = throughout ? {} : ({ at: round(editor.playhead), time: "seconds" } as const);
-  editor.edit(`Look: ${title}`, [{ edit: "apply_look", look, ...at }]);
+  editor.edit(looksWords.applied({ title }), [{ edit: "apply_look", look, ...at }]);
 }
 
 /** A look of what is on screen, or of the chosen keyframes, which move as they do from the first of them on. */

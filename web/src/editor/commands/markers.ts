@@ -1,6 +1,7 @@
 import type { Editor } from "../state/editor.svelte";
 import type { Marker } from "../../generated/show";
 import type { Edit } from "../state/edits";
+import { does } from "../../words/editor-does/en";
 
 /** A marker at a song time, seconds. */
 export function addMarker(editor: Editor, at = editor.playhead): void {
@@ -8,8 +9,8 @@ export function addMarker(editor: Editor, at = editor.playhead): void {
   if (document === null) return;
   const markers = document.markers ?? [];
   const time = editor.axis.toTrackTime(document.time, at);
-  const marker = { time, name: `Marker ${markers.length + 1}` };
-  put(editor, "Marker added", [...markers, marker]);
+  const marker = { time, name: does.markerNumber({ number: markers.length + 1 }) };
+  put(editor, does.markerAdded, [...markers, marker]);
   editor.marker = (editor.store.document?.markers ?? []).findIndex((each) => each.time === time);
 }
 
@@ -17,11 +18,11 @@ export function addMarker(editor: Editor, at = editor.playhead): void {
 export function moveMarker(editor: Editor, index: number, songTime: number): void {
   const { document } = editor.store;
   if (document === null) return;
-  change(editor, "Marker moved", index, { time: editor.axis.toTrackTime(document.time, songTime) });
+  change(editor, does.markerMoved, index, { time: editor.axis.toTrackTime(document.time, songTime) });
 }
 
 export function nameMarker(editor: Editor, index: number, name: string): void {
-  if (name.trim() !== "") change(editor, "Marker named", index, { name: name.trim() });
+  if (name.trim() !== "") change(editor, does.markerNamed, index, { name: name.trim() });
 }
 
 export function removeMarker(editor: Editor, index: number): void {
@@ -29,7 +30,7 @@ export function removeMarker(editor: Editor, index: number): void {
   const marker = markers[index];
   if (marker === undefined) return;
   editor.marker = null;
-  editor.remove(`Marker removed: ${marker.name}`, [without(markers, marker)]);
+  editor.remove(does.markerRemoved({ name: marker.name }), [without(markers, marker)]);
 }
 
 function without(markers: readonly Marker[], marker: Marker): Edit {

@@ -16,9 +16,10 @@ import { showChosen } from "./places";
 import { muteGroup, muteTrack, removeTrack, soloTrack } from "./tracks";
 import type { Editor } from "../state/editor.svelte";
 import type { MenuEntry, MenuItem } from "../state/menu";
-import { shownPath } from "../state/parameter-value";
+import { easingName } from "../state/names";
 import type { Row } from "../state/rows";
 import { keysInShot } from "../state/shots";
+import { does } from "../../words/editor-does/en";
 
 /** What can be done with the chosen keyframes. */
 export function keysMenu(editor: Editor): MenuEntry[] {
@@ -27,27 +28,27 @@ export function keysMenu(editor: Editor): MenuEntry[] {
   if (span === null) return [];
   const tracks = [...new Set(chosen.map(({ track }) => track))];
   return [
-    { says: "Type its value", disabled: locked, run: () => (editor.valueWanted += 1) },
-    { says: "How it comes here", disabled: locked, items: wayItems(editor) },
+    { says: does.typeValue, disabled: locked, run: () => (editor.valueWanted += 1) },
+    { says: does.howHere, disabled: locked, items: wayItems(editor) },
     "line",
-    { says: "Copy", key: "Ctrl C", run: () => copyKeys(editor) },
-    { says: "Cut", key: "Ctrl X", disabled: locked, run: () => cutKeys(editor) },
-    { says: "Paste at the playhead", key: "Ctrl V", disabled: cannotPaste(editor), run: () => pasteKeys(editor) },
-    { says: "Duplicate, bars later", key: "Ctrl D", disabled: locked, run: () => duplicateKeys(editor) },
-    { says: "Remove", key: "Del", disabled: locked, run: () => removeKeys(editor) },
+    { says: does.copy, key: "Ctrl C", run: () => copyKeys(editor) },
+    { says: does.cut, key: "Ctrl X", disabled: locked, run: () => cutKeys(editor) },
+    { says: does.pastePlayhead, key: "Ctrl V", disabled: cannotPaste(editor), run: () => pasteKeys(editor) },
+    { says: does.duplicate, key: "Ctrl D", disabled: locked, run: () => duplicateKeys(editor) },
+    { says: does.remove, key: "Del", disabled: locked, run: () => removeKeys(editor) },
     "line",
     {
-      says: tracks.length === 1 ? "Choose all of this track" : "Choose all of these tracks",
+      says: does.allOfTrack({ count: tracks.length }),
       run: () => chooseKeys(editor, tracks),
     },
     {
-      says: tracks.length === 1 ? "Choose this track from here on" : "Choose these tracks from here on",
+      says: does.trackFromHere({ count: tracks.length }),
       run: () => chooseKeys(editor, tracks, span.start - 1e-6),
     },
     "line",
     ...loopItems(editor, span.start, chosen.length > 1 ? span : null),
     goItem(editor, span.start),
-    { says: "Show what is chosen", key: "Z", run: () => showChosen(editor) },
+    { says: does.showChosen, key: "Z", run: () => showChosen(editor) },
   ];
 }
 
@@ -62,10 +63,10 @@ export function rowMenu(editor: Editor, row: Row, at: number | null): MenuEntry[
     const { tracks, name } = row;
     const muted = tracks.every((track) => track.muted === true);
     return [
-      { says: row.open ? "Fold up" : "Unfold", run: () => editor.toggleGroup(name) },
-      { says: "Choose all of this group", run: () => chooseKeys(editor, known(editor, row)) },
+      { says: row.open ? does.foldUp : does.unfold, run: () => editor.toggleGroup(name) },
+      { says: does.allOfGroup, run: () => chooseKeys(editor, known(editor, row)) },
       {
-        says: "Mute the group",
+        says: does.muteGroup,
         checked: muted,
         disabled: locked,
         run: () =>
@@ -82,13 +83,13 @@ export function rowMenu(editor: Editor, row: Row, at: number | null): MenuEntry[
   const unknown = editor.parameter(path) === null;
   return [
     {
-      says: at === null ? "Keyframe at the playhead" : "Keyframe here",
+      says: at === null ? does.keyPlayhead : does.keyHere,
       ...(at === null ? { key: "Enter" } : {}),
       disabled: locked || unknown,
       run: () => (at === null ? addKeyHere(editor, path) : void addKeyAt(editor, path, at)),
     },
     {
-      says: at === null ? "Paste at the playhead" : "Paste here",
+      says: at === null ? does.pastePlayhead : does.pasteHere,
       disabled: cannotPaste(editor) || unknown,
       run: () => {
         editor.look(path);
@@ -96,12 +97,12 @@ export function rowMenu(editor: Editor, row: Row, at: number | null): MenuEntry[
       },
     },
     "line",
-    { says: "Choose all of this track", disabled: unknown, run: () => chooseKeys(editor, [track]) },
+    { says: does.allOfTrack({ count: 1 }), disabled: unknown, run: () => chooseKeys(editor, [track]) },
     ...(at === null
       ? []
-      : [{ says: "Choose this track from here on", disabled: unknown, run: () => chooseKeys(editor, [track], at) }]),
+      : [{ says: does.trackFromHere({ count: 1 }), disabled: unknown, run: () => chooseKeys(editor, [track], at) }]),
     {
-      says: "Show its curve",
+      says: does.showCurve,
       disabled: unknown,
       run: () => {
         editor.chooseTrack(path);
@@ -110,20 +111,20 @@ export function rowMenu(editor: Editor, row: Row, at: number | null): MenuEntry[
     },
     "line",
     {
-      says: "Mute",
+      says: does.mute,
       key: "Shift M",
       checked: track.muted === true,
       disabled: locked || unknown,
       run: () => muteTrack(editor, path),
     },
     {
-      says: "Solo",
+      says: does.solo,
       key: "Shift S",
       checked: track.solo === true,
       disabled: locked || unknown,
       run: () => soloTrack(editor, path),
     },
-    { says: "Remove the track", disabled: locked, run: () => removeTrack(editor, path) },
+    { says: does.removeTrack, disabled: locked, run: () => removeTrack(editor, path) },
     ...placeItems(editor, at),
   ];
 }
@@ -134,11 +135,11 @@ export function rulerMenu(editor: Editor, at: number): MenuEntry[] {
     goItem(editor, at),
     ...loopItems(editor, at, null),
     "line",
-    { says: "Marker here", disabled: !editor.editable, run: () => addMarker(editor, at) },
-    { says: "Paste here", disabled: cannotPaste(editor), run: () => pasteKeys(editor, at, undefined, false) },
-    { says: "Choose all from here on", run: () => chooseKeys(editor, editor.known, at) },
+    { says: does.markerHere, disabled: !editor.editable, run: () => addMarker(editor, at) },
+    { says: does.pasteHere, disabled: cannotPaste(editor), run: () => pasteKeys(editor, at, undefined, false) },
+    { says: does.allFromHere, run: () => chooseKeys(editor, editor.known, at) },
     "line",
-    { says: "Show the whole piece", key: "0", run: () => editor.window.showAll() },
+    { says: does.showAll, key: "0", run: () => editor.window.showAll() },
   ];
 }
 
@@ -148,14 +149,14 @@ export function markerMenu(editor: Editor, index: number): MenuEntry[] {
   const next = editor.markerTimes.find((time) => time > at + 1e-3) ?? editor.view.duration;
   return [
     goItem(editor, at),
-    { says: "Rename", disabled: !editor.editable, run: () => (editor.valueWanted += 1) },
+    { says: does.rename, disabled: !editor.editable, run: () => (editor.valueWanted += 1) },
     {
-      says: "Loop to the next marker",
+      says: does.loopToMarker,
       disabled: !editor.view.canControl || next - at < 1,
       run: () => void editor.view.setLoop({ start: at, end: next }),
     },
     "line",
-    { says: "Remove", key: "Del", disabled: !editor.editable, run: () => removeMarker(editor, index) },
+    { says: does.remove, key: "Del", disabled: !editor.editable, run: () => removeMarker(editor, index) },
   ];
 }
 
@@ -166,11 +167,11 @@ export function shotMenu(editor: Editor, index: number, at: number): MenuEntry[]
   const { store, times } = editor;
   return [
     {
-      says: "Choose this shot",
+      says: does.chooseShot,
       run: () => editor.selection.set(keysInShot(store.document?.tracks ?? [], (track) => times.of(track), shot)),
     },
-    { says: "Loop this shot", disabled: !editor.view.canControl, run: () => void editor.view.setLoop(shot) },
-    { says: "Show this shot", run: () => editor.window.show(shot.start, shot.end) },
+    { says: does.loopShot, disabled: !editor.view.canControl, run: () => void editor.view.setLoop(shot) },
+    { says: does.showShot, run: () => editor.window.show(shot.start, shot.end) },
     ...placeItems(editor, at),
   ];
 }
@@ -180,7 +181,7 @@ function placeItems(editor: Editor, at: number | null): MenuEntry[] {
 }
 
 function goItem(editor: Editor, at: number): MenuItem {
-  return { says: "Go here", disabled: !editor.view.canControl, run: () => void editor.view.seek(Math.max(at, 0)) };
+  return { says: does.goHere, disabled: !editor.view.canControl, run: () => void editor.view.seek(Math.max(at, 0)) };
 }
 
 function cannotPaste(editor: Editor): boolean {
@@ -196,8 +197,8 @@ function wayItems(editor: Editor): MenuItem[] {
   const { chosen } = editor;
   const ways = new Set(chosen.flatMap(({ track }) => editor.parameter(track.parameter)?.interpolations ?? []));
   return [...ways].map((way) => ({
-    says: shownPath(way),
+    says: easingName(way),
     checked: chosen.every(({ keyframe }) => (keyframe.interpolation ?? "linear") === way),
-    run: () => changeKeys(editor, `Come by ${shownPath(way)}`, { interpolation: way }),
+    run: () => changeKeys(editor, does.comeBy({ easing: easingName(way) }), { interpolation: way }),
   }));
 }

@@ -2,7 +2,8 @@ import { barBeatAt } from "../../state/score-time";
 import { clockTime } from "../../state/readout";
 import type { Editor } from "../state/editor.svelte";
 import { firstFrom } from "../state/key-times";
-import { shownPath } from "../state/parameter-value";
+import { shownPath } from "../state/names";
+import { does } from "../../words/editor-does/en";
 
 /** Less than this is never shown by itself, seconds. */
 const ALONE_S = 4;
@@ -24,7 +25,7 @@ export function goToKey(editor: Editor, direction: 1 | -1): void {
     if (found === null || (time - found.time) * direction < 0) found = { path: track.parameter, key, time };
   }
   if (found === null) {
-    editor.said = direction === 1 ? "No keyframe behind this one" : "No keyframe before this one";
+    editor.said = direction === 1 ? does.noneBehind : does.noneBefore;
     return;
   }
   chooseKey(editor, found.path, found.key);
@@ -41,13 +42,18 @@ export function chooseKey(editor: Editor, path: string, key: string): void {
   const time = editor.songTimeOf({ track, keyframe });
   editor.window.reveal(time);
   if (editor.view.canControl) void editor.view.seek(time);
-  editor.said = `${shownPath(path)}, keyframe ${index + 1} of ${track.keyframes.length}, ${placeName(editor, time)}`;
+  editor.said = does.keyAt({
+    track: shownPath(path),
+    number: index + 1,
+    all: track.keyframes.length,
+    place: placeName(editor, time),
+  });
 }
 
 /** A song time as a musician says it. */
 export function placeName(editor: Editor, songTime: number): string {
   const { bar, beat } = barBeatAt(editor.view.score, songTime);
-  return `bar ${bar} beat ${beat}, ${clockTime(songTime, true)}`;
+  return does.placeAt({ bar, beat, time: clockTime(songTime, true) });
 }
 
 /** Show what is chosen, or the whole piece. */

@@ -2,9 +2,10 @@ import { keysMenu, markerMenu, rowMenu, rulerMenu, shotMenu } from "./menus";
 import type { Hit, KeyName } from "../gestures/hit";
 import type { Editor } from "../state/editor.svelte";
 import type { OpenMenu } from "../state/menu";
-import { shownPath } from "../state/parameter-value";
-import { groupOf, type Row } from "../state/rows";
+import { shownPath } from "../state/names";
+import { groupName, groupOf, type Row } from "../state/rows";
 import type { ShowTrack } from "../state/show-document";
+import { does } from "../../words/editor-does/en";
 
 type Menu = Pick<OpenMenu, "label" | "entries">;
 
@@ -15,12 +16,12 @@ export function menuOfHit(editor: Editor, hit: Hit, at: number): Menu {
       return ofKeys(editor, hit.keys);
     case "grip":
     case "span":
-      return { label: "Keyframes", entries: keysMenu(editor) };
+      return { label: does.menuKeys, entries: keysMenu(editor) };
     case "marker":
       editor.marker = hit.index;
-      return { label: "Marker", entries: markerMenu(editor, hit.index) };
+      return { label: does.menuMarker, entries: markerMenu(editor, hit.index) };
     case "shot":
-      return { label: "Shot", entries: shotMenu(editor, hit.index, at) };
+      return { label: does.menuShot, entries: shotMenu(editor, hit.index, at) };
     case "row":
       return hit.row === null ? ofRuler(editor, at) : ofRow(editor, hit.row, at);
     default:
@@ -37,25 +38,25 @@ export function menuOfCurves(editor: Editor, key: KeyName | null, track: ShowTra
 /** The keyboard's menu: of the chosen keyframes or marker, else of the track that is looked at, else of the ruler. */
 export function menuOfChoice(editor: Editor): Menu {
   const track = editor.track(editor.active);
-  if (editor.chosen.length > 0) return { label: "Keyframes", entries: keysMenu(editor) };
-  if (editor.marker !== null) return { label: "Marker", entries: markerMenu(editor, editor.marker) };
+  if (editor.chosen.length > 0) return { label: does.menuKeys, entries: keysMenu(editor) };
+  if (editor.marker !== null) return { label: does.menuMarker, entries: markerMenu(editor, editor.marker) };
   return track === null ? ofRuler(editor, editor.playhead) : ofRow(editor, rowOf(track), editor.playhead);
 }
 
 function ofKeys(editor: Editor, keys: readonly KeyName[]): Menu {
   if (!keys.every(([path, key]) => editor.selection.has(path, key))) editor.selection.set(keys);
   editor.look(keys[0]?.[0] ?? null);
-  return { label: "Keyframes", entries: keysMenu(editor) };
+  return { label: does.menuKeys, entries: keysMenu(editor) };
 }
 
 function ofRow(editor: Editor, row: Row, at: number): Menu {
   if (row.kind === "track") editor.look(row.track.parameter);
-  const label = row.kind === "group" ? row.name : shownPath(row.track.parameter);
+  const label = row.kind === "group" ? groupName(row.name) : shownPath(row.track.parameter);
   return { label, entries: rowMenu(editor, row, at) };
 }
 
 function ofRuler(editor: Editor, at: number): Menu {
-  return { label: "Timeline", entries: rulerMenu(editor, at) };
+  return { label: does.menuTimeline, entries: rulerMenu(editor, at) };
 }
 
 function rowOf(track: ShowTrack): Row {

@@ -1,6 +1,7 @@
 import type { Changes, Edit } from "../state/edits";
 import type { Editor } from "../state/editor.svelte";
-import { shownPath } from "../state/parameter-value";
+import { shownPath } from "../state/names";
+import { does } from "../../words/editor-does/en";
 
 /** Change how a track is played; null takes a field back to its default. */
 export function setTrack(editor: Editor, path: string, says: string, changes: Changes): void {
@@ -9,12 +10,12 @@ export function setTrack(editor: Editor, path: string, says: string, changes: Ch
 
 export function muteTrack(editor: Editor, path: string): void {
   const muted = editor.track(path)?.muted !== true;
-  setTrack(editor, path, muted ? "Track muted" : "Track on", { muted });
+  setTrack(editor, path, muted ? does.trackMuted : does.trackOn, { muted });
 }
 
 export function soloTrack(editor: Editor, path: string): void {
   const solo = editor.track(path)?.solo !== true;
-  setTrack(editor, path, solo ? "Solo" : "Solo off", { solo });
+  setTrack(editor, path, solo ? does.soloOn : does.soloOff, { solo });
 }
 
 /** Mute all tracks of a group; all on where all are muted. */
@@ -24,15 +25,14 @@ export function muteGroup(editor: Editor, paths: readonly string[]): void {
   const edits = tracks
     .filter((track) => (track.muted === true) !== muted)
     .map((track): Edit => ({ edit: "change_track", parameter: track.parameter, changes: { muted } }));
-  editor.edit(muted ? "Group muted" : "Group on", edits);
+  editor.edit(muted ? does.groupMuted : does.groupOn, edits);
 }
 
 export function removeTrack(editor: Editor, path: string): void {
   const track = editor.track(path);
   if (track === null) return;
   const count = track.keyframes.length;
-  const keys = count === 1 ? "1 keyframe" : `${count} keyframes`;
-  editor.remove(`Track removed: ${shownPath(path)}, ${keys}`, [{ edit: "remove_track", parameter: path }]);
+  editor.remove(does.trackRemoved({ track: shownPath(path), count }), [{ edit: "remove_track", parameter: path }]);
   editor.selection.clear();
   if (editor.active === path) editor.look(null);
 }

@@ -9,6 +9,7 @@ import { firstFrom } from "../state/key-times";
 import { trackOf } from "../state/show-document";
 import { movedBy, placed } from "../state/spans";
 import type { Press } from "./lane-gestures.svelte";
+import { does } from "../../words/editor-does/en";
 
 interface KeyHit {
   readonly shown: CurvedTrack;
@@ -125,7 +126,7 @@ export class CurveGestures {
     if (held.kind === "key" && !held.moved && held.alone) {
       this.#editor.selection.set([[held.hit.shown.track.parameter, held.hit.key]]);
     }
-    this.#editor.edit(held.kind === "handle" ? "Curve bent" : "Keyframes moved", edits);
+    this.#editor.edit(held.kind === "handle" ? does.curveBent : does.someMoved({ count: 2 }), edits);
   }
 
   /** Let go and leave the show as it is; returns whether there was anything. */

@@ -1,4 +1,4 @@
-import { counted, retime } from "../commands/keys";
+import { retime } from "../commands/keys";
 import { moveMarker } from "../commands/markers";
 import { headHeight, type Layout } from "../canvas/layout";
 import { LoopDrag } from "../../timeline/loop-drag";
@@ -9,6 +9,7 @@ import { movedBy, stretched, type Retiming, type Span } from "../state/spans";
 import { hitAt, keysInBox, type Hit, type KeyName } from "./hit";
 import { Seeking } from "./seeking";
 import { buzz, LONG_PRESS_MS, Touches } from "../../timeline/touches";
+import { does } from "../../words/editor-does/en";
 
 /** A pointer's event, with its place in the timeline, pixels. */
 export interface Press {
@@ -194,11 +195,11 @@ export class LaneGestures {
         gesture.seeking.end();
         break;
       case "keys":
-        if (gesture.moved) this.#place("moved");
+        if (gesture.moved) this.#place(does.keyMoved);
         else if (gesture.alone !== null) this.#editor.selection.set(gesture.alone);
         break;
       case "stretch":
-        this.#place("stretched");
+        this.#place(does.keyStretched);
         break;
       case "loop":
         void this.#placeLoop(gesture, press);
@@ -320,7 +321,7 @@ export class LaneGestures {
       return null;
     }
     selection.set(keys);
-    this.#editor.said = `Shot ${index + 1} of ${shots.length} chosen`;
+    this.#editor.said = does.shotChosen({ number: index + 1, all: shots.length });
     const before = shots[index - 1];
     const room = (shots[index + 1]?.end ?? Infinity) - shot.end;
     const within = {
@@ -364,10 +365,10 @@ export class LaneGestures {
     return stretched(axis, gesture.held, gesture.from, to);
   }
 
-  #place(done: string): void {
+  #place(says: (made: { count: number }) => string): void {
     const { moving } = this.#editor;
     this.#editor.moving = null;
-    if (moving !== null) retime(this.#editor, counted(this.#editor.chosen.length, done), moving);
+    if (moving !== null) retime(this.#editor, says({ count: this.#editor.chosen.length }), moving);
   }
 
   #drawBox(gesture: Gesture & { kind: "box" }, press: Press): void {
@@ -401,7 +402,7 @@ export class LaneGestures {
     });
     if (press.adds) selection.add(keys);
     else selection.set(keys);
-    this.#editor.said = `${selection.size} keyframes chosen`;
+    this.#editor.said = does.chosen({ count: selection.size });
   }
 
   #tapRow({ row }: Hit & { kind: "row" }, press: Press): void {

@@ -4,6 +4,7 @@ import type { Editor } from "./editor.svelte";
 import { withEdits, type Edit } from "./edits";
 import { FollowedCurves } from "./followed-curves.svelte";
 import { trackOf, type ShowTrack } from "./show-document";
+import { does } from "../../words/editor-does/en";
 
 /** What a camera's path is of: where it stands, and where it looks. */
 export const PATHS = ["camera/position", "camera/target"] as const;
@@ -128,7 +129,7 @@ export class CameraPath {
     if (held === null) return;
     const edits = held.by.some((each) => Math.abs(each) > 10 ** -DIGITS) ? this.#edits(held) : [];
     if (edits.length === 0) this.#preview = null;
-    this.#editor.edit(edits.length === 1 ? "Keyframe moved" : "Keyframes moved", edits);
+    this.#editor.edit(does.someMoved({ count: edits.length }), edits);
   }
 
   /** Let go and leave the show as it is; returns whether there was anything. */

@@ -21,6 +21,7 @@ import { spanOf, type Retiming, type Span } from "./spans";
 import { TimeAxis } from "./time-axis";
 import { LoopGrid, type LoopSpan } from "../../timeline/loop-span";
 import { TimeWindow } from "../../timeline/time-window.svelte";
+import { does } from "../../words/editor-does/en";
 
 export type Mode = "keys" | "curves";
 
@@ -202,7 +203,7 @@ export class Editor {
     if (edits.length === 0) return;
     this.edit(says, edits);
     const made = this.store.made;
-    const undo = { label: "Undo", run: () => this.store.undo() };
+    const undo = { label: does.undo, run: () => this.store.undo() };
     this.reina.word(says, "", {
       actions: [undo],
       over: () => this.store.made !== made || this.reina.view !== this.view,

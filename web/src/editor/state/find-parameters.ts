@@ -1,39 +1,6 @@
+import { search } from "../../words/editor-search/en";
 import type { ShowParameter } from "../../generated/protocol";
-import { shownPath } from "./parameter-value";
-
-/** What people call things, by the words of paths that they mean. */
-const SYNONYMS: Readonly<Record<string, readonly string[]>> = {
-  aperture: ["blur", "bokeh", "depth of field", "dof", "f-stop", "iris"],
-  ambient: ["base light", "general"],
-  arrangement: ["layout"],
-  background: ["backdrop", "sky"],
-  blocks: ["notes"],
-  bloom: ["glow", "glare"],
-  color: ["colour", "hue", "tint"],
-  density: ["mist", "smoke", "thickness"],
-  exposure: ["brightness", "gain"],
-  face: ["expression", "mimic"],
-  fill: ["soft light"],
-  finish: ["lacquer", "silver", "gold", "brass"],
-  floor: ["ground"],
-  focus: ["sharpness"],
-  fog: ["mist", "smoke", "haze"],
-  fov: ["zoom", "lens", "focal length", "field of view", "angle of view"],
-  haze: ["fog", "beam", "smoke", "volumetric"],
-  intensity: ["brightness", "level", "dimmer", "power"],
-  key: ["main light", "sun"],
-  opacity: ["alpha", "transparency", "fade"],
-  position: ["move", "place", "location", "dolly", "path"],
-  rim: ["back light", "backlight", "edge light"],
-  roll: ["tilt", "dutch", "bank"],
-  softness: ["penumbra", "shadow"],
-  speed: ["scroll", "tempo"],
-  spots: ["spotlight", "beam", "followspot"],
-  style: ["toon", "cartoon", "cel", "comic", "anime", "drawn", "look"],
-  target: ["look at", "aim", "pan"],
-  threshold: ["cutoff"],
-  visible: ["show", "hide", "on", "off"],
-};
+import { shownPath } from "./names";
 
 /** What of a parameter is searched. */
 export type Described = Pick<ShowParameter, "path" | "documentation" | "type">;
@@ -62,11 +29,17 @@ export function findParameters<T extends Described>(parameters: readonly T[], so
     .map(({ parameter }) => parameter);
 }
 
+/** What people call a thing, by the word of its path. */
+function synonymsOf(word: string): string[] {
+  if (!Object.hasOwn(search, word)) return [];
+  return search[word as keyof typeof search].toLowerCase().split(", ");
+}
+
 /** Index in FITS of the best fit; -1 for none. */
 function rankOf({ path, documentation, type }: Described, word: string): number {
   const words = path.toLowerCase().split(/[_/]/);
   const inPath = [...words, ...shownPath(path).toLowerCase().split(" ")];
-  const called = words.flatMap((each) => SYNONYMS[each] ?? []);
+  const called = words.flatMap(synonymsOf);
   const fits: Record<Fit, boolean> = {
     whole: inPath.includes(word),
     start: inPath.some((each) => each.startsWith(word)),

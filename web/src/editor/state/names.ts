@@ -1,51 +1,69 @@
 /** What easings, kinds of values and words of paths are called where musicians read them, if not by their own names. */
 
-const EASINGS: Readonly<Record<string, string>> = {
-  step: "jump",
+import { serverMessage } from "../../words";
+import { names } from "../../words/editor-names/en";
+
+/** Easings whose English name is not their own. */
+const EASINGS = {
+  step: "step",
   linear: "straight",
-  cubic_bezier: "own curve",
-  cubic_spline: "own slopes",
-  automatic: "smooth",
-  clamped: "smooth, never beyond",
-};
+  cubic_bezier: "cubic_bezier",
+  cubic_spline: "cubic_spline",
+  automatic: "automatic",
+  clamped: "clamped",
+} as const;
+const TYPES = ["boolean", "choice", "color", "number", "orientation", "transform", "vector"] as const;
+const OPTIONS = ["amplitude", "handles", "overshoot", "period"] as const;
 
-const TYPES: Readonly<Record<string, string>> = {
-  boolean: "on or off",
-  color: "colour",
-  orientation: "turn",
-  transform: "place and turn",
-  vector: "three numbers",
-};
-
-const WORDS: Readonly<Record<string, string>> = {
-  bloom: "glow",
-  color: "colour",
-  fov: "angle of view",
-};
-
-const OPTIONS: Readonly<Record<string, string>> = {
-  amplitude: "Swing",
-  handles: "Handles",
-  overshoot: "Goes beyond by",
-  period: "Swing's length",
-};
+/** Words of paths whose English name is not their own. */
+const WORDS = ["bloom", "color", "fov"] as const;
 
 /** An easing's name: `sine_in_out` as `sine in out`. */
 export function easingName(name: string): string {
-  return EASINGS[name] ?? name.replaceAll("_", " ");
+  return Object.hasOwn(EASINGS, name) ? names[EASINGS[name as keyof typeof EASINGS]] : inWords(name, name);
 }
 
 /** What kind of value a parameter has. */
 export function typeName(type: string): string {
-  return TYPES[type] ?? type;
+  return nameOf(TYPES, type) ?? type;
 }
 
-/** A word of a parameter's path. */
-export function shownWord(word: string): string {
-  return WORDS[word] ?? word;
+/** A parameter's path, or the rest of one, as words. */
+export function shownPath(path: string): string {
+  return path
+    .split("/")
+    .map((part) =>
+      inWords(
+        part,
+        part
+          .split("_")
+          .map((word) => nameOf(WORDS, word) ?? word)
+          .join(" "),
+      ),
+    )
+    .join(" ");
+}
+
+/** One of the values of a parameter that has names for them. */
+export function choiceName(choice: string): string {
+  return inWords(choice, choice);
 }
 
 /** A setting of an easing. */
 export function optionName(name: string): string {
-  return OPTIONS[name] ?? name.replaceAll("_", " ");
+  return nameOf(OPTIONS, name) ?? name.replaceAll("_", " ");
+}
+
+function nameOf(known: readonly (keyof typeof names)[], name: string): string | undefined {
+  const found = known.find((each) => each === name);
+  return found === undefined ? undefined : names[found];
+}
+
+/** What the language that is shown calls a name of the server's, as a whole or word by word, else its English. */
+function inWords(name: string, english: string): string {
+  const of = (word: string): string | null => serverMessage("editor-parameters", word);
+  const whole = of(name);
+  if (whole !== null) return whole;
+  const words = name.split("_").map(of);
+  return words.includes(null) ? english.replaceAll("_", " ") : words.join(" ");
 }

@@ -1,4 +1,3 @@
-import { shownWord } from "./names";
 import { HEADER_SIZE, type Manifest, type ShowParameter } from "../../generated/protocol";
 
 /** What a parameter's value is called in a show's JSON, read from the floats of the frame on screen. */
@@ -52,11 +51,6 @@ export function shownNumber(value: number, unit: string): number {
 /** The number that stands for what was typed. */
 export function typedNumber(shown: number, unit: string): number {
   return unit === "rad" ? (shown * Math.PI) / 180 : shown;
-}
-
-/** A parameter's path, or the rest of one, as words. */
-export function shownPath(path: string): string {
-  return path.split(/[_/]/).map(shownWord).join(" ");
 }
 
 /** A unit as it is written behind a number. */

@@ -1,3 +1,5 @@
+import { fields } from "../../words/editor-fields/en";
+
 /** Pitches by name, as people write them: B♭4, C5..G5. C4 is MIDI number 60. */
 
 /** How pitches are read and called: the key that spells them, and what is written for what sounds. */
@@ -61,13 +63,11 @@ export function rangeName([low, high]: PitchRange, reading: PitchReading): strin
 export function readRange(text: string, reading: PitchReading): PitchRange | null {
   const [first = "", second, more] = text.trim().split(BETWEEN);
   if (first === "" && (second ?? "") === "") return null;
-  if (more !== undefined) throw new PitchError(`“${text.trim()}” has more than two ends. Write two pitches: C5..G5.`);
+  if (more !== undefined) throw new PitchError(fields.moreEnds({ text: text.trim() }));
   const low = first === "" ? 0 : readPitch(first, reading);
   const high = second === undefined ? low : second === "" ? HIGHEST : readPitch(second, reading);
   if (low > high) {
-    throw new PitchError(
-      `${first} is higher than ${second ?? ""}. Write the lower one first: ${second ?? ""}..${first}.`,
-    );
+    throw new PitchError(fields.higher({ low: first, high: second ?? "" }));
   }
   return [low, high];
 }
@@ -75,23 +75,21 @@ export function readRange(text: string, reading: PitchReading): PitchRange | nul
 function readPitch(text: string, reading: PitchReading): number {
   if (/^\d+$/.test(text)) {
     const number = Number(text);
-    if (number > HIGHEST) throw new PitchError(`MIDI numbers go from 0 to ${HIGHEST}, and ${text} does not.`);
+    if (number > HIGHEST) throw new PitchError(fields.beyondNumber({ most: HIGHEST, text }));
     return number;
   }
   const [, letter = "", accidentals = "", octave] = NAME.exec(text) ?? [];
   if (letter === "") {
-    throw new PitchError(
-      `“${text}” is no pitch. Write a letter from A to G, a ♯ or ♭ if it has one, and its octave, as B♭4 or C5..G5; or a MIDI number.`,
-    );
+    throw new PitchError(fields.noPitch({ text }));
   }
   const called = letter.toUpperCase() + accidentals.replaceAll("b", "♭").replaceAll("#", "♯");
-  if (octave === undefined) throw new PitchError(`${called} is in every octave. Write which: ${called}4.`);
+  if (octave === undefined) throw new PitchError(fields.everyOctave({ name: called }));
   const altered = Array.from(accidentals).reduce((sum, each) => sum + (ACCIDENTALS[each] ?? 0), 0);
   const written = (Number(octave) + 1) * 12 + (SEMITONES[letter.toUpperCase()] ?? 0) + altered;
   const sounding = written - reading.above;
   if (sounding < 0 || sounding > HIGHEST) {
     const [lowest, highest] = [pitchName(0, reading), pitchName(HIGHEST, reading)];
-    throw new PitchError(`${called}${octave} is beyond what MIDI has, ${lowest} to ${highest}.`);
+    throw new PitchError(fields.beyondMidi({ name: called + octave, lowest, highest }));
   }
   return sounding;
 }

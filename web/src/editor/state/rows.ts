@@ -1,4 +1,4 @@
-import { shownPath } from "./parameter-value";
+import { shownPath } from "./names";
 import type { ShowDocument, ShowTrack } from "./show-document";
 
 /** One line of the timeline: a group's heading, or a track. */
@@ -10,6 +10,11 @@ export type Row =
 export function groupOf(path: string): string {
   const words = path.split("/");
   return words[0] === "players" ? words.slice(0, 2).join(" ") : (words[0] ?? "");
+}
+
+/** What a group is called: `players 2` is Platz 2 in German. */
+export function groupName(group: string): string {
+  return shownPath(group.replace(" ", "/"));
 }
 
 /** What a track is called in its group. */

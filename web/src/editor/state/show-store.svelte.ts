@@ -4,6 +4,7 @@ import type { ShowEdited } from "../../generated/show";
 import { withEdits, withTracks, type Edit } from "./edits";
 import type { ShowDocument, ShowTrack } from "./show-document";
 import type { TimeAxis } from "./time-axis";
+import { does } from "../../words/editor-does/en";
 
 export type SaveState = "saved" | "saving" | "failed";
 
@@ -193,9 +194,9 @@ export class ShowStore {
       await this.#read();
       if (!("says" in step)) {
         this.#drop();
-        this.#around.word("The show has just changed", "Somebody else edited it; press again for their step.");
+        this.#around.word(does.justChanged, does.pressAgain);
       } else {
-        this.#around.word("Somebody else edited the show", `${step.says}: made on top of it.`);
+        this.#around.word(does.elseEdited, does.madeOnTop({ step: step.says }));
       }
       return true;
     } catch (error) {

@@ -13,6 +13,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { surround } from "./surroundings";
+import { lab } from "../../words/lab/en";
 
 /** How much of the canvas lies under panels, CSS pixels. */
 export interface Insets {
@@ -56,9 +57,7 @@ export class LabView {
   constructor(canvas: HTMLCanvasElement) {
     const context = canvas.getContext("webgl2", { antialias: true });
     if (context === null) {
-      throw new LabUnavailableError(
-        "This browser cannot draw the lab: it has no WebGL 2. Switch on hardware acceleration in its settings. The numbers are there all the same.",
-      );
+      throw new LabUnavailableError(lab.noWebGl);
     }
     this.#canvas = canvas;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true });

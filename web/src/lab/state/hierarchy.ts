@@ -1,4 +1,5 @@
 import type { ParsedClip } from "../../generated/lab";
+import { clipWords } from "../../words/lab-clips/en";
 
 /** One row of a clip's tree. */
 export interface HierarchyRow {
@@ -18,7 +19,10 @@ export function channelsInWords(channels: readonly string[]): string {
       .join("");
   const position = letters("position");
   const rotation = letters("rotation");
-  return [position === "" ? "" : `pos ${position}`, rotation === "" ? "" : `rot ${rotation}`]
+  return [
+    position === "" ? "" : clipWords.position({ axes: position }),
+    rotation === "" ? "" : clipWords.rotation({ axes: rotation }),
+  ]
     .filter((part) => part !== "")
     .join(" · ");
 }

@@ -12,45 +12,13 @@ import type { LabApi } from "../api";
 import { radians } from "../figures";
 import { Latest } from "./latest";
 import { trouble } from "./trouble";
+import { kinematicsWords } from "../../words/lab-kinematics/en";
 
 export type Vector = [number, number, number];
 export type SolverName = SolverChoice["solver"];
 export type PlaneName = NonNullable<ReachRequest["plane"]>;
 
-export interface SolverLook {
-  readonly label: string;
-  readonly says: string;
-}
-
-export const SOLVERS: Record<SolverName, SolverLook> = {
-  coupled_three_bone: {
-    label: "Three bones, tip alone (κ)",
-    says: "Closed form: the last joint bends with the one before it, θ3 = κ θ2.",
-  },
-  planar_three_bone: {
-    label: "Three bones with φ",
-    says: "Closed form: the last bone's direction φ is given. All angles are zero where there is no solution.",
-  },
-  two_bone: {
-    label: "Two bones",
-    says: "Closed form: elbow or knee is a hinge, and swings about the line to the target.",
-  },
-  ccd: { label: "CCD", says: "Round by round, each joint from the end on turns the end toward the target." },
-  fabrik: { label: "FABRIK", says: "Round by round, points are pulled along lines, forward and back; joints follow." },
-  damped_least_squares: {
-    label: "Damped least squares",
-    says: "Round by round, a step by the Jacobian, damped while the end is far.",
-  },
-};
-
 const ITERATIVE: readonly SolverName[] = ["ccd", "fabrik", "damped_least_squares"];
-
-export const STATUS: Record<InverseAnswer["status"], string> = {
-  reached: "Reached",
-  out_of_reach: "Out of reach",
-  at_limit: "Stopped at a limit",
-  not_converged: "Not converged",
-};
 
 /** The second table: a chain of the rig, posed by its angles or by a target. */
 export class Kinematics {
@@ -143,7 +111,7 @@ export class Kinematics {
     try {
       this.chains = await this.#api.chains();
       const first = this.chains.find((chain) => chain.name === "rightIndex") ?? this.chains[0];
-      if (first === undefined) this.problem = "The server has no rig with chains to pose.";
+      if (first === undefined) this.problem = kinematicsWords.noChains;
       else this.choose(first);
     } catch (error) {
       this.problem = trouble(error);

@@ -47,4 +47,10 @@ export const keys = words("keys", {
   orbitDown: "Look from lower down",
   closer: "Closer",
   further: "Further away",
+  ctrl: "Ctrl",
+  shift: "Shift",
+  del: "Del",
+  space: "Space",
+  home: "Home",
+  endKey: "End",
 });

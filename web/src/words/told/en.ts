@@ -1,4 +1,4 @@
-import { filled, words } from "../words";
+import { counted, filled, words } from "../words";
 
 /** What is said when files are opened, keys are pressed or requests fail. */
 export const told = words("told", {
@@ -48,4 +48,19 @@ export const told = words("told", {
   putInTime: "Put in time",
   details: "Details",
   partNumber: filled("Part {number}"),
+  repairedIn: counted({ one: "The file was repaired in one place", other: "The file was repaired in {count} places" }),
+  ofPlayer: filled("Player {player}: {what}"),
+  moveUp: counted({ one: "Move an octave up", other: "Move {count} octaves up" }),
+  moveDown: counted({ one: "Move an octave down", other: "Move {count} octaves down" }),
+  movePlayerUp: counted({ one: "Move player {player} an octave up", other: "Move player {player} {count} octaves up" }),
+  movePlayerDown: counted({
+    one: "Move player {player} an octave down",
+    other: "Move player {player} {count} octaves down",
+  }),
+  movedUp: counted({ one: "Moved an octave up", other: "Moved {count} octaves up" }),
+  movedDown: counted({ one: "Moved an octave down", other: "Moved {count} octaves down" }),
+  openAnother: "Open another file",
+  changeWho: "Change who plays",
+  changePart: "Change the part",
+  cannotMove: "It cannot be moved",
 });

@@ -1,0 +1,33 @@
+import { filled, words } from "../words";
+
+/** The lab's table of motion clips. */
+export const clipWords = words("lab-clips", {
+  clips: "Clips",
+  download: filled("Download {name}"),
+  none: "No clips come with this server's rigs. Open one of your own.",
+  reading: "Reading …",
+  open: "Open a BVH file",
+  file: "BVH file",
+  drop: "Or drop it here. At most 20 MB.",
+  about: "About the file",
+  joints: "Joints",
+  frames: "Frames",
+  atRest: "none: a skeleton at rest",
+  fps: "Frames a second",
+  length: "Length",
+  size: "Size, in the file's unit",
+  long: filled("It is long: one frame in {step} is shown."),
+  channels: "Position channels",
+  replace: "say where a joint is (usual)",
+  add: "are added to its OFFSET",
+  save: "Save as Reina writes it",
+  hierarchy: "Hierarchy",
+  willStand: "The joints of the clip will stand here.",
+  choose: "Choose a joint to see its way.",
+  placeOf: filled("{joint}, in the file's unit"),
+  frame: "Frame",
+  seconds: filled("{time} seconds"),
+  rate: "Rate",
+  position: filled("pos {axes}"),
+  rotation: filled("rot {axes}"),
+});
