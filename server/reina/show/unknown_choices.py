@@ -1,7 +1,7 @@
 """Choices that a track names and that are not there, of parameters whose choices a session may add to."""
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, cast
 
 from reina.curves.parameter import Parameter
 from reina.show.track import Track
@@ -29,12 +29,16 @@ def _of_track(track: Track) -> Iterator[object]:
 
 
 def _of_document(document: Mapping[str, Any]) -> Iterator[object]:
-    keyframes = document.get("keyframes")
-    for keyframe in keyframes if isinstance(keyframes, list | tuple) else ():
-        if isinstance(keyframe, Mapping):
-            yield keyframe.get("value")
-    events = document.get("events")
-    if isinstance(events, Mapping):
-        yield events.get("amount")
-        cycle = events.get("cycle")
-        yield from cycle if isinstance(cycle, list | tuple) else ()
+    for keyframe in _items(document.get("keyframes")):
+        yield _fields(keyframe).get("value")
+    events = _fields(document.get("events"))
+    yield events.get("amount")
+    yield from _items(events.get("cycle"))
+
+
+def _fields(value: object) -> Mapping[str, object]:
+    return cast("Mapping[str, object]", value) if isinstance(value, Mapping) else {}
+
+
+def _items(value: object) -> Sequence[object]:
+    return cast("Sequence[object]", value) if isinstance(value, list | tuple) else ()

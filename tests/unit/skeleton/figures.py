@@ -104,7 +104,7 @@ def figure(
 ) -> MotionClip:
     """Two frames at 10 a second: at rest, then in the pose, turned about the vertical by degrees."""
     trunk, limbs, left, right = NAMES[names]
-    named = dict(zip(_TRUNK, trunk.split(), strict=True))
+    named: dict[str, str] = dict(zip(_TRUNK, trunk.split(), strict=True))
     for limb, name in zip(_LIMBS, limbs.split(), strict=True):
         named |= {f"left{limb}": left.format(name), f"right{limb}": right.format(name)}
     bones = list(_BONES)
