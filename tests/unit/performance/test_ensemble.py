@@ -1,5 +1,6 @@
 """Players of one figure are posed side by side, and each moves as it would alone."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ from tests.unit.conftest import NoteBeats, midi
 from reina.curves import ParameterRegistry
 from reina.instruments import INSTRUMENTS, Ensemble, Performer, cast_parameters
 from reina.instruments.brass.body import BrassBody
-from reina.instruments.player import SEATS, Engagement
+from reina.instruments.player import SEATS, BodyMotion, Engagement
 from reina.music import read_score
 from reina.performance import Performance
 from reina.show import Show, TimeMap
@@ -54,9 +55,9 @@ def test_players_of_one_figure_are_posed_at_once(cast: Performance, monkeypatch:
     posed: list[int] = []
     pose = BrassBody.pose
 
-    def counted(self: BrassBody, motions: list[object]) -> object:
+    def counted(self: BrassBody, motions: Sequence[BodyMotion]) -> object:
         posed.append(len(motions))
-        return pose(self, motions)  # type: ignore[arg-type]
+        return pose(self, motions)
 
     monkeypatch.setattr(BrassBody, "pose", counted)
     cast.evaluate(3)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from tests.unit.sound.alignment.renditions import SCORES
 
@@ -18,10 +20,10 @@ def score() -> Score:
     return read_score(path.read_bytes(), filename=path.name)
 
 
-def slower(march: Score, **more: object) -> Alignment:
+def slower(march: Score, **more: Any) -> Alignment:
     end_s = march.duration_s
     points = (MapPoint(0.0, BEGINS_S, 0.9), MapPoint(end_s, BEGINS_S + SLOWER * end_s, 0.9))
-    return Alignment(points, end_s, BEGINS_S + SLOWER * end_s + 1, **more)  # type: ignore[arg-type]
+    return Alignment(points, end_s, BEGINS_S + SLOWER * end_s + 1, **more)
 
 
 def test_without_a_recording_bars_are_where_they_are_written() -> None:
