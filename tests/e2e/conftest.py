@@ -18,7 +18,7 @@ from tests.integration.server import Running, serve
 from reina.cli.browser import GRAPHICS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator, Iterator
 
     from playwright.sync_api import ViewportSize
 
@@ -44,6 +44,20 @@ EXPECTED = ("409", "412", "ERR_FAILED")
 """What the browser says of a write that came too late, and of one that a test let get lost."""
 SMALL = (760, 430)
 """Width and height of the window: software GL draws a picture of this size in about a tenth of a second."""
+
+
+FAILED = pytest.StashKey[bool]()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item, call: pytest.CallInfo[None]
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Keep whether a test failed, for the fixtures that end after it."""
+    report = yield
+    if report.when == "call":
+        item.stash[FAILED] = report.failed
+    return report
 
 
 @pytest.fixture(scope="session")
@@ -99,7 +113,9 @@ def show(one_show: ShowPage) -> Iterator[ShowPage]:
 
 
 @pytest.fixture
-def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
+def visit(
+    request: pytest.FixtureRequest, browser: Browser, server: Running
+) -> Iterator[Callable[..., Opened]]:
     """Opens pages of the server, each in a browser profile of its own unless `beside` another.
 
     Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
@@ -134,5 +150,7 @@ def visit(browser: Browser, server: Running) -> Iterator[Callable[..., Opened]]:
 
     yield open_page
     for one in opened:
+        if request.node.stash.get(FAILED, False):
+            print(one.account())
         one.page.context.close()
     assert [error for one in opened for error in one.errors] == []

@@ -8,10 +8,11 @@ from urllib.parse import urlsplit
 
 import numpy as np
 from PIL import Image
+from playwright.sync_api import TimeoutError as LateError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from playwright.sync_api import ConsoleMessage, Page
+    from playwright.sync_api import ConsoleMessage, Locator, Page
 
 FPS = 60
 PATIENCE_S = 60.0
@@ -111,6 +112,22 @@ class Opened:
     def bone_quaternions(self) -> dict[str, list[float]]:
         """Local joint rotations as three.js has them, x y z w."""
         return self.page.evaluate("window.reina.boneQuaternions()")
+
+    def account(self) -> str:
+        """What a person would see of the page's state, for the report of a test that failed."""
+        said = self.page.locator(".notices").first.inner_text()
+        figures = self.page.evaluate("[window.reina?.drawn, document.activeElement?.outerHTML.slice(0, 120)]")
+        return f"{self.page.url}: notices {said!r}; drawn, focus {figures}; errors {self.errors}"
+
+    def press_until(self, button: Locator, sign: Locator) -> None:
+        """Tap a button; once more, as a person would, where the first tap came while the page changed."""
+        button.tap()
+        try:
+            sign.wait_for(timeout=10_000)
+        except LateError:
+            if button.is_visible():
+                button.tap()
+            sign.wait_for()
 
     def choose_files(self, *files: tuple[str, str, bytes]) -> None:
         """Give files to the page's file input: name, media type, content."""

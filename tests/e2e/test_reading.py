@@ -113,8 +113,8 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
     opened.choose_files(("sung.mid", "audio/midi", sung()))
     opened.until_another_session(opened.session)
     path = f"/api/v1/sessions/{opened.session}"
-    notice.get_by_role("button", name="Move an octave up").tap()
-    notice.get_by_text("Moved an octave up").wait_for()
+    offer = notice.get_by_role("button", name="Move an octave up")
+    opened.press_until(offer, notice.get_by_text("Moved an octave up"))
     assert client.get(path).json()["octave_fit"] is True
     with page.expect_response(lambda answer: answer.request.method == "PUT"):
         notice.get_by_role("button", name="Undo").tap()

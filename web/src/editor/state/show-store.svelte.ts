@@ -216,7 +216,7 @@ export class ShowStore {
       const response = await api.request("PUT", api.sessionPath(session, "show"), { ...options, json: step.document });
       const document = (await response.json()) as ShowDocument;
       this.#hold(document, response.headers.get("ETag"), this.#waiting.slice(1));
-      await this.#readCounts();
+      this.#count(await this.#readCounts());
       return;
     }
     const edits = step.kind === "edits" ? { json: step.edits } : {};
@@ -247,9 +247,13 @@ export class ShowStore {
 
   async #read(): Promise<void> {
     const { api, session } = this.#around;
-    const response = await api.request("GET", api.sessionPath(session, "show"));
+    // Both at once, so that nobody sees a show whose steps to undo are not known yet.
+    const [response, counts] = await Promise.all([
+      api.request("GET", api.sessionPath(session, "show")),
+      this.#readCounts(),
+    ]);
     this.#hold((await response.json()) as ShowDocument, response.headers.get("ETag"), this.#waiting);
-    await this.#readCounts();
+    this.#count(counts);
   }
 
   async #readQuietly(): Promise<void> {
@@ -260,10 +264,10 @@ export class ShowStore {
     }
   }
 
-  async #readCounts(): Promise<void> {
+  async #readCounts(): Promise<ShowState> {
     const { api, session } = this.#around;
     const response = await api.request("GET", api.sessionPath(session, "show/history"));
-    this.#count((await response.json()) as ShowState);
+    return (await response.json()) as ShowState;
   }
 
   #hold(document: ShowDocument, etag: string | null, waiting: readonly Step[]): void {
