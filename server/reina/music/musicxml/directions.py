@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 
 from reina.music.musicxml import tables
 from reina.music.musicxml.element import Element, number_of, whole_of
-from reina.music.musicxml.model import DynamicMark, Hairpin, Place, TempoMark, Words
+from reina.music.musicxml.model import (
+    DynamicMark,
+    Hairpin,
+    Hold,
+    Place,
+    TempoMark,
+    TempoReturn,
+    TempoShift,
+    Words,
+)
 from reina.music.musicxml.state import PartState, loudness_of, times_of
 
 MAX_WORDS = 200
 
 
 MAX_PASSES = 100
+MEASURE_END = math.inf
 SIGNS = {"crescendo": 1, "diminuendo": -1}
 
 
@@ -22,6 +33,7 @@ def read_direction(state: PartState, element: Element) -> None:
     sound = element.first("sound")
     place = _moved(state, element)
     metronome: Element | None = None
+    dashes: list[Element] = []
     has_dynamics = False
     words: list[str] = []
     for kind in element.all("direction-type"):
@@ -37,6 +49,8 @@ def read_direction(state: PartState, element: Element) -> None:
                     metronome = sign
                 case "words":
                     words.append(sign.text)
+                case "dashes" | "bracket":
+                    dashes.append(sign)
                 case "rehearsal":
                     _add_words(state, "marker", sign.text, place)
                 case "segno":
@@ -52,7 +66,8 @@ def read_direction(state: PartState, element: Element) -> None:
     if metronome is not None and not tempo:
         _metronome(state, metronome, place)
     if text:
-        _words(state, element, text, place, sound)
+        _words(state, text, place, sound)
+    _dashes(state, dashes, place, begins=bool(text) and not tempo)
     if sound is not None:
         read_sound(state, sound, place, has_dynamics=has_dynamics)
 
@@ -121,8 +136,12 @@ def read_barline(state: PartState, element: Element) -> None:
         now.segno.add(element.attribute("segno"))
     if element.first("coda") is not None:
         now.coda.add(element.attribute("coda"))
-    if element.first("fermata") is not None:
-        state.tell(element, "a fermata on a bar line")
+    fermata = element.first("fermata")
+    if fermata is not None:
+        # What is before the line is held: of the last beat, wherever the voice stands that is read just now.
+        is_left = element.attribute("location") == "left"
+        place = (state.measure, 0.0) if is_left else (state.measure, MEASURE_END)
+        state.part.holds.append(Hold(place, 0.0, fermata_share(fermata)))
 
 
 def _moved(state: PartState, element: Element) -> Place:
@@ -179,8 +198,8 @@ def _metronome(state: PartState, sign: Element, place: Place) -> None:
         state.log.add("bad_tempo", state.where(sign), "a metronome mark without a number was left out")
 
 
-def _words(state: PartState, element: Element, text: str, place: Place, sound: Element | None) -> None:
-    """Read words: jumps that no sound says, mutes, gradual dynamics; all are kept as text."""
+def _words(state: PartState, text: str, place: Place, sound: Element | None) -> None:
+    """Read words: jumps that no sound says, mutes, dynamics, changes of tempo; all are kept as text."""
     lower = text.lower()
     if not _jumps(sound):
         if tables.DA_CAPO.match(text):
@@ -199,9 +218,47 @@ def _words(state: PartState, element: Element, text: str, place: Place, sound: E
         state.part.hairpins.append(Hairpin(place, None, 1))
     elif tables.DIMINUENDO.match(lower):
         state.part.hairpins.append(Hairpin(place, None, -1))
-    if tables.TEMPO_CHANGES.search(lower) and not (sound and sound.attribute("tempo")):
-        state.tell(element, f"“{text[:40]}” (the tempo stays)")
+    if not (sound and sound.attribute("tempo")):
+        change = _tempo_words(lower, place)
+        if change is not None:
+            state.part.tempo_words.append(change)
     _add_words(state, "text", text, place)
+
+
+def _tempo_words(text: str, place: Place) -> TempoShift | TempoReturn | None:
+    """Return what words in small letters say of the tempo."""
+    degree = 2 if tables.MUCH.search(text) else 0 if tables.LITTLE.search(text) else 1
+    for words, ratios, gradual in (
+        (tables.SLOWER, tables.SLOWER_RATIOS, True),
+        (tables.HELD_BACK, tables.SLOWER_RATIOS, False),
+        (tables.FASTER, tables.FASTER_RATIOS, True),
+    ):
+        if words.search(text):
+            return None if tables.NO_CHANGE.search(text) else TempoShift(place, ratios[degree], gradual)
+    if tables.TEMPO_PRIMO.search(text):
+        return TempoReturn(place, to_first=True)
+    return TempoReturn(place, to_first=False) if tables.A_TEMPO.search(text) else None
+
+
+def _dashes(state: PartState, dashes: list[Element], place: Place, *, begins: bool) -> None:
+    """Read the dashes, or the line, that say how far the words for a change of tempo reach."""
+    changes = state.part.tempo_words
+    for sign in dashes:
+        number = sign.attribute("number") or "1"
+        if sign.attribute("type") == "start":
+            state.dashed.pop(number, None)
+            if begins and changes and changes[-1].place == place:
+                state.dashed[number] = len(changes) - 1
+        elif sign.attribute("type") == "stop" and number in state.dashed:
+            index = state.dashed.pop(number)
+            change = changes[index]
+            if isinstance(change, TempoShift) and change.place < place:
+                changes[index] = replace(change, end=place)
+
+
+def fermata_share(sign: Element) -> float:
+    """Return by which share of its length a fermata makes a note longer."""
+    return tables.FERMATAS.get(sign.text.strip(), tables.FERMATAS["normal"])
 
 
 def _jumps(sound: Element | None) -> bool:

@@ -10,6 +10,29 @@ Place = tuple[int, float]
 
 GraceKind = Literal["", "before", "on"]
 
+OrnamentKind = Literal["trill", "mordent", "turn", "delayed-turn", "tremolo"]
+
+
+@dataclass(frozen=True)
+class Ornament:
+    """A sign for more notes than are written.
+
+    Attributes:
+        kind: What is made of the note.
+        first: The other pitch of a trill or mordent, the first of a turn: MIDI number as it sounds.
+        second: The last other pitch of a turn.
+        other_first: Whether a trill begins with its other pitch.
+        is_long: Whether a mordent goes twice.
+        unit_beats: Quarter notes of each stroke of a tremolo.
+    """
+
+    kind: OrnamentKind
+    first: int = 0
+    second: int = 0
+    other_first: bool = False
+    is_long: bool = False
+    unit_beats: float = 0.0
+
 
 @dataclass(frozen=True)
 class Source:
@@ -50,6 +73,8 @@ class WrittenNote:
         grace: How a grace note takes its time: from what is before it, or from its note; "" if it is none.
         steals: Which share of that note it takes, None if nothing is said.
         times: On which playings of its measure it sounds; none: on all.
+        ornament: What is made of it, None if it is played as it is written.
+        breath: Quarter notes that it ends earlier, for breath or for a pause.
     """
 
     measure: int
@@ -69,6 +94,8 @@ class WrittenNote:
     grace: GraceKind = ""
     steals: float | None = None
     times: frozenset[int] = frozenset()
+    ornament: Ornament | None = None
+    breath: float = 0.0
 
     @property
     def place(self) -> Place:
@@ -102,6 +129,46 @@ class TempoMark:
     bpm: float | None
     ratio: float = 1.0
     times: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True)
+class TempoShift:
+    """A change of tempo by words: to `ratio` times the tempo there.
+
+    Attributes:
+        place: Where it begins.
+        ratio: Below 1 is slower.
+        gradual: Whether it comes little by little; else at once.
+        end: Where the dashes after the words end, None if there are none.
+    """
+
+    place: Place
+    ratio: float
+    gradual: bool = True
+    end: Place | None = None
+
+
+@dataclass(frozen=True)
+class TempoReturn:
+    """Words that lead back to a tempo: to the last one that is said, or to the piece's first."""
+
+    place: Place
+    to_first: bool
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A fermata, or a pause: all parts wait.
+
+    Attributes:
+        place: Where what is held begins.
+        beats: How long that is, quarter notes.
+        added: How many more it lasts.
+    """
+
+    place: Place
+    beats: float
+    added: float
 
 
 @dataclass(frozen=True)
@@ -139,6 +206,8 @@ class WrittenPart:
     dynamics: list[DynamicMark] = field(default_factory=list[DynamicMark])
     hairpins: list[Hairpin] = field(default_factory=list[Hairpin])
     tempos: list[TempoMark] = field(default_factory=list[TempoMark])
+    tempo_words: list[TempoShift | TempoReturn] = field(default_factory=list["TempoShift | TempoReturn"])
+    holds: list[Hold] = field(default_factory=list[Hold])
     keys: list[KeyMark] = field(default_factory=list[KeyMark])
     syllables: list[Syllable] = field(default_factory=list[Syllable])
     words: list[Words] = field(default_factory=list[Words])

@@ -8,17 +8,20 @@ from typing import TYPE_CHECKING
 
 from reina.music.key_signature import MAX_ACCIDENTALS
 from reina.music.musicxml import tables
-from reina.music.musicxml.directions import read_barline, read_direction, read_sound
+from reina.music.musicxml.directions import fermata_share, read_barline, read_direction, read_sound
 from reina.music.musicxml.element import Element, number_of, whole_of
 from reina.music.musicxml.model import (
     GraceKind,
     Hairpin,
+    Hold,
     KeyMark,
+    Ornament,
     Syllable,
     WrittenMeasure,
     WrittenNote,
     WrittenPart,
 )
+from reina.music.musicxml.ornaments import ornament_of
 from reina.music.musicxml.state import MAX_BEATS, PartState, loudness_of, times_of
 
 if TYPE_CHECKING:
@@ -58,6 +61,12 @@ class PartReader(PartState):
         self._last: WrittenNote | None = None
         self._voices: dict[str, list[WrittenNote]] = {}
         self._slurs: dict[str, tuple[str, int, str]] = {}
+        self._fifths: dict[str, int] = {}
+        """The written key of each staff."""
+        self._accidentals: dict[tuple[str, str, int], int] = {}
+        """By how much notes of a staff, step and octave are raised in this measure."""
+        self._waved: set[str] = set()
+        """The voices above which a trill's wavy line goes on."""
 
     def read(self, cell: Cell) -> None:
         """Read the next measure."""
@@ -71,6 +80,7 @@ class PartReader(PartState):
         now.implicit = now.implicit or cell.implicit
         self.cursor = self._onset = furthest = 0.0
         self._last = None
+        self._accidentals.clear()
         for element in cell.element:
             match element.name:
                 case "note":
@@ -151,6 +161,8 @@ class PartReader(PartState):
             if element.first("key-step") is None:
                 self.log.add("bad_key", self.where(element), "a key signature without fifths was left out")
             return
+        if abs(fifths) <= MAX_ACCIDENTALS:
+            self._fifths[element.attribute("number")] = fifths
         sounding = fifths + self._transposition(element.attribute("number")).fifths
         while abs(sounding) > MAX_ACCIDENTALS and abs(fifths) <= MAX_ACCIDENTALS:
             sounding -= 12 if sounding > 0 else -12
@@ -199,6 +211,8 @@ class PartReader(PartState):
             self._onset = self.cursor
         if grace is None and not in_chord:
             self.cursor += duration
+        if grace is None:
+            self._held(element, duration)
         if is_rest or element.first("cue") is not None:
             self._last = None if not in_chord else self._last
             return
@@ -208,6 +222,7 @@ class PartReader(PartState):
         note.in_chord = in_chord and self._last is not None
         self.part.notes.append(note)
         self._notations(element, note)
+        self._wave(element, note)
         if not note.in_chord:
             self._last = note
             self._voices.setdefault(note.voice, []).append(note)
@@ -263,6 +278,7 @@ class PartReader(PartState):
         if alter != round(alter):
             self.log.add("microtone", self.where(element), "a pitch between semitones; the nearest is played")
         staff = element.said("staff")
+        self._accidentals[staff, pitch.said("step").upper(), round(octave)] = round(alter)
         number = round(12 * (octave + 1) + step + alter) + self._transposition(staff).chromatic
         if not 0 <= number <= 127:
             self.log.add(
@@ -270,6 +286,36 @@ class PartReader(PartState):
             )
             return None
         return number
+
+    def _neighbour(self, element: Element, steps: int, alter: int | None) -> int:
+        """Return the pitch so many steps above a note, with an accidental or as measure and key have it."""
+        pitch = element.first("pitch")
+        name = pitch.said("step").upper() if pitch else ""
+        if pitch is None or name not in tables.STEPS:
+            return tables.SNARE
+        staff = element.said("staff")
+        octaves, index = divmod(tables.STEP_NAMES.index(name) + steps, len(tables.STEP_NAMES))
+        step, octave = tables.STEP_NAMES[index], round(pitch.number("octave") or 0.0) + octaves
+        if alter is None:
+            fifths = self._fifths.get(staff, self._fifths.get("", 0))
+            alter = self._accidentals.get((staff, step, octave), key_alter(step, fifths))
+        number = 12 * (octave + 1) + tables.STEPS[step] + alter + self._transposition(staff).chromatic
+        return min(max(number, 0), 127)
+
+    def _held(self, element: Element, duration: float) -> None:
+        """Read the fermata of a note or rest."""
+        for notations in element.all("notations"):
+            for sign in notations.all("fermata"):
+                hold = Hold((self.measure, self._onset), duration, duration * fermata_share(sign))
+                if duration > 0:
+                    self.part.holds.append(hold)
+
+    def _pause(self, note: WrittenNote) -> None:
+        """Read a caesura: the note ends before its end, and all parts wait there."""
+        note.breath = min(tables.CAESURA_BEATS, note.duration / 2)
+        if note.breath > 0 and not note.grace:
+            begin = note.offset + note.duration - note.breath
+            self.part.holds.append(Hold((note.measure, begin), note.breath, tables.CAESURA_BEATS))
 
     def _drum(self, element: Element, instrument: ScoreInstrument) -> int:
         key = instrument.drum_key
@@ -300,15 +346,17 @@ class PartReader(PartState):
                             note.louder += tables.LOUDER.get(sign.name, 0.0)
                             if sign.name in tables.GATES:
                                 gates.add(sign.name)
+                            elif sign.name == "breath-mark":
+                                note.breath = tables.BREATH_BEATS
+                            elif sign.name == "caesura":
+                                self._pause(note)
+                            elif sign.name in tables.BENDS:
+                                self.tell(sign, f"a {sign.name}")
                     case "dynamics":
                         for sign in notation:
                             self.dynamic(sign.name, note.place)
                     case "ornaments":
-                        for sign in notation:
-                            if sign.name not in {"accidental-mark", "other-ornament"}:
-                                self.tell(sign, sign.name.replace("-", " "))
-                    case "fermata":
-                        self.tell(notation, "a fermata")
+                        self._ornaments(element, notation, note)
                     case "glissando" | "slide" | "arpeggiate":
                         self.tell(notation, f"a{'n' if notation.name[0] == 'a' else ''} {notation.name}")
                     case _:
@@ -317,6 +365,31 @@ class PartReader(PartState):
             gates -= {"staccato", "tenuto"}
             note.gate = tables.PORTATO
         note.gate = min([note.gate, *(tables.GATES[name] for name in gates)])
+
+    def _ornaments(self, element: Element, signs: Element, note: WrittenNote) -> None:
+        ornament, left = ornament_of(
+            signs, element.said("type"), lambda steps, alter: self._neighbour(element, steps, alter)
+        )
+        if ornament is not None and (note.grace or (note.source.is_drums and ornament.kind != "tremolo")):
+            ornament, left = None, [*signs]
+        note.ornament = note.ornament or ornament
+        for sign in left:
+            self.tell(sign, f"a {sign.name.replace('-', ' ')}")
+
+    def _wave(self, element: Element, note: WrittenNote) -> None:
+        """Have a note trill above which a trill's line goes on from a note before it."""
+        lines = [
+            line.attribute("type")
+            for notations in element.all("notations")
+            for signs in notations.all("ornaments")
+            for line in signs.all("wavy-line")
+        ]
+        if note.voice in self._waved and not (note.ornament or note.grace or note.source.is_drums):
+            note.ornament = Ornament("trill", self._neighbour(element, 1, None))
+        if "start" in lines:
+            self._waved.add(note.voice)
+        if "stop" in lines:
+            self._waved.discard(note.voice)
 
     def _slur(self, element: Element, note: WrittenNote) -> None:
         slurs = [slur for notations in element.all("notations") for slur in notations.all("slur")]
@@ -374,6 +447,12 @@ def _grace(grace: Element | None, duration: float) -> tuple[GraceKind, float | N
             return kind, min(percent, 90.0) / 100
     is_long = grace.attribute("slash") != "yes" and duration >= tables.NOTE_TYPES["eighth"]
     return "on" if is_long else "before", None
+
+
+def key_alter(step: str, fifths: int) -> int:
+    """Return by how much a key raises a step: 1 for F of G major, -1 for B of F major."""
+    place = "FCGDAEB".index(step)
+    return (fifths > place) - (fifths < place - 6)
 
 
 def _sum(text: str) -> int:

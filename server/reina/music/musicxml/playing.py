@@ -5,17 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from reina.music.musicxml.ornaments import played_out
 from reina.music.musicxml.tables import GRACE_BEATS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.music.musicxml.model import Source, WrittenNote
+    from reina.music.limits import Limits
+    from reina.music.musicxml.model import Ornament, Source, WrittenNote
     from reina.music.musicxml.timeline import Timeline
+    from reina.music.tempo import TempoMap
 
 TIED_BEATS = 0.02
 """A note that is tied to one before it begins where that ends, but for the rounding of tuplets."""
 NO_ROOM_BEATS = 1e-3
+BREATH_LEAVES = 2 / 3
+"""So much of a note sounds before a breath at least."""
 
 
 @dataclass(slots=True)
@@ -31,6 +36,9 @@ class PlayedNote:
     slurred: bool
     source: Source
     line: int
+    ornament: Ornament | None = None
+    ornament_from: float = 0.0
+    """Where its ornament begins, if it has one: within it where that stands at a note that is tied to it."""
 
 
 @dataclass
@@ -44,7 +52,11 @@ class _Voice:
 
 
 def play_notes(
-    notes: Sequence[WrittenNote], velocities: Sequence[float], timeline: Timeline
+    notes: Sequence[WrittenNote],
+    velocities: Sequence[float],
+    timeline: Timeline,
+    tempo_map: TempoMap,
+    limits: Limits,
 ) -> list[PlayedNote]:
     """Play a part's notes.
 
@@ -52,6 +64,11 @@ def play_notes(
         notes: As they are written.
         velocities: Of each.
         timeline: When which measure is played.
+        tempo_map: How fast; trills are as fast at any tempo.
+        limits: How many notes may come of it.
+
+    Raises:
+        ScoreLimitError: If ornaments make more notes than that.
     """
     by_measure: dict[int, list[tuple[WrittenNote, float]]] = {}
     for note, velocity in zip(notes, velocities, strict=True):
@@ -59,12 +76,16 @@ def play_notes(
     for of_measure in by_measure.values():
         of_measure.sort(key=lambda one: one[0].offset)
     player = _NotePlayer()
-    for played in timeline.played:
-        for note, velocity in by_measure.get(played.measure, ()):
-            if not note.times or played.playing in note.times:
-                player.play(note, velocity, played.begin + note.offset)
+    for measure in timeline.played:
+        for note, velocity in by_measure.get(measure.measure, ()):
+            if not note.times or measure.playing in note.times:
+                player.play(note, velocity, measure.begin + note.offset)
     player.finish(timeline.end)
-    return player.played
+    played: list[PlayedNote] = []
+    for note in player.played:
+        played.extend(played_out(note, tempo_map))
+        limits.check("notes", len(played), what="number of notes, those of trills and tremolos among them")
+    return played
 
 
 class _NotePlayer:
@@ -87,8 +108,8 @@ class _NotePlayer:
         end = onset + note.duration
         begin = onset + voice.shift
         sounding = PlayedNote(
-            begin, begin + (end - begin) * note.gate, end, note.pitch, velocity, note.slurred, note.source,
-            note.line,
+            begin, _until(note, begin, end), end, note.pitch, velocity, note.slurred, note.source, note.line,
+            note.ornament, begin,
         )  # fmt: skip
         self.played.append(sounding)
         if note.tie_start:
@@ -110,7 +131,9 @@ class _NotePlayer:
         for before in tied:
             if abs(before.written_end - onset) < TIED_BEATS:
                 before.written_end = onset + note.duration
-                before.end = onset + note.duration * note.gate
+                before.end = _until(note, onset, onset + note.duration)
+                if before.ornament is None and note.ornament is not None:
+                    before.ornament, before.ornament_from = note.ornament, onset
                 if not note.tie_start:
                     tied.remove(before)
                 if note.in_chord:
@@ -161,3 +184,11 @@ class _NotePlayer:
         for one in voice.last:
             one.end = min(one.end, begin)
         return 0.0
+
+
+def _until(note: WrittenNote, begin: float, end: float) -> float:
+    """Where a note ends, of which `begin` to `end` is written: by its articulation, and for breath."""
+    until = begin + (end - begin) * note.gate
+    if note.breath:
+        until = min(until, max(end - note.breath, begin + (end - begin) * BREATH_LEAVES))
+    return until

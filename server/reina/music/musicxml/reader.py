@@ -66,11 +66,11 @@ def read_musicxml(data: bytes, *, title: str, limits: Limits) -> Score:
     timeline = Timeline(measures, playing_order(measures, most=limits.bars, log=log), log)
     limits.check("beats", timeline.end, what="length in beats")
     _check_played(parts, timeline, limits)
-    tempo_map = read_tempo_map(parts, timeline)
+    tempo_map = read_tempo_map(parts, timeline, limits)
     pieces = [
         piece
         for reader, part in zip(readers.values(), parts, strict=True)
-        for piece in _pieces(reader.listed.name, _played(part, timeline))
+        for piece in _pieces(reader.listed.name, _played(part, timeline, tempo_map, limits))
     ]
     if not pieces:
         raise ScoreError("no note of the document is played", location=f"{len(measures)} measures")
@@ -114,8 +114,9 @@ def _pieces(name: str, notes: Sequence[PlayedNote]) -> list[_Piece]:
     ]
 
 
-def _played(part: WrittenPart, timeline: Timeline) -> list[PlayedNote]:
-    return play_notes(part.notes, velocities_of(part, timeline.written_beats), timeline)
+def _played(part: WrittenPart, timeline: Timeline, tempo_map: TempoMap, limits: Limits) -> list[PlayedNote]:
+    velocities = velocities_of(part, timeline.written_beats)
+    return play_notes(part.notes, velocities, timeline, tempo_map, limits)
 
 
 def _check_played(parts: Sequence[WrittenPart], timeline: Timeline, limits: Limits) -> None:

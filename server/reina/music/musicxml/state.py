@@ -41,6 +41,8 @@ class PartState:
         """Whether a mute is in."""
         self.wedges: dict[str, tuple[Place, int]] = {}
         """Hairpins that have begun, by number: where, and 1 for a crescendo, -1 for a diminuendo."""
+        self.dashed: dict[str, int] = {}
+        """Dashes after words for a change of tempo, by number: which of the part's changes that is."""
         self.measure_place = ""
         self._instruments = dict(listed.instruments)
         self._default = next(iter(self._instruments), "")

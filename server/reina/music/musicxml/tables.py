@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+STEP_NAMES = "CDEFGAB"
 STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 
 NOTE_TYPES = {
@@ -57,6 +58,9 @@ LOUDER = {"accent": 15 / 127, "strong-accent": 25 / 127, "soft-accent": 8 / 127,
           "unstress": -10 / 127}  # fmt: skip
 """What an articulation adds to a note's velocity."""
 
+BENDS = frozenset({"scoop", "plop", "doit", "falloff"})
+"""Articulations that bend a pitch."""
+
 GRACE_BEATS = 0.125
 """How long a short grace note lasts."""
 
@@ -72,10 +76,35 @@ MUTE_OUT = re.compile(
 
 CRESCENDO = re.compile(r"^(cresc|crescendo)\b")
 DIMINUENDO = re.compile(r"^(dim|dimin|diminuendo|decresc|decrescendo)\b")
-TEMPO_CHANGES = re.compile(
-    r"\b(rit|ritard|ritardando|rall|rallentando|riten|ritenuto|accel|accelerando|string|stringendo|allarg|"
-    r"allargando|calando|morendo|smorz|smorzando|slentando)\b"
+SLOWER = re.compile(
+    r"\b(rit|ritard|ritardando|rall|rallent|rallentando|allarg|allargando|slarg|slargando|calando|morendo|"
+    r"smorz|smorzando|slentando)\b"
 )
+HELD_BACK = re.compile(r"\b(riten|ritenuto)\b")
+FASTER = re.compile(r"\b(accel|accelerando|string(?=\.)|stringendo|affrett|affrettando)\b")
+NO_CHANGE = re.compile(r"\b(non|senza|no|without|ohne|sans)\b")
+"""Words that say that no such change is made."""
+MUCH = re.compile(r"\b(molto|assai)\b")
+LITTLE = re.compile(r"\b(poco|un poco|slight)\b(?! a poco)(?<!a poco)")
+SLOWER_RATIOS = 0.85, 0.75, 0.6
+"""What a *poco rit.*, a *rit.* and a *molto rit.* end with, as a share of the tempo before."""
+FASTER_RATIOS = 1.12, 1.25, 1.5
+A_TEMPO = re.compile(r"\b(a tempo|in tempo|tempo ordinario)\b")
+TEMPO_PRIMO = re.compile(r"\btempo (primo|i|1|1mo|imo)\b")
+
+FERMATAS = {
+    "": 0.5, "normal": 0.5, "angled": 0.25, "double-angled": 0.125, "square": 1.0, "double-square": 1.5,
+}  # fmt: skip
+"""How much longer each sign makes a note, as a share of its length."""
+BREATH_BEATS = 0.25
+"""How much earlier a note ends before a breath; of a short note a third."""
+CAESURA_BEATS = 0.5
+"""How much earlier it ends before a caesura, and by how much that silence is longer than it is written."""
+
+ACCIDENTALS = {
+    "sharp": 1, "flat": -1, "natural": 0, "double-sharp": 2, "sharp-sharp": 2, "flat-flat": -2,
+    "natural-sharp": 1, "natural-flat": -1,
+}  # fmt: skip
 
 DA_CAPO = re.compile(r"\s*(d\. ?c\b|dc\b|da capo\b)", re.IGNORECASE)
 DAL_SEGNO = re.compile(r"\s*(d\. ?s\b|ds\b|dal segno\b)", re.IGNORECASE)

@@ -62,6 +62,30 @@ class Timeline:
         """Return a place as quarter notes from the beginning, as if nothing was repeated."""
         return self._written[place[0]] + place[1]
 
+    def place_at(self, beats: float) -> Place:
+        """Return the place so many quarter notes from the beginning, as if nothing was repeated."""
+        measure = max(bisect_right(self._written, beats + SAME_BEAT) - 1, 0)
+        return measure, max(beats - self._written[measure], 0.0)
+
+    @property
+    def written_end(self) -> float:
+        """How many quarter notes are written."""
+        return self._written[-1] + self.lengths[-1]
+
+    def section_end(self, place: Place, until: float) -> float | None:
+        """Return where, as written, playing may next go on elsewhere: at a repeat, a jump or Fine.
+
+        None if that is nowhere in the measures that begin before `until`, quarter notes from the beginning.
+        """
+        for number in range(place[0], len(self.measures)):
+            measure = self.measures[number]
+            if self._written[number] >= until:
+                return None
+            jumps = measure.backward or measure.da_capo or measure.dal_segno is not None or measure.fine
+            if jumps or measure.ending_ends:
+                return self._written[number] + self.lengths[number]
+        return None
+
     def unroll(
         self, marks: Iterable[T], place_of: Callable[[T], Place], *, holds: bool
     ) -> list[tuple[float, PlayedMeasure, T]]:

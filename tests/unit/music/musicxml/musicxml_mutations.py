@@ -88,12 +88,24 @@ def musicxml_seeds() -> tuple[bytes, ...]:
     )  # fmt: skip
     hit = '<note><unpitched/><duration>12</duration><instrument id="P2-I1"/></note>'
     drums = measures(attributes("3/4") + hit * 3, hit * 2 + note("r"))
+    ornament = "<notations><ornaments>{}</ornaments></notations>"
+    shaped = measures(
+        attributes(fifths=1) + words("accel.") + note("B4", 2, inner=ornament.format("<trill-mark/>"))
+        + note("C5", inner=ornament.format("<turn/><accidental-mark>sharp</accidental-mark>"))
+        + note("C5", inner=ornament.format('<tremolo type="single">2</tremolo>')),
+        "<direction><direction-type><words>rit.</words></direction-type><direction-type>"
+        '<dashes type="start"/></direction-type></direction>'
+        + note("D5", 2, inner=ornament.format("<inverted-mordent/>"))
+        + direction('<dashes type="stop"/>') + note("G4", 2, inner="<notations><fermata/></notations>"),
+        words("a tempo") + note("A4", 2, inner=articulations("caesura", "breath-mark")) + note("r", 2),
+        '<barline location="right"><fermata/><repeat direction="backward"/></barline>',
+    )  # fmt: skip
     two = document(melody, drums, parts_listed=listed("P1") + listed("P2", "Drums", 1))
     timewise = (
         f'<?xml version="1.0"?><score-timewise><part-list>{listed("P1")}</part-list><measure number="1">'
         f'<part id="P1">{attributes()}{note("C4", 2)}{note("D4", 2)}</part></measure></score-timewise>'
     ).encode()
-    return two, document(melody), timewise, compressed(timewise), document(drums)
+    return two, document(melody), document(shaped), timewise, compressed(timewise), document(drums)
 
 
 def mutate_musicxml(data: bytes, rng: random.Random) -> bytes:

@@ -13,7 +13,6 @@ from tests.unit.music.musicxml.musicxml_text import (
     listed,
     measure,
     measures,
-    notations,
     note,
     slur,
     tempo,
@@ -231,23 +230,6 @@ def test_tempos_by_sound_by_metronome_and_by_note_values() -> None:
     )
     assert [round(t.beats_per_minute, 6) for t in score.tempo_map.tempos] == [45, 90, 60]
     assert score.duration_s == pytest.approx(4 * 60 / 45 + 4 * 60 / 90 + 4 * 60 / 60)
-
-
-def test_a_ritardando_is_left_out_and_told() -> None:
-    score = read(document(measures(attributes() + tempo(120) + words("molto rit.") + note("C4", 4))))
-    assert sounding(score) == [(60, 0.0, 2.0)]
-    assert [(w.kind, w.message) for w in score.warnings] == [
-        ("not_played", "“molto rit.” (the tempo stays): not played")
-    ]
-
-
-def test_ornaments_and_fermatas_are_told_once_each() -> None:
-    trill = notations("<ornaments><trill-mark/></ornaments><fermata/>")
-    score = read(document(measures(attributes() + note("C4", 2, inner=trill) * 2)))
-    assert sorted(warning.message for warning in score.warnings) == [
-        "a fermata: not played, and 1 more",
-        "trill mark: not played, and 1 more",
-    ]
 
 
 def test_drums_by_midi_unpitched_and_by_name() -> None:
