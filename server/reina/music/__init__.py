@@ -6,6 +6,7 @@ Usable without a server: ``read_score(path.read_bytes(), filename=path.name)``.
 from reina.music.clock import ClockError, ClockState, MusicClock, Span
 from reina.music.controls import Control, ControlKind
 from reina.music.document.schema import score_schema
+from reina.music.document.writer import score_document
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.music.events import Listener, NoteEvent, NoteEventEmitter
 from reina.music.findings import Finding, findings_of
@@ -52,5 +53,6 @@ __all__ = [
     "from_second_zero",
     "read_score",
     "retimed",
+    "score_document",
     "score_schema",
 ]

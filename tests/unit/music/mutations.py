@@ -75,7 +75,19 @@ def json_seeds() -> tuple[bytes, ...]:
                 "format": "reina-score",
                 "tempos": [{"beat": 0, "bpm": 90}],
                 "pickup_beats": 1,
-                "parts": [{"name": "T", "program": 56, "notes": [{"beat": 0, "duration": 1, "pitch": "C4"}]}],
+                "lyrics": [{"beat": 0, "text": "la "}],
+                "markers": [{"beat": 1, "text": "A"}],
+                "parts": [
+                    {
+                        "name": "T",
+                        "program": 56,
+                        "slurs": [{"beat": 0, "end_beat": 1}],
+                        "notes": [
+                            {"beat": 0, "duration": 1, "pitch": "C4", "tongued": True},
+                            {"beat": 1, "duration": 1, "pitch": 62},
+                        ],
+                    }
+                ],
             }
         ).encode(),
         json.dumps(

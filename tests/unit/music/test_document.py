@@ -7,7 +7,15 @@ from typing import Any
 import pytest
 
 import reina.music
-from reina.music import KeySignature, Score, ScoreError, ScoreLimitError, read_score, score_schema
+from reina.music import (
+    KeySignature,
+    Score,
+    ScoreError,
+    ScoreLimitError,
+    read_score,
+    score_document,
+    score_schema,
+)
 from reina.music.document.schema import schema_text
 
 
@@ -198,6 +206,60 @@ def part(**changed: Any) -> dict[str, Any]:
     return own(parts=[{"notes": [{"beat": 0, "duration": 1, "pitch": 60, **changed}]}])
 
 
+def slurred(*slurs: Any, **changed: Any) -> dict[str, Any]:
+    """Four quarter notes under slurs; `changed` are fields of the third."""
+    notes: list[dict[str, Any]] = [{"beat": beat, "duration": 1, "pitch": 60 + beat} for beat in range(4)]
+    notes[2] |= changed
+    return own(parts=[{"notes": notes, "slurs": list(slurs)}])
+
+
+def test_slurs_lead_the_tongue_and_a_note_may_say_otherwise():
+    slur = {"beat": 0, "end_beat": 2}
+    assert read(slurred(slur)).notes.tongued.tolist() == [1, 0, 0, 1]
+    assert read(slurred(slur, tongued=True)).notes.tongued.tolist() == [1, 0, 1, 1]
+    assert read(slurred()).notes.tongued.tolist() == [1, 1, 1, 1]
+    unsaid = slurred(tongued=False)
+    del unsaid["parts"][0]["slurs"]
+    assert read(unsaid).notes.tongued.tolist() == [-1, -1, 0, -1]
+
+
+def test_lyrics_markers_and_words_have_their_times():
+    document = own(
+        lyrics=[{"beat": 0, "text": "Glo"}, {"beat": 2, "text": "ria "}],
+        markers=[{"beat": 2, "text": "B"}],
+        words=[{"beat": 1, "text": "dolce"}],
+    )
+    assert [(text.kind, text.onset_s, text.onset_beats, text.text) for text in read(document).texts] == [
+        ("lyric", 0.0, 0.0, "Glo"),
+        ("text", 1.0, 1.0, "dolce"),
+        ("lyric", 2.0, 2.0, "ria "),
+        ("marker", 2.0, 2.0, "B"),
+    ]
+
+
+def test_a_score_that_is_written_is_read_again_as_it_was():
+    document = own(
+        pickup_beats=1,
+        key_signatures=[{"beat": 0, "fifths": -2}, {"beat": 4, "fifths": 0, "mode": "minor"}],
+        lyrics=[{"beat": 0, "text": "Glo"}, {"beat": 2, "text": "ria\n"}],
+        markers=[{"beat": 2, "text": "B"}],
+        words=[{"beat": 1, "text": "dolce"}],
+    )
+    document["parts"][0] |= {"slurs": [{"beat": 0, "end_beat": 2}]}
+    score = read(document)
+    again = read(score_document(score))
+    assert {name: column.tolist() for name, column in vars(again.notes).items()} == {
+        name: column.tolist() for name, column in vars(score.notes).items()
+    }
+    assert again.texts == score.texts
+    assert again.parts == score.parts
+    assert again.key_signatures == score.key_signatures
+    assert again.tempo_map.tempos == score.tempo_map.tempos
+    assert again.metre_map.bar_lines(9).tolist() == score.metre_map.bar_lines(9).tolist()
+    assert again.controls == score.controls
+    assert score_document(again) == score_document(score)
+
+
 @pytest.mark.parametrize(
     ("document", "where", "what"),
     [
@@ -224,6 +286,14 @@ def part(**changed: Any) -> dict[str, Any]:
         (part(beat="x"), "parts/0/notes/0/beat", "valid number"),
         (part(velocity=1.5), "parts/0/notes/0/velocity", "less than or equal to 1"),
         (part(beat=1e300), "parts/0/notes/0/beat", "less than or equal to"),
+        (part(tongued="perhaps"), "parts/0/notes/0/tongued", "valid boolean, unable to interpret"),
+        (slurred({"beat": 2, "end_beat": 2}), "parts/0/slurs/0/end_beat", "ends after it begins"),
+        (slurred({"beat": 2}), "parts/0/slurs/0/end_beat", "required"),
+        (slurred({"beat": 0, "end_beat": 0.5}), "parts/0/slurs/0", "no note begins after beat 0"),
+        (own(lyrics=[{"beat": 0, "text": ""}]), "lyrics/0/text", "at least 1 character"),
+        (own(words=[{"beat": -1, "text": "dolce"}]), "words/0/beat", "greater than or equal to 0"),
+        (own(markers=[{"beat": 0}]), "markers/0/text", "required"),
+        (own(markers="A"), "markers", "valid list"),
         (tone(tracks=[]), "/", "no note"),
         (tone(tracks=None), "tracks", "is null; a list of tracks is needed"),
         (tone(tracks={"notes": []}), "tracks", "is an object; a list of tracks is needed"),

@@ -12,10 +12,11 @@ from reina.music.gm import PROGRAM_NAMES
 from reina.music.key_signature import KeySignature
 from reina.music.limits import Limits
 from reina.music.metre import MetreMap
-from reina.music.notes import NO_PROGRAM, Notes
+from reina.music.notes import NO_PROGRAM, UNSAID, Notes
 from reina.music.score import Part, Score
 from reina.music.taps import TAP_S, lengthen_taps
 from reina.music.tempo import TempoMap
+from reina.music.texts import ScoreText
 from reina.music.warnings import WarningLog
 
 
@@ -26,6 +27,7 @@ class PartNotes:
     Attributes:
         path: Where in the document it stands.
         note_index: Where each note stands in the part's list.
+        tongued: As `Notes.tongued`, None where nothing says it.
     """
 
     path: str
@@ -41,6 +43,7 @@ class PartNotes:
     velocity: FloatArray
     controls: tuple[Control, ...]
     note_index: IntArray
+    tongued: IntArray | None = None
 
 
 def assemble(
@@ -50,6 +53,7 @@ def assemble(
     metre_map: MetreMap,
     *,
     key_signatures: tuple[KeySignature, ...] = (),
+    texts: tuple[ScoreText, ...] = (),
     limits: Limits,
     log: WarningLog,
 ) -> Score:
@@ -102,6 +106,9 @@ def assemble(
         duration_beats=end_beats - onset_beats,
         sounding_pitch=np.concatenate([part.pitch for part in played]),
         velocity=np.concatenate([part.velocity for part in played]),
+        tongued=np.concatenate(
+            [np.full(len(part.pitch), UNSAID) if part.tongued is None else part.tongued for part in played]
+        ),
         program=np.array([NO_PROGRAM if part.program is None else part.program for part in played])[path],
     )
     return Score(
@@ -114,6 +121,7 @@ def assemble(
         warnings=log.warnings(),
         duration_s=float(np.max(notes.end_s)),
         key_signatures=key_signatures,
+        texts=texts,
     )
 
 

@@ -6,7 +6,16 @@ What may be missing may be null as well, which says the same.
 import re
 from typing import Annotated, Literal, TypeVar
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, FailFast, Field, WithJsonSchema
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    FailFast,
+    Field,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+)
 
 _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "##": 2, "x": 2, "b": -1, "♭": -1, "bb": -2}
@@ -14,6 +23,9 @@ _NAME = re.compile(r"([A-Ga-g])(##|#|♯|x|bb|b|♭|)(-?\d{1,2})")
 
 MAX_CHANGES = 100_000
 """Of tempos, and of metres."""
+
+MAX_TEXTS = 20_000
+"""Of lyrics, of markers, of words."""
 
 DEFAULT_VELOCITY = 0.7
 """Of notes that say none."""
@@ -92,6 +104,33 @@ class NoteEntry(_Model):
         default=DEFAULT_VELOCITY, ge=0, le=1, description="Loudness of the attack."
     )
 
+    tongued: bool | None = Field(
+        default=None,
+        description="Whether it is begun anew, or led to; what the part's slurs say where nothing is said.",
+    )
+
+
+class SlurEntry(_Model):
+    """A slur: what begins after its own beginning is led to and not tongued."""
+
+    beat: Beat = Field(description="Onset of its first note in quarter notes from the beginning.")
+    end_beat: Beat = Field(description="Onset of its last note.")
+
+    @field_validator("end_beat")
+    @classmethod
+    def _ends_later(cls, end_beat: float, info: ValidationInfo) -> float:
+        beat = info.data.get("beat")
+        if beat is not None and end_beat <= beat:
+            raise ValueError(f"a slur ends after it begins, which it does at beat {beat:g}")
+        return end_beat
+
+
+class TextEntry(_Model):
+    """A text at a beat."""
+
+    beat: Beat = Field(description="Where, in quarter notes from the beginning.")
+    text: str = Field(min_length=1, max_length=500)
+
 
 class ControllerEntry(_Model):
     """A controller's value from a beat on."""
@@ -116,6 +155,10 @@ class PartEntry(_Model):
         description="Semitones from the pitches written here to those that sound; -2 for a part in B flat.",
     )
     notes: Listed[NoteEntry] = Field(default_factory=list[NoteEntry])
+    slurs: Listed[SlurEntry] = Field(
+        default=None,
+        description="Its slurs; where they are given, even none, every other note is tongued.",
+    )
     controllers: Listed[ControllerEntry] = Field(default_factory=list[ControllerEntry])
 
 
@@ -142,5 +185,18 @@ class ScoreDocument(_Model):
     )
     pickup_beats: Beat | None = Field(
         default=0.0, description="Length of an incomplete first bar in quarter notes."
+    )
+    lyrics: Listed[TextEntry] = Field(
+        default_factory=list[TextEntry],
+        max_length=MAX_TEXTS,
+        description="Syllables: a space stands between words, a line feed ends a line, two end a verse.",
+    )
+    markers: Listed[TextEntry] = Field(
+        default_factory=list[TextEntry],
+        max_length=MAX_TEXTS,
+        description="Rehearsal marks, names of sections.",
+    )
+    words: Listed[TextEntry] = Field(
+        default_factory=list[TextEntry], max_length=MAX_TEXTS, description="Any other words."
     )
     parts: list[PartEntry] = Field(min_length=1)

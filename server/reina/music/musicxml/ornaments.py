@@ -13,7 +13,7 @@ from reina.music.musicxml.model import Ornament
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from reina.music.musicxml.playing import PlayedNote
+    from reina.music.musicxml.played_note import PlayedNote
     from reina.music.tempo import TempoMap
 
 STROKE_S = 0.085

@@ -6,13 +6,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from reina.music.musicxml.ornaments import played_out
+from reina.music.musicxml.played_note import PlayedNote
 from reina.music.musicxml.tables import GRACE_BEATS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.music.limits import Limits
-    from reina.music.musicxml.model import Ornament, Source, WrittenNote
+    from reina.music.musicxml.model import Source, WrittenNote
     from reina.music.musicxml.timeline import Timeline
     from reina.music.tempo import TempoMap
 
@@ -21,24 +22,6 @@ TIED_BEATS = 0.02
 NO_ROOM_BEATS = 1e-3
 BREATH_LEAVES = 2 / 3
 """So much of a note sounds before a breath at least."""
-
-
-@dataclass(slots=True)
-class PlayedNote:
-    """One note that sounds: onset and end in quarter notes from the beginning."""
-
-    onset: float
-    end: float
-    written_end: float
-    """Where it would end without articulation: where what it is tied to begins."""
-    pitch: int
-    velocity: float
-    slurred: bool
-    source: Source
-    line: int
-    ornament: Ornament | None = None
-    ornament_from: float = 0.0
-    """Where its ornament begins, if it has one: within it where that stands at a note that is tied to it."""
 
 
 @dataclass

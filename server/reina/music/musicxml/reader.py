@@ -18,7 +18,7 @@ from reina.music.musicxml.dynamics import velocities_of
 from reina.music.musicxml.instruments import score_part
 from reina.music.musicxml.navigation import playing_order
 from reina.music.musicxml.part_reader import PartReader
-from reina.music.musicxml.playing import PlayedNote, play_notes
+from reina.music.musicxml.playing import play_notes
 from reina.music.musicxml.tempos import read_tempo_map
 from reina.music.musicxml.texts import read_texts
 from reina.music.musicxml.timeline import Timeline
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from reina.music.limits import Limits
     from reina.music.metre import MetreMap
     from reina.music.musicxml.model import Source, WrittenMeasure, WrittenPart
+    from reina.music.musicxml.played_note import PlayedNote
     from reina.music.tempo import TempoMap
 
 LONGEST_TITLE = 200

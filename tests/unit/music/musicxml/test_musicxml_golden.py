@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import numpy as np
 from tests.unit.music.musicxml.musicxml_text import (
     B_FLAT,
     articulations,
@@ -25,7 +27,7 @@ from tests.unit.music.musicxml.musicxml_text import (
     words,
 )
 
-from reina.music import Score, read_score
+from reina.music import Score, read_score, score_document
 
 GOLDEN = Path(__file__).with_name("march_as_played.txt")
 
@@ -134,3 +136,12 @@ def as_text(score: Score) -> str:
 def test_a_march_is_played_as_it_was() -> None:
     """What is written down beside was looked through by hand; write it anew with ``as_text``."""
     assert as_text(read_score(march(), filename="March.musicxml")) == GOLDEN.read_text(encoding="utf-8")
+
+
+def test_the_march_is_the_same_as_a_document_of_our_own() -> None:
+    score = read_score(march())
+    again = read_score(json.dumps(score_document(score)).encode())
+    for name in ("part", "onset_s", "duration_s", "onset_beats", "sounding_pitch", "velocity", "tongued"):
+        assert np.allclose(getattr(again.notes, name), getattr(score.notes, name), atol=1e-9), name
+    texts = [sorted((text.onset_beats, text.kind, text.text) for text in one.texts) for one in (score, again)]
+    assert texts[0] == texts[1]
