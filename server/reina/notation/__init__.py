@@ -5,6 +5,7 @@ Usable without a server: ``keys_of(score)``, ``spell(pitches, onset_beats, keys)
 """
 
 from reina.notation.accidentals import Accidentals
+from reina.notation.bars import Bar
 from reina.notation.keys import Key, key_at, keys_of
 from reina.notation.measures import Entry, Measure
 from reina.notation.part import WrittenPart, write_part
@@ -13,6 +14,7 @@ from reina.notation.tempo_marks import TempoMark
 
 __all__ = [
     "Accidentals",
+    "Bar",
     "Entry",
     "Key",
     "Measure",

@@ -6,6 +6,10 @@ from reina.protocol.model import WireModel
 from reina.protocol.resources import MusicKey
 
 Accidental = Literal["flat", "natural", "sharp"]
+Limb = Literal["right_hand", "left_hand", "right_foot", "left_foot"]
+Voice = Literal["hands", "feet"]
+HeadShape = Literal["plain", "cross", "circled_cross", "diamond", "triangle", "slashed"]
+HeadMark = Literal["accent", "open", "half_open", "closed", "choke"]
 
 
 class PartPitch(WireModel):
@@ -32,6 +36,27 @@ class PartNote(WireModel):
     """The valves that are down, ascending; null where it cannot be played."""
     usual_valves: list[int] | None
     reason: str
+    piece: str | None = None
+    """Of a drum part what is struck: `snare`, `hi_hat`."""
+    limb: Limb | None = None
+    """And with what."""
+
+
+class PartHead(WireModel):
+    """One of the hits that stand above one another in a drum part."""
+
+    note: int
+    """Its place in `notes`."""
+    letter: Literal["A", "B", "C", "D", "E", "F", "G"]
+    """Where it stands, as on a treble staff: E4 is the lowest line."""
+    octave: int
+    shape: HeadShape
+    mark: HeadMark | None
+    """The sign at it."""
+    is_ghost: bool
+    """Whether it stands in brackets."""
+    hand: Literal["R", "L"] | None
+    """The letter beneath it; null for a foot."""
 
 
 class PartGrace(WireModel):
@@ -41,6 +66,8 @@ class PartGrace(WireModel):
     """Its place in `notes`."""
     written: PartPitch
     sounding: PartPitch
+    head: PartHead | None = None
+    """Of a drum part how it is drawn."""
 
 
 class PartEntry(WireModel):
@@ -72,6 +99,10 @@ class PartEntry(WireModel):
     """Before it."""
     trill: int | None
     """A trill with this note of `notes`, which is the upper one."""
+    voice: Voice | None = None
+    """Of a drum part: hands have stems up, feet stems down, and each alone fills the bar; else null."""
+    heads: list[PartHead]
+    """Of a drum part what is struck, from the lowest up; none for a rest, and in other parts."""
 
 
 class PartMeasure(WireModel):
@@ -116,7 +147,7 @@ class WrittenPart(WireModel):
     """A place in the cast, 0 being the first."""
     instrument: str
     instrument_title: str
-    clef: Literal["treble", "bass"]
+    clef: Literal["treble", "bass", "percussion"]
     written_above_sounding: int
     """Semitones from a pitch that sounds to the one that is written."""
     swing: bool

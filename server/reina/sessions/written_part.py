@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,6 @@ from reina.notation import (
     Accidentals,
     Key,
     Measure,
-    TempoMark,
     WrittenPart,
     key_at,
     keys_of,
@@ -25,6 +23,7 @@ from reina.notation import (
 )
 from reina.protocol import written_part as wire
 from reina.protocol.resources import MusicKey
+from reina.sessions.part_measures import SAME_BEAT, TICKS_PER_QUARTER, joined, tempi
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,8 +34,6 @@ if TYPE_CHECKING:
     from reina.sessions.production import Production
 
 PRINTED: dict[int, wire.Accidental] = {-1: "flat", 0: "natural", 1: "sharp"}
-TICKS_PER_QUARTER = 48
-SAME_BEAT = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +98,7 @@ def written_part(production: Production, title: str, player: int) -> wire.Writte
             )
         )
     ]
-    measures = _joined([_measure(score, one, part, sounding, written) for one in part.measures])
+    measures = joined([_measure(score, one, part, sounding, written) for one in part.measures])
     return wire.WrittenPart(
         title=title,
         part_name=score.parts[played.part].name,
@@ -112,7 +109,7 @@ def written_part(production: Production, title: str, player: int) -> wire.Writte
         written_above_sounding=above,
         swing=part.swing,
         keys=music_keys(score, played.transposition, above),
-        tempi=_tempi(part, measures),
+        tempi=tempi([measure.bar for measure in part.measures], part.tempo_marks, measures),
         notes=notes,
         measures=measures,
     )
@@ -178,6 +175,7 @@ def _measure(
                 is_staccato=placed is not None and placed.is_staccato and not entry.tied_from,
                 graces=graces,
                 trill=None if trill is None else trill.upper,
+                heads=[],
             )
         )
     begin, end = (
@@ -202,42 +200,3 @@ def _main(part: WrittenPart, note: int) -> int:
     """Return the note whose pitch and fingering stand for a note of the line: of a trill the lower one."""
     trill = part.trills.get(note)
     return note if trill is None else trill.main
-
-
-def _joined(measures: Sequence[wire.PartMeasure]) -> list[wire.PartMeasure]:
-    """Make one of bars of rest that follow each other, in one metre and one key."""
-    joined: list[wire.PartMeasure] = []
-    for measure in measures:
-        before = joined[-1] if joined else None
-        if before is not None and _is_rest(before) and _is_rest(measure) and _is_alike(before, measure):
-            joined[-1] = before.model_copy(update={"bars": before.bars + 1, "end_s": measure.end_s})
-        else:
-            joined.append(measure)
-    return joined
-
-
-def _is_rest(measure: wire.PartMeasure) -> bool:
-    return all(entry.is_bar_rest for entry in measure.entries) and measure.number > 0
-
-
-def _is_alike(a: wire.PartMeasure, b: wire.PartMeasure) -> bool:
-    of_a, of_b = (
-        (one.numerator, one.denominator, one.ticks, one.written_fifths, one.fifths) for one in (a, b)
-    )
-    return of_a == of_b
-
-
-def _tempi(part: WrittenPart, measures: Sequence[wire.PartMeasure]) -> list[wire.PartTempo]:
-    bar_begins = [measure.bar.begin_beats for measure in part.measures]
-    first_bar = part.measures[0].bar.number
-    numbers = [measure.number for measure in measures]
-
-    def tempo(mark: TempoMark) -> wire.PartTempo:
-        bar = max(bisect_right(bar_begins, mark.onset_beats + SAME_BEAT) - 1, 0)
-        measure = max(bisect_right(numbers, bar + first_bar) - 1, 0)
-        ticks = round((mark.onset_beats - bar_begins[bar]) * TICKS_PER_QUARTER)
-        return wire.PartTempo(
-            measure=measure, begin_ticks=max(ticks, 0), bpm=mark.beats_per_minute, word=mark.word
-        )
-
-    return [tempo(mark) for mark in part.tempo_marks]

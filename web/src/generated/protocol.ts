@@ -456,7 +456,7 @@ export interface WrittenPart {
   player: number
   instrument: string
   instrument_title: string
-  clef: "treble" | "bass"
+  clef: "treble" | "bass" | "percussion"
   /** Semitones from a pitch that sounds to the one that is written. */
   written_above_sounding: number
   /** Whether swung eighths are written even. */
@@ -964,6 +964,10 @@ export interface PartEntry {
   graces: PartGrace[]
   /** A trill with this note of notes, which is the upper one. */
   trill: number | null
+  /** Of a drum part: hands have stems up, feet stems down, and each alone fills the bar; else null. */
+  voice: "hands" | "feet" | null
+  /** Of a drum part what is struck, from the lowest up; none for a rest, and in other parts. */
+  heads: PartHead[]
 }
 
 /** A grace note. */
@@ -972,6 +976,24 @@ export interface PartGrace {
   note: number
   written: PartPitch
   sounding: PartPitch
+  /** Of a drum part how it is drawn. */
+  head: PartHead | null
+}
+
+/** One of the hits that stand above one another in a drum part. */
+export interface PartHead {
+  /** Its place in notes. */
+  note: number
+  /** Where it stands, as on a treble staff: E4 is the lowest line. */
+  letter: "A" | "B" | "C" | "D" | "E" | "F" | "G"
+  octave: number
+  shape: "plain" | "cross" | "circled_cross" | "diamond" | "triangle" | "slashed"
+  /** The sign at it. */
+  mark: "accent" | "open" | "half_open" | "closed" | "choke" | null
+  /** Whether it stands in brackets. */
+  is_ghost: boolean
+  /** The letter beneath it; null for a foot. */
+  hand: "R" | "L" | null
 }
 
 /** A bar, or several of rest as one. */
@@ -1005,6 +1027,10 @@ export interface PartNote {
   valves: number[] | null
   usual_valves: number[] | null
   reason: string
+  /** Of a drum part what is struck: snare, hi_hat. */
+  piece: string | null
+  /** And with what. */
+  limb: "right_hand" | "left_hand" | "right_foot" | "left_foot" | null
 }
 
 /** Where a note stands on the staff. */

@@ -21,20 +21,20 @@ import "./notation.css";
 import type { PartEntry, PartMeasure, PartPitch, PartTempo, WrittenPart } from "../generated/protocol";
 import { isAlternate } from "../state/alternate";
 import { noteName } from "../words";
+import { drawDrumMeasure } from "./drum-notes";
+import { drawHands } from "./drum-hands";
+import { DURATIONS, groupsOf, MAX_SLOPE, type Drawn } from "./engraved";
 import { fingeringText } from "./fingering";
-import { fifthsOf, INDENT, staffPlace, type Placed, type Reading, type System } from "./layout";
+import { fifthsOf, INDENT, type Placed, type Reading, type System } from "./layout";
+import { centred, label, rectangle } from "./lettering";
+import { staffPlace } from "./staff";
 
 const MAJOR_KEYS = ["Cb", "Gb", "Db", "Ab", "Eb", "Bb", "F", "C", "G", "D", "A", "E", "B", "F#", "C#"];
 const SIGNS = { flat: "b", natural: "n", sharp: "#" };
-const DURATIONS: Readonly<Record<number, string>> = { 1: "w", 2: "h", 4: "q", 8: "8", 16: "16", 32: "32", 64: "64" };
-const REST_PLACES = { treble: "b/4", bass: "d/3" };
+const REST_PLACES = { treble: "b/4", bass: "d/3", percussion: "b/4" };
 /** Of a metronome mark, as the music's font has them. */
 const [HALF, QUARTER, DOT] = ["\uECA3", "\uECA5", "\uECB7"];
 const [DOUBLE_BAR, FINAL_BAR] = [Barline.type.DOUBLE, Barline.type.END];
-/** Of beams. */
-const MAX_SLOPE = 0.14;
-const TEXT = "Academico, serif";
-const SVG = "http://www.w3.org/2000/svg";
 
 /** The music's own font, and its text's: nothing is measured rightly before they are there. */
 export async function fontsReady(): Promise<void> {
@@ -45,14 +45,6 @@ export interface Engraving {
   /** How much larger than in the staff's units it is drawn. */
   readonly zoom: number;
   readonly reading: Reading;
-}
-
-/** A note as it is drawn, with what it is tied to. */
-interface Drawn {
-  readonly entry: PartEntry;
-  readonly note: StaveNote;
-  /** Its grace notes, as many as `entry.graces`. */
-  readonly graces: readonly GraceNote[];
 }
 
 /**
@@ -87,7 +79,8 @@ export function engraveSystem(
   }
   drawTies(context, drawn);
   for (const tempo of part.tempi) drawTempo(context, part, system, drawn, tempo);
-  drawFingerings(context.svg, part, system, drawn);
+  if (part.clef === "percussion") drawHands(context.svg, part, system, drawn);
+  else drawFingerings(context.svg, part, system, drawn);
   const picture = context.svg;
   picture.setAttribute("viewBox", `0 0 ${width} ${system.height}`);
   picture.setAttribute("role", "group");
@@ -126,6 +119,7 @@ function drawMeasure(
     new MultiMeasureRest(measure.bars, { numberOfMeasures: measure.bars }).setStave(stave).setContext(context).draw();
     return [];
   }
+  if (part.clef === "percussion") return drawDrumMeasure(context, measure, stave);
   const notes = measure.entries.map((entry): Drawn => {
     const note = staveNote(part, entry, reading);
     return { entry, note, graces: graceNotes(part, entry, note, reading) };
@@ -211,16 +205,6 @@ function graceNotes(part: WrittenPart, entry: PartEntry, note: StaveNote, readin
   return graces;
 }
 
-/** Neighbours of one number, group by group. */
-function groupsOf<T>(items: readonly T[], number: (item: T) => number | null): T[][] {
-  const groups = new Map<number, T[]>();
-  for (const item of items) {
-    const of = number(item);
-    if (of !== null) groups.set(of, [...(groups.get(of) ?? []), item]);
-  }
-  return [...groups.values()];
-}
-
 function drawTies(context: SVGContext, drawn: readonly Drawn[]): void {
   drawn.forEach(({ entry, note }, at) => {
     if (at === 0 && entry.tied_from) new StaveTie({ firstNote: null, lastNote: note }).setContext(context).draw();
@@ -259,23 +243,6 @@ function drawTempo(
   label(context.svg, left + (compound ? 24 : 16), y + 16, `= ${Math.round(tempo.bpm / quarters)}${swing}`, "tempo");
 }
 
-function label(svg: SVGElement, x: number, y: number, text: string, kind: string): SVGTextElement {
-  const element = document.createElementNS(SVG, "text");
-  element.setAttribute("x", x.toFixed(1));
-  element.setAttribute("y", y.toFixed(1));
-  element.setAttribute("class", kind);
-  element.setAttribute("font-family", kind === "tempo note" ? "Bravura" : TEXT);
-  element.textContent = text;
-  svg.append(element);
-  return element;
-}
-
-function centred(svg: SVGElement, x: number, y: number, text: string, kind: string): SVGTextElement {
-  const element = label(svg, x, y, text, kind);
-  element.setAttribute("text-anchor", "middle");
-  return element;
-}
-
 /** The fingerings on one line below the system's lowest note, and what a pointer meets of each note. */
 function drawFingerings(svg: SVGElement, part: WrittenPart, system: System, drawn: readonly Drawn[]): void {
   const y = system.height - 8 - (system.hasSecond ? 13 : 0);
@@ -311,15 +278,6 @@ function drawFingerings(svg: SVGElement, part: WrittenPart, system: System, draw
     target.setAttribute("aria-label", `${noteName(played.written_name)}, ${fingeringText(played.valves)}`);
     for (const element of [...own, target]) element.setAttribute("data-note", `${entry.note}`);
   }
-}
-
-function rectangle(svg: SVGElement, x: number, y: number, width: number, height: number, kind: string): SVGRectElement {
-  const element = document.createElementNS(SVG, "rect");
-  const attributes = { x, y, width, height, rx: kind === "ring" ? 7 : 0 };
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value.toFixed(1));
-  element.setAttribute("class", kind);
-  svg.append(element);
-  return element;
 }
 
 /** Draw one or two names of one pitch on a staff of their own, for a chart. */

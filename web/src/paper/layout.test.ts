@@ -1,7 +1,9 @@
 import { describe, expect, it } from "vitest";
-import type { PartEntry, PartMeasure, PartPitch, WrittenPart } from "../generated/protocol";
+import type { PartEntry, PartHead, PartMeasure, PartNote, PartPitch, WrittenPart } from "../generated/protocol";
+import { entriesOfHits } from "./drum-layout";
 import { fingeringText } from "./fingering";
-import { INDENT, layOut, staffPlace, systemAt } from "./layout";
+import { INDENT, layOut, systemAt } from "./layout";
+import { staffPlace } from "./staff";
 
 const A4: PartPitch = { name: "A4", letter: "A", octave: 4, accidental: null };
 
@@ -22,6 +24,8 @@ function entry(change: Partial<PartEntry> = {}): PartEntry {
     is_staccato: false,
     graces: [],
     trill: null,
+    voice: null,
+    heads: [],
     ...change,
   };
 }
@@ -140,5 +144,67 @@ describe("staffPlace", () => {
 describe("fingeringText", () => {
   it("is as players write it", () => {
     expect([[], [1], [1, 3], null].map(fingeringText)).toEqual(["0", "1", "1-3", "×"]);
+  });
+});
+
+const NOTE: PartNote = {
+  index: 0,
+  onset_s: 0,
+  end_s: 1,
+  sounding_name: "snare",
+  written_name: "snare",
+  valves: null,
+  usual_valves: null,
+  reason: "",
+  piece: "snare",
+  limb: "right_hand",
+};
+
+function hit(letter: PartHead["letter"], octave: number, change: Partial<PartHead> = {}): PartHead {
+  return { note: 0, letter, octave, shape: "plain", mark: null, is_ghost: false, hand: "R", ...change };
+}
+
+describe("a drum part", () => {
+  const eighths = Array.from({ length: 8 }, (_, at) =>
+    entry({ begin_ticks: 24 * at, ticks: 24, value: 8, voice: "hands", heads: [hit("G", 5, { shape: "cross" })] }),
+  );
+  const kick = entry({ voice: "feet", heads: [hit("F", 4, { hand: null })] });
+  const rest = entry({ begin_ticks: 48, ticks: 144, note: null, written: null, voice: "feet" });
+
+  function drums(...measures: PartEntry[][]): WrittenPart {
+    return part(
+      measures.map((entries, at) => measure(at + 1, { entries })),
+      { clef: "percussion", written_above_sounding: 0 },
+    );
+  }
+
+  it("is as wide as what goes on in both voices, and not as both after one another", () => {
+    const [alone] = layOut(drums(eighths), "written", 2000);
+    const [both] = layOut(drums([...eighths, kick, rest]), "written", 2000);
+    expect(both?.measures[0]?.width).toBe(alone?.measures[0]?.width);
+  });
+
+  it("has room for stems above, for feet below and for a line of each hand", () => {
+    const [hands] = layOut(drums(eighths), "written", 2000);
+    const [both] = layOut(drums([...eighths, kick, rest]), "written", 2000);
+    const marked = eighths.map((one) => ({ ...one, heads: [hit("A", 5, { mark: "accent" })] }));
+    const [higher] = layOut(drums(marked), "written", 2000);
+    expect(hands?.hasSecond).toBe(true);
+    expect(both?.top).toBe(hands?.top);
+    expect(both?.height).toBeGreaterThan((hands?.height ?? 0) + 30);
+    expect(higher?.top).toBeGreaterThan((hands?.top ?? 0) + 10);
+  });
+
+  it("knows what each hit stands above on paper", () => {
+    const notes = [0, 1, 2, 3].map((index) => ({ ...NOTE, index }));
+    const flam = { note: 0, written: A4, sounding: A4, head: hit("C", 5) };
+    const hands = entry({
+      note: 2,
+      voice: "hands",
+      heads: [hit("C", 5, { note: 1 }), hit("G", 5, { note: 2 })],
+      graces: [flam],
+    });
+    const feet = entry({ note: 3, voice: "feet", heads: [hit("F", 4, { note: 3 })] });
+    expect(entriesOfHits({ ...drums([hands, feet]), notes })).toEqual([2, 2, 2, 3]);
   });
 });

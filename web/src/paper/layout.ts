@@ -1,4 +1,6 @@
 import type { PartEntry, PartMeasure, WrittenPart } from "../generated/protocol";
+import { drumsDepth, drumsHeight, isInVoices, voicesWidth } from "./drum-layout";
+import { SPACE, STEM, staffPlace } from "./staff";
 
 /** Which of the two ways a part is read. */
 export type Reading = "written" | "sounding";
@@ -23,16 +25,14 @@ export interface System {
   readonly height: number;
   /** Whether it is as wide as the page; the last one may be shorter. */
   readonly full: boolean;
-  /** Whether some notes have a second line of fingerings: trills, and the grace notes before a note. */
+  /** Whether there is a second line of fingerings: of trills and grace notes; of drums, the left hand's. */
   readonly hasSecond: boolean;
 }
 
 /** Left of the staff, for bar numbers. */
 export const INDENT = 8;
 
-const SPACE = 10;
 const STAFF = 4 * SPACE;
-const STEM = 3.5 * SPACE;
 const CLEF = 42;
 const SHARP = 11;
 const METRE = 30;
@@ -48,14 +48,9 @@ const SECOND_FINGERING = 13;
 /** A last line that is filled less than this is left as it is. */
 const NEARLY_FULL = 0.72;
 
-const LETTERS = "CDEFGAB";
 /** The staff's top and bottom lines as letters counted from C0. */
-const STAVES = { treble: { top: 5 * 7 + 3, bottom: 4 * 7 + 2 }, bass: { top: 3 * 7 + 5, bottom: 2 * 7 + 4 } };
-
-/** How many letters a pitch lies above C0. */
-export function staffPlace(pitch: { letter: string; octave: number }): number {
-  return pitch.octave * 7 + LETTERS.indexOf(pitch.letter);
-}
+const TREBLE = { top: 5 * 7 + 3, bottom: 4 * 7 + 2 };
+const STAVES = { treble: TREBLE, percussion: TREBLE, bass: { top: 3 * 7 + 5, bottom: 2 * 7 + 4 } };
 
 /** Fifths of the signature as a part is read. */
 export function fifthsOf(measure: PartMeasure, reading: Reading): number {
@@ -72,6 +67,7 @@ function entryWidth(entry: PartEntry, reading: Reading): number {
 
 function measureWidth(measure: PartMeasure, reading: Reading): number {
   if (measure.bars > 1) return REST_BARS;
+  if (isInVoices(measure)) return Math.max(MARGIN + voicesWidth(measure), SHORTEST_MEASURE);
   const entries = measure.entries.reduce((sum, entry) => sum + entryWidth(entry, reading), 0);
   return Math.max(MARGIN + entries, SHORTEST_MEASURE);
 }
@@ -148,11 +144,14 @@ function system(
     ),
   );
   const staff = STAVES[part.clef];
-  const above = (Math.max(...places, staff.top) - staff.top) * (SPACE / 2);
-  const below = Math.max(...shown.map((measure) => depth(measure, reading, staff)));
+  const drums = part.clef === "percussion";
+  const above = drums ? drumsHeight(entries, staff) : (Math.max(...places, staff.top) - staff.top) * (SPACE / 2);
+  const below = drums
+    ? drumsDepth(entries, staff)
+    : Math.max(...shown.map((measure) => depth(measure, reading, staff)));
   const hasTempo = part.tempi.some(({ measure }) => line.some(({ index }) => index === measure));
   const hasTrill = entries.some(({ trill }) => trill !== null);
-  const hasSecond = hasTrill || entries.some(({ graces }) => graces.length > 0);
+  const hasSecond = drums || hasTrill || entries.some(({ graces }) => graces.length > 0);
   const top = HEAD + Math.max(above, hasTrill ? 20 : 0) + (hasTempo ? TEMPO : 0);
   const height = top + STAFF + below + FINGERING + (hasSecond ? SECOND_FINGERING : 0);
   return {

@@ -10,7 +10,10 @@ const SOURCES = import.meta.glob<string>(["../**/*.{ts,svelte}", "!../**/*.test.
 /** Whose words are for programs and those who write them, or are engraved the same in every language. */
 const NOT_FOR_THE_PAGE = new Set([
   "../film/commissioned-film.ts",
+  "../paper/drum-hands.ts",
+  "../paper/drum-notes.ts",
   "../paper/engrave.ts",
+  "../paper/lettering.ts",
   "../rig/merge-meshes.ts",
   "../rig/skeleton-check.ts",
   "../state/measures.ts",

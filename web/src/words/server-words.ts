@@ -2,7 +2,7 @@ import { language } from "./language";
 import { named } from "./server/en";
 
 /** What the server names, told apart by what it is. */
-export type Kind = "instrument" | "player" | "seat" | "mood" | "problem";
+export type Kind = "instrument" | "player" | "seat" | "mood" | "problem" | "piece" | "limb";
 
 /**
  * A name or a title of the server's in the language that is shown.
