@@ -21,6 +21,7 @@ from reina.music.musicxml.model import (
     WrittenNote,
     WrittenPart,
 )
+from reina.music.musicxml.neighbours import Neighbours
 from reina.music.musicxml.ornaments import ornament_of
 from reina.music.musicxml.state import MAX_BEATS, PartState, loudness_of, times_of
 
@@ -61,10 +62,7 @@ class PartReader(PartState):
         self._last: WrittenNote | None = None
         self._voices: dict[str, list[WrittenNote]] = {}
         self._slurs: dict[str, tuple[str, int, str]] = {}
-        self._fifths: dict[str, int] = {}
-        """The written key of each staff."""
-        self._accidentals: dict[tuple[str, str, int], int] = {}
-        """By how much notes of a staff, step and octave are raised in this measure."""
+        self._neighbours = Neighbours()
         self._waved: set[str] = set()
         """The voices above which a trill's wavy line goes on."""
 
@@ -80,7 +78,7 @@ class PartReader(PartState):
         now.implicit = now.implicit or cell.implicit
         self.cursor = self._onset = furthest = 0.0
         self._last = None
-        self._accidentals.clear()
+        self._neighbours.begin_measure()
         for element in cell.element:
             match element.name:
                 case "note":
@@ -162,7 +160,7 @@ class PartReader(PartState):
                 self.log.add("bad_key", self.where(element), "a key signature without fifths was left out")
             return
         if abs(fifths) <= MAX_ACCIDENTALS:
-            self._fifths[element.attribute("number")] = fifths
+            self._neighbours.set_key(element.attribute("number"), fifths)
         sounding = fifths + self._transposition(element.attribute("number")).fifths
         while abs(sounding) > MAX_ACCIDENTALS and abs(fifths) <= MAX_ACCIDENTALS:
             sounding -= 12 if sounding > 0 else -12
@@ -278,7 +276,7 @@ class PartReader(PartState):
         if alter != round(alter):
             self.log.add("microtone", self.where(element), "a pitch between semitones; the nearest is played")
         staff = element.said("staff")
-        self._accidentals[staff, pitch.said("step").upper(), round(octave)] = round(alter)
+        self._neighbours.add(staff, pitch.said("step").upper(), round(octave), round(alter))
         number = round(12 * (octave + 1) + step + alter) + self._transposition(staff).chromatic
         if not 0 <= number <= 127:
             self.log.add(
@@ -288,19 +286,9 @@ class PartReader(PartState):
         return number
 
     def _neighbour(self, element: Element, steps: int, alter: int | None) -> int:
-        """Return the pitch so many steps above a note, with an accidental or as measure and key have it."""
-        pitch = element.first("pitch")
-        name = pitch.said("step").upper() if pitch else ""
-        if pitch is None or name not in tables.STEPS:
-            return tables.SNARE
-        staff = element.said("staff")
-        octaves, index = divmod(tables.STEP_NAMES.index(name) + steps, len(tables.STEP_NAMES))
-        step, octave = tables.STEP_NAMES[index], round(pitch.number("octave") or 0.0) + octaves
-        if alter is None:
-            fifths = self._fifths.get(staff, self._fifths.get("", 0))
-            alter = self._accidentals.get((staff, step, octave), key_alter(step, fifths))
-        number = 12 * (octave + 1) + tables.STEPS[step] + alter + self._transposition(staff).chromatic
-        return min(max(number, 0), 127)
+        """Return the pitch so many steps above a note, as `Neighbours` has it."""
+        transposition = self._transposition(element.said("staff")).chromatic
+        return self._neighbours.pitch(element, steps, alter, transposition)
 
     def _held(self, element: Element, duration: float) -> None:
         """Read the fermata of a note or rest."""
@@ -447,12 +435,6 @@ def _grace(grace: Element | None, duration: float) -> tuple[GraceKind, float | N
             return kind, min(percent, 90.0) / 100
     is_long = grace.attribute("slash") != "yes" and duration >= tables.NOTE_TYPES["eighth"]
     return "on" if is_long else "before", None
-
-
-def key_alter(step: str, fifths: int) -> int:
-    """Return by how much a key raises a step: 1 for F of G major, -1 for B of F major."""
-    place = "FCGDAEB".index(step)
-    return (fifths > place) - (fifths < place - 6)
 
 
 def _sum(text: str) -> int:
