@@ -7,6 +7,7 @@ import json
 import time
 from typing import TYPE_CHECKING, Any
 
+import av
 import mido
 import numpy as np
 import pytest
@@ -226,3 +227,78 @@ def test_viewers_hear_of_it(client: httpx.Client, server: Any) -> None:
                 heard.append(json.loads(message)["type"])
         assert "score_changed" in heard
     made.change("DELETE")
+
+
+def as_coded(samples: Any, container: str, codec: str) -> bytes:
+    """A recording as M4A or WebM."""
+    file = io.BytesIO()
+    with av.open(file, "w", format=container) as output:
+        stream = output.add_stream(codec, rate=48_000, layout="mono")
+        whole = (np.clip(samples, -1, 1) * 32_767).astype(np.int16)[None]
+        frame = av.AudioFrame.from_ndarray(whole, format="s16", layout="mono")
+        frame.sample_rate = RATE
+        resampler = av.AudioResampler(format=stream.format, layout="mono", rate=48_000, frame_size=960)
+        for piece in (*resampler.resample(frame), *resampler.resample(None)):
+            output.mux(stream.encode(piece))
+        output.mux(stream.encode(None))
+    return file.getvalue()
+
+
+def as_wav(samples: Any, rate: int = RATE) -> bytes:
+    file = io.BytesIO()
+    soundfile.write(file, samples, rate, format="WAV", subtype="PCM_16")
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("container", "codec", "name"), [("webm", "libopus", "march.webm"), ("mp4", "aac", "march.m4a")]
+)
+def test_what_a_page_decodes_is_listened_to(
+    client: httpx.Client, container: str, codec: str, name: str
+) -> None:
+    samples = record(Rendition("taps", tempo=(SLOWER, 0.0), lead_in_s=LEAD_IN_S)).samples
+    song = as_coded(samples, container, codec)
+    made = upload(client, next(SCORES.glob("taps.*")).read_bytes(), song=(name, song))
+    told = state(made)
+    assert (told["status"], told["is_searchable"]) == ("none", False)
+    refused = made.change("POST", "/alignment/search")
+    assert refused.status_code == 409
+    assert "song/analysis" in refused.json()["detail"]
+    assert client.get(f"{made.path}/song/peaks").status_code == 204
+
+    assert client.put(f"{made.path}/song/analysis", content=as_wav(samples)).status_code == 401
+    for body, said in (
+        (b"no sound", "no audio file"),
+        (b"", "empty"),
+        (song, "not decoded here either"),
+        (as_wav(samples[: 5 * RATE]), "it is not this song"),
+        (as_wav(samples[::10], RATE // 10), "22,050 are enough"),
+    ):
+        if said != "it is not this song" or container == "mp4":
+            answer = made.change("PUT", "/song/analysis", content=body)
+            assert (answer.status_code, said in answer.json()["detail"]) == (422, True), answer.text
+    assert state(made)["status"] == "none"
+
+    taken = made.change("PUT", "/song/analysis", content=as_wav(samples))
+    assert (taken.status_code, taken.json()["status"]) == (202, "searching")
+    told = state(made)
+    assert (told["status"], told["is_searchable"]) == ("found", True)
+    assert told["song_duration_s"] == pytest.approx(len(samples) / RATE, abs=1e-3)
+    assert notes(made)[0]["onset_s"] == pytest.approx(LEAD_IN_S, abs=0.05)
+    assert client.get(f"{made.path}/song/peaks").json()["duration_s"] == pytest.approx(len(samples) / RATE)
+    served = client.get(f"{made.path}/song")
+    assert (served.headers["content-type"], served.content) == (f"audio/{container}", song)
+    assert made.change("POST", "/alignment/search").status_code == 202
+    made.change("DELETE")
+
+
+def test_only_what_the_server_does_not_decode_is_sent_to_it_decoded(client: httpx.Client) -> None:
+    made = upload(client, scale(4), song=("s.wav", song(6.0)))
+    state(made)
+    refused = made.change("PUT", "/song/analysis", content=song(6.0))
+    assert refused.status_code == 409
+    assert "decodes this song itself" in refused.json()["title"]
+    made.change("DELETE")
+    rendered = upload(client, scale(4))
+    assert rendered.change("PUT", "/song/analysis", content=song(6.0)).status_code == 409
+    rendered.change("DELETE")

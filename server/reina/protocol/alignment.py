@@ -63,8 +63,8 @@ class AlignmentState(WireModel):
     """How far a session's score is in time with its song."""
 
     status: Literal["none", "searching", "found", "unlike", "failed"]
-    """`none`: the song is rendered from the score, or is not decoded by the server; `unlike`: it is other
-    music, and both begin at 0."""
+    """`none`: the song is rendered from the score, or is M4A or WebM that no page has decoded yet; `unlike`:
+    it is other music, and both begin at 0."""
     progress: float
     """0 to 1; 1 once something is known."""
     confidence: float | None
@@ -98,8 +98,8 @@ class Alignment(AlignmentState):
     """Where a session's score is heard in its song."""
 
     is_searchable: bool
-    """Whether the server can look for the score in the song: not in M4A and WebM, nor is there anything to
-    look for in what is rendered."""
+    """Whether the server can look for the score in the song: in M4A and WebM only once `song/analysis` has
+    had them decoded; there is nothing to look for in what is rendered."""
     song_duration_s: float | None
     """Length of the recording; null where the song is rendered, or its length is not known."""
     bars: list[AlignedBar]

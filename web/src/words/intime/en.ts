@@ -6,7 +6,7 @@ export const inTime = words("intime", {
   panel: "score and recording",
   reading: "Reading …",
   rendered: "The sound is made from the score, and in time with it.",
-  notListened: "The server cannot read such a file. Move everything, tap along, or drag bar lines.",
+  notListened: "Move everything, tap along, or drag bar lines.",
   unlikeByHand: "Both begin at 0. Move everything, tap along, or drag bar lines to where you hear them.",
   moreWays: "Only whoever opened this session can put it right.",
   countIn: counted({
