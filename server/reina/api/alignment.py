@@ -28,7 +28,7 @@ Fields = Annotated[
     Annotated[AlignmentCorrections, Tag("corrections")] | Annotated[AlignmentDocument, Tag("document")],
     Discriminator(_kind),
 ]
-EXAMPLES = [{"offset_s": 0.12}, {"anchors": [{"score_s": 0.5, "song_s": 0.75}]}]
+EXAMPLES = [{"offset_s": 0.12}, {"follows_key": True}, {"anchors": [{"score_s": 0.5, "song_s": 0.75}]}]
 
 
 @router.get("/sessions/{session_id}/alignment")
@@ -43,8 +43,8 @@ async def put_alignment(
 ) -> AlignmentResource:
     """Put right where the score is heard, or put in place what was kept of it; everybody sees it at once.
 
-    Anchors and offset stand beside what was found, and replace those that were there; `{}` takes back all
-    that was put right. A document with `points` replaces what was found too.
+    Anchors, offset and key stand beside what was found, and replace those that were there; `{}` takes back
+    all that was put right. A document with `points` replaces what was found too.
     """
     if session.record.song is None:
         raise _no_song()
@@ -53,7 +53,8 @@ async def put_alignment(
         if isinstance(fields, AlignmentDocument):
             return alignment_of(fields)
         anchors = [Anchor(**anchor.model_dump()) for anchor in fields.anchors]
-        return (known or _unknown(session)).with_anchors(anchors).with_offset(fields.offset_s)
+        corrected = (known or _unknown(session)).with_anchors(anchors).with_offset(fields.offset_s)
+        return corrected.with_key(follows=fields.follows_key)
 
     await store.change_alignment(session, put)
     return await _resource(session)

@@ -57,6 +57,7 @@ class AlignmentDocument(_Model):
     sounds_after: bool = False
     anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
     offset_s: Seconds = 0.0
+    follows_key: bool = False
 
 
 class AlignmentState(WireModel):
@@ -118,3 +119,6 @@ class AlignmentCorrections(WireModel):
     """Places of the score that are put where they are heard; what was found goes through them."""
     offset_s: Seconds = 0.0
     """By how much everything is heard later, seconds."""
+    follows_key: bool = False
+    """Whether all is played in the recording's key, `transposition` semitones above the score's; else in the
+    score's."""

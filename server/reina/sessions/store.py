@@ -297,7 +297,12 @@ class SessionStore:
             def beside_what_people_said(known: Alignment | None) -> Alignment:
                 if known is None:
                     return alignment
-                return replace(alignment, anchors=known.anchors, offset_s=known.offset_s)
+                return replace(
+                    alignment,
+                    anchors=known.anchors,
+                    offset_s=known.offset_s,
+                    follows_key=known.follows_key,
+                )
 
             with contextlib.suppress(SessionEndedError):
                 await self.change_alignment(session, beside_what_people_said)
@@ -502,7 +507,12 @@ class SessionStore:
         heard = alignment if alignment is not None and alignment.moves else None
         poses = {stance.name: pose_of(stance.turns) for stance in stances}
         return await self.reader.production(
-            score, filename=filename, cast=cast, alignment=heard, stances=poses
+            score,
+            filename=filename,
+            cast=cast,
+            alignment=heard,
+            stances=poses,
+            transposition=0 if heard is None else heard.played_higher,
         )
 
     async def _plan_other(

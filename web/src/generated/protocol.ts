@@ -636,6 +636,11 @@ export interface AlignmentCorrections {
   anchors?: AnchorDocument[]
   /** By how much everything is heard later, seconds. */
   offset_s?: number
+  /**
+   * Whether all is played in the recording's key, transposition semitones above the score's; else in the
+   * score's.
+   */
+  follows_key?: boolean
 }
 
 /** A bar of the score, and where it is heard. */
@@ -671,6 +676,7 @@ export interface AlignmentDocument {
   sounds_after?: boolean
   anchors?: AnchorDocument[]
   offset_s?: number
+  follows_key?: boolean
 }
 
 /** A place of the score that a person has put where they hear it, as Anchor. */

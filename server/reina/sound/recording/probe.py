@@ -142,8 +142,9 @@ def probe_recording(data: Data, conversion: Conversion | None = None) -> tuple[A
         is_played = audio_format.is_played and (
             audio_format.name == "FLAC" or decoded.coding in PLAYED_CODINGS
         )
-        converts = conversion is not None and fits(decoded) and (conversion.is_forced or not is_played)
-        if converts:
+        if conversion is not None and (not fits(decoded) or (is_played and not conversion.is_forced)):
+            conversion = None
+        if conversion is not None:
             # What was decoded once has been read to its end.
             write_as_flac(conversion.path, cast("list[SoundStream]", audio_format.read(data, start)), decoded)
     except BrokenAudioError as error:
@@ -151,13 +152,13 @@ def probe_recording(data: Data, conversion: Conversion | None = None) -> tuple[A
         raise InputError(detail) from error
     info = AudioInfo(
         audio_format.name,
-        FLAC_MEDIA_TYPE if converts else audio_format.media_type,
+        FLAC_MEDIA_TYPE if conversion else audio_format.media_type,
         audio_format.suffix,
         decoded.duration_s,
         decoded.sample_rate,
         decoded.channels,
-        tuple(_warnings(decoded, audio_format, is_played=is_played or converts)),
-        is_converted=converts,
+        tuple(_warnings(decoded, audio_format, is_played=is_played or conversion is not None)),
+        is_converted=conversion is not None,
     )
     return info, decoded.peaks
 

@@ -232,7 +232,8 @@ def test_what_browsers_do_not_play_is_written_as_flac_without_loss(
     data = recording(form, coding, channels=channels)
     info, _ = probe_recording(data, Conversion(tmp_path / "song.flac"))
     assert (info.media_type, info.is_converted, info.warnings) == ("audio/flac", True, ())
-    assert soundfile.info(tmp_path / "song.flac").subtype == kept
+    with soundfile.SoundFile(tmp_path / "song.flac") as flac:
+        assert flac.subtype == kept
     written, rate = soundfile.read(tmp_path / "song.flac", always_2d=True)
     wanted, _ = soundfile.read(io.BytesIO(data), always_2d=True)
     assert rate == RATE

@@ -23,6 +23,17 @@ export const inTime = words("intime", {
     one: "The recording sounds {count} semitone lower.",
     other: "The recording sounds {count} semitones lower.",
   }),
+  fingered: "Notes and fingering",
+  fingeredMeans: "For all players; sheet and MIDI too",
+  asWritten: "as the score says",
+  asHeardHigher: counted({
+    one: "as the recording sounds: {count} semitone higher",
+    other: "as the recording sounds: {count} semitones higher",
+  }),
+  asHeardLower: counted({
+    one: "as the recording sounds: {count} semitone lower",
+    other: "as the recording sounds: {count} semitones lower",
+  }),
   tunedHigher: filled("It is tuned {cents} cents higher than A = 440 Hz."),
   tunedLower: filled("It is tuned {cents} cents lower than A = 440 Hz."),
   leftOut: filled("Bars {bars} are left out ({seconds} s)."),
