@@ -294,7 +294,7 @@ def test_players_follow_the_recording_s_key_where_that_is_chosen(client: httpx.C
         return [(note["part"], note["sounding_pitch"]) for note in notes(made)]
 
     def fifths() -> int:
-        return client.get(f"{made.path}/part").raise_for_status().json()["keys"][0]["sounding"]["fifths"]
+        return client.get(f"{made.path}/part").raise_for_status().json()["keys"][0]["fifths"]
 
     before, cast, key = pitches(), client.get(f"{made.path}/cast").json(), fifths()
     with_key = made.change("PUT", "/alignment", json={"follows_key": True, "offset_s": 0.1})
