@@ -43,8 +43,10 @@ REACH_S, REACH_FRAMES = 1.0, 5
 """How far from the coarse path the fine one is looked for: so long, or so many frames of the coarse one."""
 TRANSPOSITIONS = range(-6, 6)
 """All keys: twelve, as the tones of an octave know no more."""
-UNTRANSPOSED_BONUS = 1.1
+UNTRANSPOSED_BONUS = 1.06
 """The score's own key is taken unless another is better by more: a scale is like itself in every key."""
+CLOSE_KEYS, MOST_KEYS = 0.85, 4
+"""Keys that earn at least such a share of the best are followed more closely, so many at most."""
 FEWEST_CHORDS = 2
 """A stretch of fewer notes is taken for chance."""
 
@@ -57,20 +59,26 @@ class _Whole:
     """What the first look at the whole says.
 
     Attributes:
-        transposition: The key in which the path earns most.
-        stretches: What goes together.
+        in_keys: What goes together in the keys in which most is earned, by transposition, the best first.
         in_all_keys: What a path earns in each key.
     """
 
-    transposition: int
-    stretches: list[Stretch]
+    in_keys: dict[int, list[Stretch]]
     in_all_keys: list[float]
 
 
 @dataclass(frozen=True, eq=False)
 class _Followed:
-    """A path by frames, cut into stretches, in the score's time; what it earns; how long its frames are."""
+    """A path by frames, cut into stretches, in the score's time.
 
+    Attributes:
+        transposition: The key in which it was looked for.
+        stretches: The path.
+        earned: What it earns.
+        frame_s: How long its frames are.
+    """
+
+    transposition: int
     stretches: list[Stretch]
     earned: float
     frame_s: float
@@ -99,13 +107,11 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     recording = frame_features(energies, rises(energies), FRAMES_PER_S)
     tell(0.2)
     whole = _look_at_whole(recording, notes, score.duration_s, lambda share: tell(0.2 + 0.3 * share))
-    if not whole.stretches:
-        return unlike
     steady = _follow_steadily(recording, notes, whole, score.duration_s)
     tell(0.55)
-    if not steady.stretches:
+    if steady is None or not steady.stretches:
         return unlike
-    fine = _follow_finely(recording, notes, steady, whole.transposition, score.duration_s)
+    fine = _follow_finely(recording, notes, steady, score.duration_s)
     tell(0.65)
     sharp = band_energies(
         samples,
@@ -117,14 +123,14 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     risen = rises(sharp)
     tell(0.85)
     beats_s = score.tempo_map.seconds(np.arange(0.0, np.ceil(score.duration_beats) + 1))
-    heard = [hear_stretch(notes, stretch, risen, beats_s, whole.transposition) for stretch in fine.stretches]
+    heard = [hear_stretch(notes, stretch, risen, beats_s, fine.transposition) for stretch in fine.stretches]
     heard = [stretch for stretch in heard if len(stretch.chord_s) >= FEWEST_CHORDS]
     tell(0.95)
     if not heard or sameness(fine.earned, whole.in_all_keys, _confidence(heard)) < LEAST:
         return unlike
     found = replace(
         _put_together(heard, notes, score.duration_s, song_duration_s),
-        transposition=whole.transposition,
+        transposition=fine.transposition,
         tuning_cents=round(tuning_cents, 1),
     )
     begins_s = found.song_times(float(notes.onset_s[0]))
@@ -161,7 +167,7 @@ def _frames_in_one(usual: int, *features: Floats) -> int:
 
 
 def _look_at_whole(recording: Floats, notes: ScoreNotes, duration_s: float, tell: Progress) -> _Whole:
-    """The best way through all of both, in the key in which it earns most."""
+    """The best way through all of both, in each of the keys in which it earns most."""
     score = _score_features(notes, notes.onset_s, notes.end_s, duration_s)
     count = _frames_in_one(COARSE_FRAMES, recording, score)
     frame_s = count / FRAMES_PER_S
@@ -175,37 +181,52 @@ def _look_at_whole(recording: Floats, notes: ScoreNotes, duration_s: float, tell
         paths.append(best_path(coarse_recording, moved, likeness, rules))
         earned.append(earned_share(paths[-1], coarse_recording, moved))
         tell(len(paths) / len(TRANSPOSITIONS))
-    valued = [
-        share * (UNTRANSPOSED_BONUS if semitones == 0 else 1)
-        for semitones, share in zip(TRANSPOSITIONS, earned, strict=True)
-    ]
-    best = int(np.argmax(valued))
-    return _Whole(TRANSPOSITIONS[best], stretches_of(paths[best], frame_s, centred=True), earned)
+    valued = [_value(share, semitones) for semitones, share in zip(TRANSPOSITIONS, earned, strict=True)]
+    best = sorted(range(len(paths)), key=lambda key: -valued[key])[:MOST_KEYS]
+    close = [key for key in best if valued[key] >= CLOSE_KEYS * valued[best[0]]]
+    in_keys = {TRANSPOSITIONS[key]: stretches_of(paths[key], frame_s, centred=True) for key in close}
+    return _Whole(in_keys, earned)
 
 
-def _follow_steadily(recording: Floats, notes: ScoreNotes, whole: _Whole, duration_s: float) -> _Followed:
-    """The way through all of both anew, the score at the recording's tempo as a whole.
+def _value(earned: float, transposition: int) -> float:
+    return earned * (UNTRANSPOSED_BONUS if transposition == 0 else 1)
+
+
+def _follow_steadily(
+    recording: Floats, notes: ScoreNotes, whole: _Whole, duration_s: float
+) -> _Followed | None:
+    """The way through all of both anew, the score at the recording's tempo as a whole; None if there is none.
 
     Another tempo than that then has its price: what the recording repeats is a gap, and not the music at half
-    its tempo.
+    its tempo. Of several keys that were about as good, the one that is taken is the best now.
     """
-    bent = bend_as_a_whole(whole.stretches, duration_s)
-    score = _bent_features(notes, bent, whole.transposition)
+    followed = [
+        _follow_in_key(recording, notes, stretches, semitones, duration_s)
+        for semitones, stretches in whole.in_keys.items()
+        if stretches
+    ]
+    return max(followed, key=lambda each: _value(each.earned, each.transposition), default=None)
+
+
+def _follow_in_key(
+    recording: Floats, notes: ScoreNotes, found: list[Stretch], transposition: int, duration_s: float
+) -> _Followed:
+    bent = bend_as_a_whole(found, duration_s)
+    score = _bent_features(notes, bent, transposition)
     count = _frames_in_one(STEADY_FRAMES, recording, score)
     frame_s = count / FRAMES_PER_S
     coarse_recording, coarse_score = pooled(recording, count), pooled(score, count)
     likeness = Likeness.by_chance(coarse_recording, coarse_score, THRESHOLD)
     path = best_path(coarse_recording, coarse_score, likeness, Rules(STEADY_COSTS, GAP_S / frame_s))
     stretches = [stretch.straightened(bent) for stretch in stretches_of(path, frame_s, centred=True)]
-    return _Followed(stretches, earned_share(path, coarse_recording, coarse_score), frame_s)
+    earned = earned_share(path, coarse_recording, coarse_score)
+    return _Followed(transposition, stretches, earned, frame_s)
 
 
-def _follow_finely(
-    recording: Floats, notes: ScoreNotes, steady: _Followed, transposition: int, duration_s: float
-) -> _Followed:
+def _follow_finely(recording: Floats, notes: ScoreNotes, steady: _Followed, duration_s: float) -> _Followed:
     """The way by single frames, near where it was found, the score at the recording's tempo everywhere."""
     bent = bend_to(steady.stretches, duration_s)
-    score = _bent_features(notes, bent, transposition)
+    score = _bent_features(notes, bent, steady.transposition)
     band = band_around(
         steady.stretches,
         bent,
@@ -218,7 +239,7 @@ def _follow_finely(
     path = best_path(recording, score, likeness, Rules(FINE_COSTS, GAP_S * FRAMES_PER_S), band)
     frame_s = 1 / FRAMES_PER_S
     stretches = [stretch.straightened(bent) for stretch in stretches_of(path, frame_s, centred=False)]
-    return _Followed(stretches, earned_share(path, recording, score), frame_s)
+    return _Followed(steady.transposition, stretches, earned_share(path, recording, score), frame_s)
 
 
 def _confidence(heard: list[HeardStretch]) -> float:
