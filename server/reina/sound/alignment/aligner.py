@@ -9,7 +9,7 @@ from reina.music import Score
 from reina.sound.alignment.alignment import Alignment
 from reina.sound.alignment.assemble import assemble
 from reina.sound.alignment.bands import Floats, band_energies, rises, tuning_of
-from reina.sound.alignment.chords import HeardStretch, ScoreNotes, hear_stretch
+from reina.sound.alignment.chords import HeardStretch, ScoreNotes, hear_stretch, some_parts
 from reina.sound.alignment.features import frame_features, pooled, transposed
 from reina.sound.alignment.onsets import FRAMES_PER_S as ONSET_FRAMES_PER_S
 from reina.sound.alignment.onsets import WINDOW_S as ONSET_WINDOW_S
@@ -50,6 +50,11 @@ CLOSE_KEYS, MOST_KEYS = 0.85, 4
 FEWEST_CHORDS = 2
 """A stretch of fewer notes is taken for chance."""
 
+DOUBTFUL = 0.62
+"""Where it is less sure, part of the parts may be missing: some are listened for without the others."""
+CLEARLY, LEAST_OF_SOME = 0.1, 0.36
+"""By how much more sameness these must have to be taken, and how much at least: few notes are like many."""
+
 Progress = Callable[[float], None]
 """Is told the share of the work that is done, 0..1, rising."""
 
@@ -84,6 +89,38 @@ class _Followed:
     frame_s: float
 
 
+@dataclass(frozen=True, eq=False)
+class _Listened:
+    """What a recording sounds like.
+
+    Attributes:
+        features: Of its frames.
+        risen: (F, BANDS) where something begins, at the onsets' frames.
+        tuning_cents: By how much it is tuned higher.
+    """
+
+    features: Floats
+    risen: Floats
+    tuning_cents: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Where notes are heard.
+
+    Attributes:
+        transposition: Semitones by which they sound higher.
+        heard: The stretches of the score that are heard.
+        confidence: How clearly they begin where they are thought to, 0..1.
+        sameness: Of `sameness.sameness`.
+    """
+
+    transposition: int
+    heard: list[HeardStretch]
+    confidence: float
+    sameness: float
+
+
 def align(samples: Floats, rate: int, score: Score, progress: Progress | None = None) -> Alignment:
     """Find where a score is heard in a recording.
 
@@ -99,20 +136,40 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     if not np.any(samples):
         return unlike
     notes = ScoreNotes.of(score)
+    listened = _listen(samples, rate, tell)
+    beats_s = score.tempo_map.seconds(np.arange(0.0, np.ceil(score.duration_beats) + 1))
+    found = _find(listened, notes, score.duration_s, beats_s, lambda share: tell(0.5 + 0.3 * share))
+    others = some_parts(notes) if found is None or found.confidence < DOUBTFUL else []
+    for number, some in enumerate(others):
+        begin = 0.8 + 0.15 * number / len(others)
+        other = _find(listened, some, score.duration_s, beats_s, _share_of(tell, begin, 0.15 / len(others)))
+        least = LEAST_OF_SOME if found is None else max(LEAST_OF_SOME, found.sameness + CLEARLY)
+        if other is not None and other.sameness > least:
+            found = other
+    tell(0.95)
+    if found is None or found.sameness < LEAST:
+        return unlike
+    alignment = replace(
+        _put_together(found.heard, notes, score.duration_s, song_duration_s),
+        transposition=found.transposition,
+        tuning_cents=round(listened.tuning_cents, 1),
+    )
+    begins_s = alignment.song_times(float(notes.onset_s[0]))
+    first_s = first_beat_s(alignment.song_times(beats_s))
+    counted = count_in(listened.risen, ONSET_FRAMES_PER_S, begins_s, first_s)
+    applause = sounds_after(samples, rate, begins_s, alignment.ends_s)
+    tell(1.0)
+    return replace(alignment, count_in=counted, sounds_after=applause)
+
+
+def _listen(samples: Floats, rate: int, tell: Progress) -> _Listened:
     tuning_cents = tuning_of(samples, rate)
     tell(0.05)
     energies = band_energies(
         samples, rate, frames_per_s=FRAMES_PER_S, window_s=WINDOW_S, tuning_cents=tuning_cents
     )
-    recording = frame_features(energies, rises(energies), FRAMES_PER_S)
+    features = frame_features(energies, rises(energies), FRAMES_PER_S)
     tell(0.2)
-    whole = _look_at_whole(recording, notes, score.duration_s, lambda share: tell(0.2 + 0.3 * share))
-    steady = _follow_steadily(recording, notes, whole, score.duration_s)
-    tell(0.55)
-    if steady is None or not steady.stretches:
-        return unlike
-    fine = _follow_finely(recording, notes, steady, score.duration_s)
-    tell(0.65)
     sharp = band_energies(
         samples,
         rate,
@@ -120,24 +177,37 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
         window_s=ONSET_WINDOW_S,
         tuning_cents=tuning_cents,
     )
-    risen = rises(sharp)
-    tell(0.85)
-    beats_s = score.tempo_map.seconds(np.arange(0.0, np.ceil(score.duration_beats) + 1))
-    heard = [hear_stretch(notes, stretch, risen, beats_s, fine.transposition) for stretch in fine.stretches]
+    tell(0.45)
+    return _Listened(features, rises(sharp), tuning_cents)
+
+
+def _find(
+    listened: _Listened, notes: ScoreNotes, duration_s: float, beats_s: Times, tell: Progress
+) -> _Found | None:
+    """Where notes are heard; None where nothing goes together."""
+    recording = listened.features
+    whole = _look_at_whole(recording, notes, duration_s, lambda share: tell(0.5 * share))
+    steady = _follow_steadily(recording, notes, whole, duration_s)
+    tell(0.7)
+    if steady is None or not steady.stretches:
+        return None
+    fine = _follow_finely(recording, notes, steady, duration_s)
+    tell(0.8)
+    heard = [
+        hear_stretch(notes, stretch, listened.risen, beats_s, fine.transposition)
+        for stretch in fine.stretches
+    ]
     heard = [stretch for stretch in heard if len(stretch.chord_s) >= FEWEST_CHORDS]
-    tell(0.95)
-    if not heard or sameness(fine.earned, whole.in_all_keys, _confidence(heard)) < LEAST:
-        return unlike
-    found = replace(
-        _put_together(heard, notes, score.duration_s, song_duration_s),
-        transposition=fine.transposition,
-        tuning_cents=round(tuning_cents, 1),
-    )
-    begins_s = found.song_times(float(notes.onset_s[0]))
-    counted = count_in(risen, ONSET_FRAMES_PER_S, begins_s, first_beat_s(found.song_times(beats_s)))
-    applause = sounds_after(samples, rate, begins_s, found.ends_s)
     tell(1.0)
-    return replace(found, count_in=counted, sounds_after=applause)
+    if not heard:
+        return None
+    confidence = float(np.mean(np.concatenate([stretch.agreement for stretch in heard])))
+    same = sameness(fine.earned, whole.in_all_keys, confidence)
+    return _Found(fine.transposition, heard, confidence, same)
+
+
+def _share_of(tell: Progress, begin: float, length: float) -> Progress:
+    return lambda share: tell(begin + length * share)
 
 
 def _tell_nobody(_: float) -> None:
@@ -240,10 +310,6 @@ def _follow_finely(recording: Floats, notes: ScoreNotes, steady: _Followed, dura
     frame_s = 1 / FRAMES_PER_S
     stretches = [stretch.straightened(bent) for stretch in stretches_of(path, frame_s, centred=False)]
     return _Followed(steady.transposition, stretches, earned_share(path, recording, score), frame_s)
-
-
-def _confidence(heard: list[HeardStretch]) -> float:
-    return float(np.mean(np.concatenate([stretch.agreement for stretch in heard])))
 
 
 def _put_together(

@@ -86,6 +86,46 @@ def test_a_count_in_and_a_repeat_are_told():
     assert gap.score_length_s < 0.5
 
 
+def test_a_scale_in_another_key_is_not_the_same_scale_a_note_later():
+    scale = Rendition("chromatic-scale", (0.9, 0.1), transposition=3, cents=30, seed=203)
+    _, alignment, result = aligned(scale)
+    assert alignment.transposition == 3
+    assert result.median_ms <= MEDIAN_MS
+    assert result.p95_ms <= P95_MS
+
+
+def test_a_part_alone_is_found_where_the_tune_is_not_played():
+    accompaniment = Rendition(ODE, (1.1, 0.1), without_parts=(0,), noise_db=-35, lead_in_s=1, seed=4)
+    _, alignment, result = aligned(accompaniment)
+    assert alignment.is_same_music
+    assert alignment.transposition == 0
+    assert result.p95_ms < 100
+
+
+def test_as_people_play_it_is_found_to_within_what_they_are_late_or_early_by():
+    played = Rendition(
+        VENICE,
+        (1.1, 0.08),
+        lead_in_s=1.7,
+        tail_s=3,
+        noise_db=-32,
+        reverberation_s=1.2,
+        rubato=0.05,
+        jitter_s=0.02,
+        missing=0.05,
+        wrong=0.05,
+        vibrato_cents=20,
+        breath_db=-22,
+        seed=9,
+    )
+    recording, alignment, result = aligned(played)
+    late_ms = 1000 * np.abs(recording.onset_s - recording.beat_s)
+    assert np.nanmedian(late_ms) > 10
+    assert result.median_ms < 25
+    assert np.percentile(result.beat_errors_ms, 95) < 80
+    assert alignment.confidence > 0.5
+
+
 def test_it_is_less_sure_of_what_is_spoilt():
     assert aligned(SPOILT)[1].confidence < aligned(SMOOTH)[1].confidence
 
