@@ -102,7 +102,7 @@ def bed(seed: int = 1) -> Iterable[tuple[str, Rendition]]:
 
 
 def hard_bed(seed: int = 1) -> Iterable[tuple[str, Rendition]]:
-    """As people play: rubato, notes early and late, wrong and left out, vibrato, breath, a room; sung, too."""
+    """As people play: rubato, notes early, late, wrong and left out, vibrato, breath, a room; sung, too."""
     random = np.random.default_rng(1000 + seed)
     for score in SCORES:
         parts = len(example(score).parts)

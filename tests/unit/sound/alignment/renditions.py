@@ -48,7 +48,7 @@ class Rendition:
         wrong: Share of the score's notes whose pitch is another than what is played.
         cut: `(from, seconds)`: what is taken out of the recording.
         repeat: `(from, seconds)`: what is heard twice.
-        rubato: By how much the tempo wanders from beat to beat, as people's does, a share; it slows at the end.
+        rubato: By how much the tempo wanders from beat to beat, a share; it slows at the end.
         jitter_s: How far each note is from where its beat is, its standard deviation.
         missing: Share of the score's notes that are not played.
         vibrato_cents: By how much all of it goes up and down, 5.5 times a second.
@@ -87,7 +87,7 @@ class Recording:
         score: What it is to be aligned with.
         samples: (F,) float32 at RATE.
         onset_s: (N,) where each note of the score begins in the recording; NaN if it is not heard, or twice.
-        beat_s: (N,) where its place of the score is, without what the player is late or early by; NaN likewise.
+        beat_s: (N,) the same without what the player is late or early by.
         rendition: What it was made by.
     """
 
@@ -256,7 +256,7 @@ def _with_vibrato(sound: Sound, cents: float) -> Sound:
 
 
 def _with_breaths(sound: Sound, onset_s: Floats, level_db: float, random: np.random.Generator) -> Sound:
-    """Noise that swells for a quarter of a second up to some of the notes, and hisses on softly beneath them."""
+    """Noise that swells up to some of the notes, and hisses on softly beneath them."""
     level = float(np.sqrt(np.mean(sound**2))) * 10 ** (level_db / 20)
     swell = np.linspace(0, 1, RATE // 4) ** 2
     strength = np.full(len(sound), 0.2)
