@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reina.errors import InputError
 from reina.music import Score
 from reina.sound.alignment.alignment import Alignment
 from reina.sound.alignment.assemble import assemble
@@ -13,6 +14,7 @@ from reina.sound.alignment.chords import HeardStretch, ScoreNotes, hear_stretch,
 from reina.sound.alignment.features import frame_features, pooled, transposed
 from reina.sound.alignment.onsets import FRAMES_PER_S as ONSET_FRAMES_PER_S
 from reina.sound.alignment.onsets import WINDOW_S as ONSET_WINDOW_S
+from reina.sound.alignment.onsets import scaled_rises
 from reina.sound.alignment.path import Likeness, Path, Rules, best_path
 from reina.sound.alignment.sameness import LEAST, earned_share, sameness
 from reina.sound.alignment.score_bands import Times, score_energies
@@ -50,6 +52,8 @@ CLOSE_KEYS, MOST_KEYS = 0.85, 4
 FEWEST_CHORDS = 2
 """A stretch of fewer notes is taken for chance."""
 
+LONGEST_S = 4200.0
+"""A longer recording takes more memory than the process that listens to it may have."""
 DOUBTFUL = 0.62
 """Where it is less sure, part of the parts may be missing: some are listened for without the others."""
 CLEARLY, LEAST_OF_SOME = 0.1, 0.36
@@ -95,12 +99,14 @@ class _Listened:
 
     Attributes:
         features: Of its frames.
-        risen: (F, BANDS) where something begins, at the onsets' frames.
+        scaled: (F, BANDS) where something begins, at the onsets' frames, as `scaled_rises` says.
+        broad: (F,) by how much all bands together rise there.
         tuning_cents: By how much it is tuned higher.
     """
 
     features: Floats
-    risen: Floats
+    scaled: Floats
+    broad: Floats
     tuning_cents: float
 
 
@@ -129,9 +135,17 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
         rate: Samples a second.
         score: What is played in it.
         progress: Is told how far the work is.
+
+    Raises:
+        InputError: The recording is longer than `LONGEST_S`.
     """
     tell = progress or _tell_nobody
     song_duration_s = len(samples) / rate
+    if song_duration_s > LONGEST_S:
+        raise InputError(
+            f"the recording lasts {song_duration_s / 60:.0f} minutes, and in {LONGEST_S / 60:.0f} at most "
+            "the score is looked for: cut it, or put them in time by hand"
+        )
     unlike = Alignment.identity(score.duration_s, song_duration_s, is_same_music=False)
     if not np.any(samples):
         return unlike
@@ -156,7 +170,7 @@ def align(samples: Floats, rate: int, score: Score, progress: Progress | None = 
     )
     begins_s = alignment.song_times(float(notes.onset_s[0]))
     first_s = first_beat_s(alignment.song_times(beats_s))
-    counted = count_in(listened.risen, ONSET_FRAMES_PER_S, begins_s, first_s)
+    counted = count_in(listened.broad, ONSET_FRAMES_PER_S, begins_s, first_s)
     applause = sounds_after(samples, rate, begins_s, alignment.ends_s)
     tell(1.0)
     return replace(alignment, count_in=counted, sounds_after=applause)
@@ -178,7 +192,9 @@ def _listen(samples: Floats, rate: int, tell: Progress) -> _Listened:
         tuning_cents=tuning_cents,
     )
     tell(0.45)
-    return _Listened(features, rises(sharp), tuning_cents)
+    risen = rises(sharp)
+    broad = risen.mean(axis=1)
+    return _Listened(features, scaled_rises(risen), broad, tuning_cents)
 
 
 def _find(
@@ -194,7 +210,7 @@ def _find(
     fine = _follow_finely(recording, notes, steady, duration_s)
     tell(0.8)
     heard = [
-        hear_stretch(notes, stretch, listened.risen, beats_s, fine.transposition)
+        hear_stretch(notes, stretch, listened.scaled, beats_s, fine.transposition)
         for stretch in fine.stretches
     ]
     heard = [stretch for stretch in heard if len(stretch.chord_s) >= FEWEST_CHORDS]

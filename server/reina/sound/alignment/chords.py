@@ -120,14 +120,14 @@ class HeardStretch:
 
 
 def hear_stretch(
-    notes: ScoreNotes, stretch: Stretch, risen: Floats, beats_s: Times, transposition: int
+    notes: ScoreNotes, stretch: Stretch, scaled: Floats, beats_s: Times, transposition: int
 ) -> HeardStretch:
     """Place the chords of a stretch where they begin in the recording, and lay a line from beat to beat.
 
     Args:
         notes: Of the whole score.
         stretch: Where the path has it.
-        risen: Of the recording, as `refine_onsets` takes it.
+        scaled: Of the recording, as `refine_onsets` takes it.
         beats_s: Where the beats are in the score.
         transposition: Semitones by which the recording sounds higher.
     """
@@ -148,7 +148,7 @@ def hear_stretch(
     line_s = np.interp(knots_s, places, stretch.song_s[first_at])
     agreement = np.zeros(len(chord_s))
     for _ in range(ROUNDS if len(chord_s) else 0):
-        heard_s, clarity = refine_onsets(risen, np.interp(chord_s, knots_s, line_s), pitches, has_drums)
+        heard_s, clarity = refine_onsets(scaled, np.interp(chord_s, knots_s, line_s), pitches, has_drums)
         line_s = fit_beats(knots_s, chord_s, heard_s, clarity)
         off_s = heard_s - np.interp(chord_s, knots_s, line_s)
         agreement = clarity * np.exp(-((off_s / AGREEMENT_S) ** 2))

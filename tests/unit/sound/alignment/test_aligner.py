@@ -9,6 +9,7 @@ from tests.unit.sound.alignment.bed import Result, measure
 from tests.unit.sound.alignment.renditions import RATE, Recording, Rendition, example, record, render
 from tests.unit.sound.material import Row, a_part, a_score
 
+from reina.errors import InputError
 from reina.sound.alignment import Alignment, align
 
 MEDIAN_MS, P95_MS = 10.0, 40.0
@@ -142,6 +143,11 @@ def test_noise_and_silence_are_no_music():
     noise = np.random.default_rng(0).normal(0, 0.1, 20 * RATE).astype(np.float32)
     for samples in (noise, np.zeros(5 * RATE, dtype=np.float32), noise[: RATE // 10], noise[:1]):
         assert not align(samples, RATE, example(TAPS)).is_same_music
+
+
+def test_what_is_too_long_to_be_listened_to_is_refused_with_what_can_be_done():
+    with pytest.raises(InputError, match=r"lasts 167 minutes, and in 70 at most .* by hand"):
+        align(np.ones(10_000, dtype=np.float32), 1, example(TAPS))
 
 
 def test_progress_rises_to_the_whole():
