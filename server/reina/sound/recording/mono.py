@@ -37,7 +37,7 @@ def read_mono(data: Data) -> tuple[NDArray[np.float32], int]:
         if isinstance(streams, AudioFacts):
             raise InputError(
                 f"{audio_format.name} is not decoded here, only in the page, which plays it; convert it to "
-                f"WAV, FLAC, MP3, Ogg Vorbis or Opus, as by `ffmpeg -i song{audio_format.suffix} song.flac`"
+                f"WAV, AIFF, FLAC, MP3, Ogg Vorbis or Opus, as by `ffmpeg -i song{audio_format.suffix} song.flac`"
             )
         thinner = Thinner()
         decoded = decode(streams, thinner.take)
