@@ -37,7 +37,8 @@ def read_mono(data: Data) -> tuple[NDArray[np.float32], int]:
         if isinstance(streams, AudioFacts):
             raise InputError(
                 f"{audio_format.name} is not decoded here, only in the page, which plays it; convert it to "
-                f"WAV, AIFF, FLAC, MP3, Ogg Vorbis or Opus, as by `ffmpeg -i song{audio_format.suffix} song.flac`"
+                "WAV, AIFF, FLAC, MP3, Ogg Vorbis or Opus, as by "
+                f"`ffmpeg -i song{audio_format.suffix} song.flac`"
             )
         thinner = Thinner()
         decoded = decode(streams, thinner.take)
