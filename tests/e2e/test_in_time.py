@@ -9,6 +9,7 @@ import pytest
 import soundfile
 from tests.e2e.test_accessibility import faults
 from tests.unit.sound.alignment.renditions import RATE, SCORES, Rendition, record
+from tests.unit.sound.recording.coded import as_coded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -109,3 +110,42 @@ def test_a_dropped_recording_is_found_and_put_right_by_hand(visit: Visit, client
     undo.click()
     page.locator("section[data-anchors='0']").wait_for()
     assert kept()["alignment"]["anchors"] == []
+
+
+def test_what_the_server_does_not_decode_is_decoded_here(visit: Visit, client: httpx.Client) -> None:
+    """A WebM in another key, which the players then follow."""
+    made = record(
+        Rendition(SCORE.removesuffix(".json"), (SLOWER, 0.0), lead_in_s=LEAD_IN_S, transposition=-2)
+    )
+    opened = visit("/s/no-such-session-0000000", size=SIZE, refusals=("404",))
+    page = opened.page
+    page.get_by_role("heading", name="This session is not here").wait_for()
+    song = as_coded(made.samples, RATE, "webm")
+    score = (SCORES / SCORE).read_bytes()
+    opened.choose_files((SCORE, "application/json", score), ("ode.webm", "audio/webm", song))
+    opened.until("window.reina?.session && window.reina.drawn")
+    page.get_by_text("In time with the recording · ").first.wait_for()
+    page.keyboard.press("h")
+    panel = page.get_by_role("region", name="score and recording")
+    panel.get_by_role("button", name="Look again").wait_for()
+    told = client.get(f"/api/v1/sessions/{opened.session}/alignment").json()
+    assert (told["status"], told["is_searchable"]) == ("found", True)
+    assert told["bars"][0]["beats"][0]["song_s"] == pytest.approx(LEAD_IN_S, abs=0.1)
+    assert told["song_duration_s"] == pytest.approx(len(made.samples) / RATE, abs=0.1)
+    assert client.get(f"/api/v1/sessions/{opened.session}/song").content == song
+
+    def first_pitch() -> int:
+        score = client.get(f"/api/v1/sessions/{opened.session}/score").json()
+        return score["notes"][0]["sounding_pitch"]
+
+    written = first_pitch()
+    panel.get_by_text("The recording sounds 2 semitones lower.").wait_for()
+    fingered = panel.get_by_role("combobox", name="Notes and fingering")
+    fingered.select_option("as the recording sounds: 2 semitones lower")
+    page.locator("section[data-key='recording']").wait_for()
+    assert first_pitch() == written - 2
+    page.screenshot(path="/tmp/key_align.png")
+    assert faults(opened) == []
+    panel.get_by_role("button", name="Undo").click()
+    page.locator("section[data-key='score']").wait_for()
+    assert first_pitch() == written

@@ -14,6 +14,7 @@ import soundfile
 from tests.integration.scores import scale, song
 from tests.integration.server import Owned, serve, upload
 from tests.unit.sound.alignment.renditions import RATE, SCORES, Rendition, example, record
+from tests.unit.sound.recording.coded import as_coded
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
@@ -225,4 +226,90 @@ def test_viewers_hear_of_it(client: httpx.Client, server: Any) -> None:
             if isinstance(message, str):
                 heard.append(json.loads(message)["type"])
         assert "score_changed" in heard
+    made.change("DELETE")
+
+
+def as_wav(samples: Any, rate: int = RATE) -> bytes:
+    file = io.BytesIO()
+    soundfile.write(file, samples, rate, format="WAV", subtype="PCM_16")
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(("container", "name"), [("webm", "taps.webm"), ("mp4", "taps.m4a")])
+def test_what_a_page_decodes_is_listened_to(client: httpx.Client, container: str, name: str) -> None:
+    samples = record(Rendition("taps", tempo=(SLOWER, 0.0), lead_in_s=LEAD_IN_S)).samples
+    song = as_coded(samples, RATE, container)
+    made = upload(client, next(SCORES.glob("taps.*")).read_bytes(), song=(name, song))
+    told = state(made)
+    assert (told["status"], told["is_searchable"]) == ("none", False)
+    refused = made.change("POST", "/alignment/search")
+    assert refused.status_code == 409
+    assert "song/analysis" in refused.json()["detail"]
+    assert client.get(f"{made.path}/song/peaks").status_code == 204
+
+    assert client.put(f"{made.path}/song/analysis", content=as_wav(samples)).status_code == 401
+    for body, said in (
+        (b"no sound", "no audio file"),
+        (b"", "empty"),
+        (song, "not decoded here either"),
+        (as_wav(samples[: 5 * RATE]), "it is not this song"),
+        (as_wav(samples[::10], RATE // 10), "22,050 are enough"),
+    ):
+        answer = made.change("PUT", "/song/analysis", content=body)
+        assert (answer.status_code, said in answer.json()["detail"]) == (422, True), answer.text
+    assert state(made)["status"] == "none"
+
+    taken = made.change("PUT", "/song/analysis", content=as_wav(samples))
+    assert (taken.status_code, taken.json()["status"]) == (202, "searching")
+    told = state(made)
+    assert (told["status"], told["is_searchable"]) == ("found", True)
+    assert told["song_duration_s"] == pytest.approx(len(samples) / RATE, abs=1e-3)
+    assert notes(made)[0]["onset_s"] == pytest.approx(LEAD_IN_S, abs=0.05)
+    assert client.get(f"{made.path}/song/peaks").json()["duration_s"] == pytest.approx(len(samples) / RATE)
+    served = client.get(f"{made.path}/song")
+    assert (served.headers["content-type"], served.content) == (f"audio/{container}", song)
+    assert made.change("POST", "/alignment/search").status_code == 202
+    made.change("DELETE")
+
+
+def test_only_what_the_server_does_not_decode_is_sent_to_it_decoded(client: httpx.Client) -> None:
+    made = upload(client, scale(4), song=("s.wav", song(6.0)))
+    state(made)
+    refused = made.change("PUT", "/song/analysis", content=song(6.0))
+    assert refused.status_code == 409
+    assert "decodes this song itself" in refused.json()["title"]
+    made.change("DELETE")
+    rendered = upload(client, scale(4))
+    assert rendered.change("PUT", "/song/analysis", content=song(6.0)).status_code == 409
+    rendered.change("DELETE")
+
+
+def test_players_follow_the_recording_s_key_where_that_is_chosen(client: httpx.Client) -> None:
+    sound = as_wav(record(Rendition("ode-to-joy", transposition=-3)).samples)
+    made = upload(client, next(SCORES.glob("ode-to-joy.*")).read_bytes(), "ode.json", song=("o.wav", sound))
+    told = state(made)
+    assert told["alignment"]["transposition"] == -3
+
+    def pitches() -> list[tuple[int, int]]:
+        return [(note["part"], note["sounding_pitch"]) for note in notes(made)]
+
+    def fifths() -> int:
+        return client.get(f"{made.path}/part").raise_for_status().json()["keys"][0]["fifths"]
+
+    before, cast, key = pitches(), client.get(f"{made.path}/cast").json(), fifths()
+    with_key = made.change("PUT", "/alignment", json={"follows_key": True, "offset_s": 0.1})
+    assert with_key.status_code == 200
+    assert with_key.json()["alignment"]["follows_key"] is True
+    assert pitches() == [(part, pitch - 3) for part, pitch in before]
+    assert (fifths() - key - 3) % 12 == 0
+    assert client.get(f"{made.path}/cast").json()["castings"][0]["transposition"] == 0
+    assert made.change("PATCH", json={"transposition": 12}).status_code == 200
+    assert notes(made)[0]["sounding_pitch"] in (before[0][1] - 3, before[0][1] + 9)
+    assert made.change("PATCH", json={"transposition": 0}).status_code == 200
+    assert made.change("POST", "/alignment/search").status_code == 202
+    assert state(made)["alignment"]["follows_key"] is True, "what was chosen stays"
+    assert made.change("PUT", "/alignment", json={}).status_code == 200
+    assert pitches() == before
+    after = client.get(f"{made.path}/cast").json()
+    assert after["castings"] == cast["castings"]
     made.change("DELETE")

@@ -13,6 +13,8 @@ from tests.integration.scores import scale
 from tests.integration.server import Owned, serve, upload
 from tests.unit.sound.recording.recordings import mp4, recording, wav
 
+from reina.sound.recording.probe import probe_recording
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -82,10 +84,11 @@ def test_of_what_is_not_decoded_there_are_no_peaks(with_song: Any, client: httpx
     [
         (b"", "empty"),
         (b"no song at all", "no audio file"),
-        (recording("AIFF", "PCM_16"), "no audio file"),
+        (recording("AU", "PCM_16"), "no audio file"),
+        (recording("AIFF", "PCM_16")[:30], "looks like AIFF"),
         (recording("FLAC", "PCM_16")[:60], "looks like FLAC"),
     ],
-    ids=["empty", "text", "AIFF", "broken"],
+    ids=["empty", "text", "AU", "AIFF", "broken"],
 )
 def test_what_is_no_song_is_refused(client: httpx.Client, data: bytes, told: str) -> None:
     files = {"score": ("base.mid", (CASES / "base.mid").read_bytes()), "song": ("song", data)}
@@ -113,3 +116,31 @@ def test_the_server_answers_while_a_long_song_is_decoded(with_song: Any, client:
         time.sleep(0.02)
     sending.join()
     assert answered >= 3
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "media_type"),
+    [
+        ("song.aiff", recording("AIFF", "PCM_24"), "audio/aiff"),
+        ("song.aifc", recording("AIFF", "FLOAT", rate=48_000), "audio/aiff"),
+        ("song.wav", recording("WAV", "DOUBLE"), "audio/wav"),
+    ],
+)
+def test_what_browsers_do_not_play_is_served_as_flac_and_kept_as_it_came(
+    with_song: Any, client: httpx.Client, name: str, data: bytes, media_type: str
+) -> None:
+    session = with_song(name, data)
+    assert session.body["song"]["media_type"] == "audio/flac"
+    assert [each for each in session.body["warnings"] if each["place"] == "song"] == []
+    served = client.get(f"{session.path}/song")
+    assert served.headers["content-type"] == "audio/flac"
+    info, _ = probe_recording(served.content)
+    assert (info.format, info.duration_s) == ("FLAC", pytest.approx(1.0))
+    original = client.get(f"{session.path}/song", params={"format": "original"})
+    assert (original.headers["content-type"], original.content) == (media_type, data)
+    assert client.get(f"{session.path}/song/peaks").json()["duration_s"] == pytest.approx(1.0)
+
+
+def test_the_original_of_what_is_played_is_what_is_served(with_song: Any, client: httpx.Client) -> None:
+    session = with_song("song.wav", wav())
+    assert client.get(f"{session.path}/song", params={"format": "original"}).content == wav()

@@ -55,3 +55,15 @@ def read(file: str | PathLike[str] | _Virtual) -> tuple[npt.NDArray[np.float64],
 def read(
     file: str | PathLike[str] | _Virtual, *, dtype: Literal["int16"]
 ) -> tuple[npt.NDArray[np.int16], int]: ...
+@overload
+def read(
+    file: str | PathLike[str] | _Virtual, *, always_2d: Literal[True]
+) -> tuple[npt.NDArray[np.float64], int]: ...
+def write(
+    file: str | PathLike[str] | _Virtual,
+    data: npt.ArrayLike,
+    samplerate: int,
+    subtype: str | None = ...,
+    *,
+    format: str | None = ...,
+) -> None: ...

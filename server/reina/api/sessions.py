@@ -29,7 +29,7 @@ def _form() -> dict[str, Any]:
     """The form of POST /sessions: its files, and the fields as they are declared; nothing in it is null."""
     files = {
         "score": "MIDI, MusicXML or JSON, gzip'd or zipped if need be, at most {} MB",
-        "song": "WAV, MP3, Ogg, FLAC, M4A or WebM, at most {} MB; without it the score is rendered",
+        "song": "WAV, AIFF, MP3, Ogg, FLAC, M4A or WebM, at most {} MB; without it the score is rendered",
         "show": "JSON, at most {} MB",
     }
     properties: dict[str, Any] = {

@@ -15,6 +15,7 @@ from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, WAV_MEDIA_TYPE, wav_of
+from reina.sound.recording.probe import media_type_of
 
 router = APIRouter(tags=["song"])
 
@@ -37,10 +38,13 @@ HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
 )
 async def get_song(
     session: Watched,
+    store: Store,
     format: Annotated[  # noqa: A002
-        Literal["wav"] | None,
+        Literal["wav", "original"] | None,
         Query(
-            description="A rendered song as WAV instead of FLAC; an uploaded one is always sent as it came."
+            description="`wav`: a rendered song as WAV instead of FLAC. `original`: an uploaded one as it "
+            "came, which is what is sent anyway but of kinds that browsers do not play (AIFF, some WAV): "
+            "these are sent as FLAC."
         ),
     ] = None,
 ) -> Response:
@@ -57,6 +61,8 @@ async def get_song(
                 f"it was uploaded as {session.song.media_type} and is sent as it came: leave `format` out",
             )
         return await run_in_threadpool(_as_wav, path)
+    if format == "original" and (original := store.original_song(session)) is not None:
+        return ServedFile(original, media_type=media_type_of(original.suffix), headers=HEADERS)
     return ServedFile(path, media_type=session.song.media_type, headers=HEADERS)
 
 
@@ -105,7 +111,7 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
     response_model=SongPeaks,
     responses={
         202: {"model": SongState, "description": "The song is still being planned."},
-        204: {"description": "The server does not decode M4A and WebM; the page, which plays them, does."},
+        204: {"description": "M4A or WebM, not decoded here; `song/analysis` takes it decoded."},
     },
 )
 async def get_peaks(

@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument("score", type=Path, metavar="SCORE", help="a MIDI, MusicXML or JSON file")
     parser.add_argument(
-        "recording", type=Path, metavar="RECORDING", help="WAV, FLAC, MP3, Ogg Vorbis or Opus"
+        "recording", type=Path, metavar="RECORDING", help="WAV, AIFF, FLAC, MP3, Ogg Vorbis or Opus"
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where to write the map, as JSON")
 

@@ -6,10 +6,12 @@ import base64
 import contextlib
 import json
 import mimetypes
+import time
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from reina.errors import InputError
+from reina.sessions.record import UNDECODED
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -23,6 +25,8 @@ WINDOW_WIDTH, WINDOW_HEIGHT = 320, 180
 """Of the page itself, which nobody sees: the film is drawn beside it."""
 OPENING_MS = 120_000
 UPLOAD_MS = 600_000
+DECODING_S, LOOK_EVERY_MS = 60.0, 200
+"""How long the page may take to decode a recording that the server does not."""
 OPEN = "() => window.reina?.session || document.querySelector('[role=alert]')"
 FILM = """
 async (commission) => {
@@ -117,7 +121,10 @@ class FilmPage:
         from playwright.sync_api import Error
 
         try:
-            self._page.goto(f"{self._address}/s/{self._session['id']}?clean=1&tier=low", timeout=OPENING_MS)
+            # What the server does not decode, a page that controls the session decodes for it.
+            control = f"#control={self._session['control_token']}" if self._is_decoded_here else ""
+            address = f"{self._address}/s/{self._session['id']}?clean=1&tier=low{control}"
+            self._page.goto(address, timeout=OPENING_MS)
             self._page.wait_for_function(OPEN, timeout=OPENING_MS)
         except Error as error:
             raise InputError(
@@ -148,6 +155,7 @@ class FilmPage:
 
         part = output.with_name(f".{output.name}.part")
         try:
+            self._wait_for_alignment(progress)
             with part.open("wb") as file:
 
                 def write(position: int, text: str) -> str | None:
@@ -175,7 +183,23 @@ class FilmPage:
             part.unlink(missing_ok=True)
         return Made(**answer["made"])
 
-    def _upload(self, files: dict[str, tuple[str, bytes]]) -> dict[str, str]:
+    @property
+    def _is_decoded_here(self) -> bool:
+        return self._session["song"]["media_type"] in UNDECODED
+
+    def _wait_for_alignment(self, progress: FilmProgress) -> None:
+        """Wait until the score is in time with a recording, or known not to be: it moves everything."""
+        until = time.monotonic() + DECODING_S
+        path = f"{self._address}/api/v1/sessions/{self._session['id']}"
+        while True:
+            status = self._context.request.get(path).json()["alignment"]["status"]
+            is_coming = status == "none" and self._is_decoded_here and time.monotonic() < until
+            if status != "searching" and not is_coming:
+                return
+            progress.tell("recording", 0, 1, None)
+            self._page.wait_for_timeout(LOOK_EVERY_MS)
+
+    def _upload(self, files: dict[str, tuple[str, bytes]]) -> dict[str, Any]:
         from playwright.sync_api import Error
 
         form: dict[str, str | float | bool | bytes | FilePayload] = {

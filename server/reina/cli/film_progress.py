@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from typing import TextIO
 
-PHASES = {"sound": "the sound is made", "stage": "the stage is set", "closing": "the file is closed"}
+PHASES = {
+    "recording": "the score is put in time with the recording",
+    "sound": "the sound is made",
+    "stage": "the stage is set",
+    "closing": "the file is closed",
+}
 TENTHS = 10
 PLACES = 78
 """Of a line that is written over, columns."""

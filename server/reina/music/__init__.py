@@ -18,6 +18,7 @@ from reina.music.read import read_score
 from reina.music.retime import SongTimes, from_second_zero, retimed
 from reina.music.score import Part, Score
 from reina.music.tempo import Tempo, TempoMap
+from reina.music.transpose import transposed
 from reina.music.warnings import ScoreWarning, WarningLog
 
 __all__ = [
@@ -55,4 +56,5 @@ __all__ = [
     "retimed",
     "score_document",
     "score_schema",
+    "transposed",
 ]

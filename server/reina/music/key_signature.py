@@ -1,8 +1,12 @@
 """Key signatures as files have them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 MAX_ACCIDENTALS = 7
+
+
+MOST_FIFTHS = 6
+"""Sharps or flats of the simpler of two spellings, at most."""
 
 
 @dataclass(frozen=True)
@@ -18,6 +22,13 @@ class KeySignature:
     onset_beats: float
     fifths: int
     is_minor: bool = False
+
+    def moved(self, semitones: int) -> "KeySignature":
+        """The same so many semitones higher, with six sharps or flats at most."""
+        if semitones % 12 == 0:
+            return self
+        fifths = self.fifths + (7 * semitones + 5) % 12 - 5
+        return replace(self, fifths=(fifths + 5) % 12 - 5 if abs(fifths) > MOST_FIFTHS else fifths)
 
 
 def in_order(signatures: list[KeySignature]) -> tuple[KeySignature, ...]:

@@ -57,14 +57,15 @@ class AlignmentDocument(_Model):
     sounds_after: bool = False
     anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
     offset_s: Seconds = 0.0
+    follows_key: bool = False
 
 
 class AlignmentState(WireModel):
     """How far a session's score is in time with its song."""
 
     status: Literal["none", "searching", "found", "unlike", "failed"]
-    """`none`: the song is rendered from the score, or is not decoded by the server; `unlike`: it is other
-    music, and both begin at 0."""
+    """`none`: the song is rendered from the score, or is M4A or WebM that no page has decoded yet; `unlike`:
+    it is other music, and both begin at 0."""
     progress: float
     """0 to 1; 1 once something is known."""
     confidence: float | None
@@ -98,8 +99,8 @@ class Alignment(AlignmentState):
     """Where a session's score is heard in its song."""
 
     is_searchable: bool
-    """Whether the server can look for the score in the song: not in M4A and WebM, nor is there anything to
-    look for in what is rendered."""
+    """Whether the server can look for the score in the song: in M4A and WebM only once `song/analysis` has
+    had them decoded; there is nothing to look for in what is rendered."""
     song_duration_s: float | None
     """Length of the recording; null where the song is rendered, or its length is not known."""
     bars: list[AlignedBar]
@@ -118,3 +119,6 @@ class AlignmentCorrections(WireModel):
     """Places of the score that are put where they are heard; what was found goes through them."""
     offset_s: Seconds = 0.0
     """By how much everything is heard later, seconds."""
+    follows_key: bool = False
+    """Whether all is played in the recording's key, `transposition` semitones above the score's; else in the
+    score's."""

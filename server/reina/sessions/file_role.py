@@ -32,7 +32,7 @@ SHOW_FIELDS = frozenset({"markers", "time", "version"})
 SHOW_TRACK_FIELDS = frozenset({"events", "keyframes", "parameter"})
 
 SONG_SUFFIXES = frozenset(
-    {".aac", ".aif", ".aiff", ".flac", ".m4a", ".m4b", ".mp3", ".mp4"}
+    {".aac", ".aif", ".aifc", ".aiff", ".flac", ".m4a", ".m4b", ".mp3", ".mp4"}
     | {".oga", ".ogg", ".opus", ".wav", ".weba", ".webm", ".wma"}
 )
 SCORE_SUFFIXES = MIDI_SUFFIXES | MUSICXML_SUFFIXES | {".gz", ".zip", ".json"}

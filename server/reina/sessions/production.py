@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, casting_reasons, choice_findings, spoken_name, unplayed_parts
 from reina.instruments.player import plan_glances
-from reina.music import findings_of, retimed
+from reina.music import findings_of, retimed, transposed
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.cast_plan import complete_cast, seats_of
@@ -58,7 +58,7 @@ class Production:
         registry: Everything that its show can move.
         cast: Who plays what, each casting with its part.
         written_score: What is played, in the time of its file.
-        score: The same as it is heard: in the time of the song.
+        score: The same as it is heard: in the time of the song, and in its key where that is asked for.
         rankings: Of each player the parts that suit the instrument, best first.
         show: The show around it.
         show_plan: The show, made ready.
@@ -86,6 +86,7 @@ class Production:
         cast: Cast | None = None,
         alignment: SongTimes | None = None,
         stances: Mapping[str, HumanPose] | None = None,
+        transposition: int = 0,
     ) -> Production:
         """Plan a performance; takes milliseconds to a second, depending on the score.
 
@@ -98,6 +99,7 @@ class Production:
             alignment: Where the score is heard in the song; where it is written when None. Who plays what
                 does not depend on it.
             stances: Poses that its players can stand in, by name.
+            transposition: Semitones by which all is played higher than it is written, as the song sounds.
 
         Raises:
             CastError: There is no such player, instrument or seat, or two players have one seat.
@@ -106,7 +108,7 @@ class Production:
         cast = cast or Cast()
         if cast.is_to_be_found:
             cast = stage.found_cast(score, cast.sequence)
-        heard = score if alignment is None else retimed(score, alignment)
+        heard = transposed(score if alignment is None else retimed(score, alignment), transposition)
         castings, played, rankings = complete_cast(stage, score, heard, cast)
         poses = stances or {}
         registry = stage.registry(tuple(casting.instrument for casting in castings), tuple(poses))

@@ -19,16 +19,30 @@ CASTING_FIELDS = ("instrument", "part", "transposition", "written", "player", "o
 """What a record of one player has of a casting."""
 
 
+UNDECODED = frozenset({"audio/mp4", "audio/webm"})
+"""What only browsers decode."""
+
+
 class SongRecord(BaseModel):
     """An uploaded song, as it was decoded."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     file: str
+    """What is served."""
     media_type: str
     duration_s: float | None
     warnings: tuple[Warned, ...] = ()
     """What its sender should know."""
+    original: str | None = None
+    """The file as it came, where what is served was made of it."""
+    heard: str | None = None
+    """What was decoded by a page, where the server does not decode it: to be listened to."""
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether the server can listen to it: to M4A and WebM only once a page has decoded them."""
+        return self.media_type not in UNDECODED or self.heard is not None
 
 
 class StanceRecord(BaseModel):

@@ -77,7 +77,7 @@ class Session:
         alignment: Alignment | None = None,
     ) -> None:
         self.record = record
-        self.alignment = SongAlignment(alignment)
+        self.alignment = SongAlignment(alignment, is_heard=record.song is None or record.song.is_heard)
         self.production = production
         self.show_revision = show_revision
         self.editing = asyncio.Lock()

@@ -32,10 +32,12 @@ class SongAlignment:
         alignment: What was found and put right; None until then.
         progress: Of a search that is under way, 0..1.
         error: Why the last search came to nothing.
+        is_heard: Whether the server can listen to the song; what is known of one that it cannot is by hand.
     """
 
-    def __init__(self, alignment: Alignment | None = None) -> None:
+    def __init__(self, alignment: Alignment | None = None, *, is_heard: bool = True) -> None:
         self.alignment = alignment
+        self.is_heard = is_heard
         self.progress = 0.0
         self.error: str | None = None
         self._search: asyncio.Task[None] | None = None
@@ -51,7 +53,7 @@ class SongAlignment:
         status: Status = "none"
         if self.is_searching:
             status = "searching"
-        elif found is not None:
+        elif found is not None and (found.is_same_music or self.is_heard):
             status = "found" if found.is_same_music else "unlike"
         elif self.error is not None:
             status = "failed"

@@ -26,7 +26,10 @@ from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
 from reina.skeleton import pose_of
 from reina.sound.alignment.aligner_process import Aligner
+from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
 from reina.sound.recording.decoder import SongDecoder
+from reina.sound.recording.peaks import peaks_path
+from reina.sound.recording.probe import Conversion
 from reina.system.atomic_write import write_atomically
 from reina.system.tokens import hash_token, new_token
 
@@ -40,6 +43,7 @@ if TYPE_CHECKING:
     from reina.sessions.stage import Stage
     from reina.show import ShowHistory
     from reina.sound.alignment.alignment import Alignment
+    from reina.sound.recording.probe import AudioInfo
     from reina.sound.renderer import SongRenderer
 
 SONG_CACHE_BYTES = 2_000_000_000
@@ -47,8 +51,10 @@ SONG_CACHE_BYTES = 2_000_000_000
 
 Stances = tuple[StanceRecord, ...]
 
-UNDECODED = frozenset({"audio/mp4", "audio/webm"})
-"""What only browsers decode."""
+HEARD_TOLERANCE_S, HEARD_TOLERANCE = 1.0, 0.01
+"""By how much what a page decoded may differ from the length that the song's headers say: s, and a share."""
+LOWEST_HEARD_RATE = 8000
+"""Fewer samples a second tell too little of notes."""
 
 LOADED = 32
 """How many sessions are kept in memory; beyond that, the idle ones that were asked for least recently are put
@@ -281,30 +287,68 @@ class SessionStore:
         """Look for a session's score in its song, in the background.
 
         Returns:
-            Whether there is a song to look in: a rendered one is in time already, and M4A and WebM are not
-            decoded.
+            Whether there is a song to look in that the server can listen to.
         """
         song = session.record.song
-        if song is None or song.media_type in UNDECODED:
+        if song is None or not song.is_heard:
             return False
 
         async def found(alignment: Alignment) -> None:
             def beside_what_people_said(known: Alignment | None) -> Alignment:
                 if known is None:
                     return alignment
-                return replace(alignment, anchors=known.anchors, offset_s=known.offset_s)
+                return replace(
+                    alignment,
+                    anchors=known.anchors,
+                    offset_s=known.offset_s,
+                    follows_key=known.follows_key,
+                )
 
             with contextlib.suppress(SessionEndedError):
                 await self.change_alignment(session, beside_what_people_said)
 
         session.alignment.search(
             self._aligner,
-            self._folders.folder(session.id) / song.file,
+            self._folders.folder(session.id) / (song.heard or song.file),
             session.production.written_score,
             found=found,
             tell=session.tell_alignment,
         )
         return True
+
+    async def hear_song(self, session: Session, sent: Path) -> None:
+        """Take what a page decoded of a song that the server does not decode, and look for the score in it.
+
+        Its length is the song's from then on, and its peaks are.
+
+        Args:
+            session: Whose.
+            sent: The sound, in a folder of `staging`: WAV or anything else that is decoded here.
+
+        Raises:
+            InputError: It cannot be decoded, or not be that song.
+        """
+        heard = sent.with_name(f"heard{FLAC_SUFFIX}")
+        info = await self.decoder.probe(sent, Conversion(heard, is_forced=True))
+        async with self._edit(session):
+            song = session.record.song
+            if song is None:
+                raise InputError("the session has no recording")
+            _check_heard(info, song)
+            folder = self._folders.folder(session.id)
+            record = session.record.model_copy(
+                update={"song": song.model_copy(update={"heard": heard.name, "duration_s": info.duration_s})}
+            )
+
+            def keep() -> None:
+                heard.replace(folder / heard.name)
+                peaks_path(sent).replace(peaks_path(folder / song.file))
+                self._folders.write_record(record)
+
+            await asyncio.to_thread(keep)
+            session.alignment.is_heard = True
+            await session.change_cast(record, session.production)
+        self.search_alignment(session)
 
     async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Take a session's show one step on or back, and keep it; edits of a session follow one another.
@@ -322,6 +366,11 @@ class SessionStore:
                 await session.change_show(production, kept)
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
         return kept
+
+    def original_song(self, session: Session) -> Path | None:
+        """The recording as it was sent; None where there is none."""
+        song = session.record.song
+        return None if song is None else self._folders.folder(session.id) / (song.original or song.file)
 
     def score_file(self, session: Session) -> Path:
         """The file that a session was made of, as it was sent."""
@@ -362,15 +411,20 @@ class SessionStore:
         await asyncio.to_thread(self._folders.write_index)
 
     async def _keep_song(self, uploaded: Path) -> SongRecord:
-        """Have a song decoded, and give it the name that its format has; its peaks stand beside it."""
-        info = await self.decoder.probe(uploaded)
-        song = uploaded.with_name(f"song{info.suffix}")
+        """Have a song decoded, and give it the name that its format has; its peaks stand beside it.
+
+        What most browsers do not play is served as FLAC; the file as it came is kept.
+        """
+        served = uploaded.with_name(f"song{FLAC_SUFFIX}")
+        info = await self.decoder.probe(uploaded, Conversion(served))
+        song = uploaded.with_name(f"{'original' if info.is_converted else 'song'}{info.suffix}")
         await asyncio.to_thread(uploaded.rename, song)
         return SongRecord(
-            file=song.name,
+            file=served.name if info.is_converted else song.name,
             media_type=info.media_type,
             duration_s=info.duration_s,
             warnings=tuple(warned(info.warnings)),
+            original=song.name if info.is_converted else None,
         )
 
     def _make(
@@ -453,7 +507,12 @@ class SessionStore:
         heard = alignment if alignment is not None and alignment.moves else None
         poses = {stance.name: pose_of(stance.turns) for stance in stances}
         return await self.reader.production(
-            score, filename=filename, cast=cast, alignment=heard, stances=poses
+            score,
+            filename=filename,
+            cast=cast,
+            alignment=heard,
+            stances=poses,
+            transposition=0 if heard is None else heard.played_higher,
         )
 
     async def _plan_other(
@@ -518,6 +577,30 @@ class SessionStore:
             writing = asyncio.create_task(asyncio.to_thread(self._folders.write_record, record))
             self._putting_away[session.id] = writing
             writing.add_done_callback(lambda _: self._putting_away.pop(session.id, None))
+
+
+def _check_heard(info: AudioInfo, song: SongRecord) -> None:
+    """Refuse what is not the sound of a song, as far as can be told.
+
+    Raises:
+        InputError: It is not.
+    """
+    if info.duration_s is None or info.sample_rate is None or not info.is_converted:
+        raise InputError(
+            f"{info.format} is not decoded here either: send the sound as WAV or FLAC, of one channel or two"
+        )
+    if info.sample_rate < LOWEST_HEARD_RATE:
+        raise InputError(
+            f"the sound has {info.sample_rate:,} samples a second; {LOWEST_HEARD_RATE:,} at least are needed "
+            "to hear notes in it, 22,050 are enough"
+        )
+    if song.duration_s is None or song.heard is not None:
+        return
+    if abs(info.duration_s - song.duration_s) > HEARD_TOLERANCE_S + HEARD_TOLERANCE * song.duration_s:
+        raise InputError(
+            f"the sound lasts {info.duration_s:.2f} s, and the song {song.duration_s:.2f} s: it is not this "
+            "song, or not all of it"
+        )
 
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:

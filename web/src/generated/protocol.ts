@@ -171,8 +171,8 @@ export interface ShowState {
 /** How far a session's score is in time with its song. */
 export interface AlignmentState {
   /**
-   * none: the song is rendered from the score, or is not decoded by the server; unlike: it is other
-   * music, and both begin at 0.
+   * none: the song is rendered from the score, or is M4A or WebM that no page has decoded yet; unlike:
+   * it is other music, and both begin at 0.
    */
   status: "none" | "searching" | "found" | "unlike" | "failed"
   /** 0 to 1; 1 once something is known. */
@@ -406,8 +406,8 @@ export interface Score {
 /** Where a session's score is heard in its song. */
 export interface Alignment extends AlignmentState {
   /**
-   * Whether the server can look for the score in the song: not in M4A and WebM, nor is there anything to
-   * look for in what is rendered.
+   * Whether the server can look for the score in the song: in M4A and WebM only once song/analysis has
+   * had them decoded; there is nothing to look for in what is rendered.
    */
   is_searchable: boolean
   /** Length of the recording; null where the song is rendered, or its length is not known. */
@@ -636,6 +636,11 @@ export interface AlignmentCorrections {
   anchors?: AnchorDocument[]
   /** By how much everything is heard later, seconds. */
   offset_s?: number
+  /**
+   * Whether all is played in the recording's key, transposition semitones above the score's; else in the
+   * score's.
+   */
+  follows_key?: boolean
 }
 
 /** A bar of the score, and where it is heard. */
@@ -671,6 +676,7 @@ export interface AlignmentDocument {
   sounds_after?: boolean
   anchors?: AnchorDocument[]
   offset_s?: number
+  follows_key?: boolean
 }
 
 /** A place of the score that a person has put where they hear it, as Anchor. */

@@ -5,6 +5,8 @@ export interface Corrections {
   /** In the score's order; `song_s` is before `offset_s` moves everything. */
   readonly anchors: readonly AnchorDocument[];
   readonly offset_s: number;
+  /** Whether all is played in the recording's key, and not in the score's. */
+  readonly follows_key?: boolean;
 }
 
 export const NOTHING: Corrections = { anchors: [], offset_s: 0 };
@@ -15,12 +17,14 @@ export const SAME_S = 0.001;
 export const APART_S = 0.02;
 
 export function correctionsOf(document: AlignmentDocument | null): Corrections {
-  return { anchors: document?.anchors ?? [], offset_s: document?.offset_s ?? 0 };
+  const moved = { anchors: document?.anchors ?? [], offset_s: document?.offset_s ?? 0 };
+  return document?.follows_key === true ? { ...moved, follows_key: true } : moved;
 }
 
 export function sameCorrections(one: Corrections, other: Corrections): boolean {
   return (
     one.offset_s === other.offset_s &&
+    (one.follows_key ?? false) === (other.follows_key ?? false) &&
     one.anchors.length === other.anchors.length &&
     one.anchors.every((anchor, index) => {
       const beside = other.anchors[index];

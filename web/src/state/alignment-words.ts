@@ -2,8 +2,8 @@ import { told } from "../words/told/en";
 import { percent } from "./readout";
 import type { SessionView } from "./session-view.svelte";
 
-/** What the server does not decode, and so does not look for the score in. */
-const UNHEARD = ["audio/mp4", "audio/webm"];
+/** What the server does not decode, and so looks for the score in only once this page has. */
+const UNDECODED = ["audio/mp4", "audio/webm"];
 
 /** What is said of how far the score is in time with the recording: a line, and what more there is to it. */
 export interface AlignmentWords {
@@ -11,15 +11,17 @@ export interface AlignmentWords {
   readonly detail: string;
 }
 
-/** Whether the server looks for the score in the recording by itself. */
+/** Whether the server has listened to the recording, or will by itself. */
 export function isListenedTo(view: SessionView): boolean {
-  return !UNHEARD.includes((view.hello?.song ?? view.session.song).media_type);
+  return !UNDECODED.includes((view.hello?.song ?? view.session.song).media_type) || view.alignment.status !== "none";
 }
 
 /** How far a session's score is in time with its recording; null where its sound is made from the score. */
 export function alignmentWords(view: SessionView): AlignmentWords | null {
   if (!view.isRecording) return null;
-  if (!isListenedTo(view)) return { title: told.byHand, detail: "" };
+  if (!isListenedTo(view)) {
+    return view.sending ? { title: told.sending, detail: "" } : { title: told.notSent, detail: told.notSentMeans };
+  }
   const { status, progress, confidence, detail } = view.alignment;
   switch (status) {
     case "searching":

@@ -13,7 +13,7 @@ export interface SortedFiles {
 
 /** What a file picker offers; what a file is, its content says. */
 export const ACCEPTED =
-  ".mid,.midi,.smf,.kar,.rmi,.musicxml,.mxl,.xml,.gz,.zip,.json,.wav,.mp3,.ogg,.oga,.opus,.flac,.m4a,.mp4,.aac,.webm";
+  ".mid,.midi,.smf,.kar,.rmi,.musicxml,.mxl,.xml,.gz,.zip,.json,.wav,.aif,.aiff,.aifc,.mp3,.ogg,.oga,.opus,.flac,.m4a,.mp4,.aac,.webm";
 
 /**
  * Sort files into scores, songs and shows.

@@ -26,6 +26,7 @@ import type {
 import {
   loadSegment,
   loadWhole,
+  monoWav,
   plannedSong,
   SegmentedSong,
   SongPlayer,
@@ -33,6 +34,7 @@ import {
   WholeSong,
   type SoundState,
 } from "../sound";
+import { isListenedTo } from "./alignment-words";
 import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
 import { SyncMeasure } from "./sync-measure";
@@ -81,6 +83,8 @@ export class SessionView {
   starting = $state(false);
   /** How far the score is in time with the recording. */
   alignment: AlignmentState;
+  /** What this page decoded of the recording is on its way to the server, which does not decode it. */
+  sending = $state(false);
   /** A search for the score in the recording has come to its end, and nobody was told yet. */
   searchEnded = $state(false);
   /** The last change of the show that the server told of. */
@@ -470,8 +474,22 @@ export class SessionView {
 
   async #takeWhole(href: string, signal: AbortSignal): Promise<void> {
     const bytes = await loadWhole(this.#surroundings.api, href, signal);
-    const whole = new WholeSong(await this.#player.decode(bytes));
-    if (!signal.aborted) this.#player.setSong(whole);
+    const decoded = await this.#player.decode(bytes);
+    if (signal.aborted) return;
+    this.#player.setSong(new WholeSong(decoded));
+    if (this.canControl && !isListenedTo(this)) void this.#send(decoded);
+  }
+
+  /** Send what this page decoded to the server, which does not decode it, to have the score looked for in it. */
+  async #send(decoded: AudioBuffer): Promise<void> {
+    const { api, id, token } = this;
+    if (token === null) return;
+    this.sending = true;
+    await this.#attempt(async () => {
+      // How the search goes, the stream tells.
+      await api.request("PUT", api.sessionPath(id, "song/analysis"), { body: await monoWav(decoded), token });
+    });
+    this.sending = false;
   }
 
   #segmented(segments: SongSegments, href: string, signal: AbortSignal): SegmentedSong {

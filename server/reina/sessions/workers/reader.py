@@ -61,6 +61,7 @@ class Reader:
         cast: Cast,
         alignment: SongTimes | None = None,
         stances: Mapping[str, HumanPose] | None = None,
+        transposition: int = 0,
     ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it.
 
@@ -70,12 +71,14 @@ class Reader:
             cast: Who plays what, and which of its sequences.
             alignment: Where it is heard in the song.
             stances: Poses that its players can stand in, by name.
+            transposition: Semitones by which all is played higher than it is written.
 
         Raises:
             InputError: It cannot be read, or not be played so.
         """
         size = await asyncio.to_thread(_weight, path)
-        return await self._read(size, read_and_plan, self._stage, path, filename, cast, alignment, stances)
+        heard = alignment, stances, transposition
+        return await self._read(size, read_and_plan, self._stage, path, filename, cast, *heard)
 
     async def show(self, data: bytes, registry: ParameterRegistry) -> Show:
         """Read a show from JSON text.
@@ -138,10 +141,13 @@ def read_and_plan(
     cast: Cast,
     alignment: SongTimes | None = None,
     stances: Mapping[str, HumanPose] | None = None,
+    transposition: int = 0,
 ) -> Production:
     """What `Reader.production` does."""
     score = read_score(path.read_bytes(), filename=filename, sequence=cast.sequence)
-    return Production.plan(stage, score, cast=cast, alignment=alignment, stances=stances)
+    return Production.plan(
+        stage, score, cast=cast, alignment=alignment, stances=stances, transposition=transposition
+    )
 
 
 def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:

@@ -100,6 +100,7 @@ class Alignment:
         sounds_after: Whether there is sound (applause) after the music, and not only silence.
         anchors: What a person has put where they hear it, in order.
         offset_s: By how much a person has moved everything, later in the recording if positive.
+        follows_key: Whether a person has it played in the recording's key, and not in the score's.
 
     Raises:
         AlignmentError: The points or anchors run backwards or leave the recording.
@@ -116,6 +117,7 @@ class Alignment:
     sounds_after: bool = False
     anchors: tuple[Anchor, ...] = ()
     offset_s: float = 0.0
+    follows_key: bool = False
 
     def __post_init__(self) -> None:
         _check_points(self.points, self.song_duration_s)
@@ -194,7 +196,13 @@ class Alignment:
     @property
     def moves(self) -> bool:
         """Whether anything moves the score: it was found, or a person has put something right."""
-        return self.is_same_music or bool(self.anchors) or self.offset_s != 0
+        by_hand = bool(self.anchors) or self.offset_s != 0 or self.played_higher != 0
+        return self.is_same_music or by_hand
+
+    @property
+    def played_higher(self) -> int:
+        """Semitones by which all is played higher than the score says; 0 where its key is kept."""
+        return self.transposition if self.follows_key else 0
 
     @property
     def bends_s(self) -> Times:
@@ -216,6 +224,10 @@ class Alignment:
             AlignmentError: It moves everything out of the recording.
         """
         return replace(self, offset_s=offset_s)
+
+    def with_key(self, *, follows: bool) -> Alignment:
+        """The same played in the recording's key, or in the score's."""
+        return replace(self, follows_key=follows)
 
     def _map(self) -> tuple[Times, Times]:
         score_s: Times = self.__dict__["_score_s"]

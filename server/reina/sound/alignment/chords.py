@@ -1,6 +1,6 @@
 """The chords of a stretch and where each is heard, on a line from beat to beat."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,10 @@ NEAREST_S = 0.02
 """A beat nearer to a stretch's edge has no knot of its own."""
 AGREEMENT_S = 0.03
 """An onset so far from its beat's line agrees with it by a third."""
+TUNE_SHARE = 0.2
+"""A part that has such a share of the notes that the busiest has may have the tune."""
+FEWEST_NOTES = 12
+"""Of fewer notes alone it would be chance."""
 LEAST_AGREEMENT = 0.2
 """A chord at the edge of a gap that agrees less is not heard."""
 
@@ -29,6 +33,7 @@ class ScoreNotes:
 
     Attributes:
         is_drum: Whether the pitch names a drum.
+        part: Which part has it.
     """
 
     onset_s: Times
@@ -36,6 +41,7 @@ class ScoreNotes:
     pitch: NDArray[np.int64]
     velocity: Times
     is_drum: NDArray[np.bool_]
+    part: NDArray[np.int64]
 
     @classmethod
     def of(cls, score: Score) -> "ScoreNotes":
@@ -48,7 +54,32 @@ class ScoreNotes:
             notes.sounding_pitch.astype(np.int64),
             notes.velocity,
             np.isin(notes.part, drums),
+            notes.part.astype(np.int64),
         )
+
+    def of_parts(self, parts: list[int]) -> "ScoreNotes":
+        """Those of some parts."""
+        kept = np.isin(self.part, parts)
+        return ScoreNotes(*(getattr(self, field.name)[kept] for field in fields(self)))
+
+
+def some_parts(notes: ScoreNotes) -> list[ScoreNotes]:
+    """What may be heard where not all of a score is: all but its tune, or its tune alone.
+
+    The tune is taken for the highest part that has a good share of the notes. None has fewer
+    notes than `FEWEST_NOTES`.
+    """
+    tonal = notes.part[~notes.is_drum]
+    parts = np.unique(tonal).tolist()
+    if len(parts) < 2:
+        return []
+    counts = {part: int(np.count_nonzero(tonal == part)) for part in parts}
+    frequent = [part for part in parts if counts[part] >= TUNE_SHARE * max(counts.values())]
+    tune = max(frequent, key=lambda part: float(np.median(notes.pitch[notes.part == part])))
+    choices = [[part for part in parts if part != tune], [tune]]
+    return [
+        notes.of_parts(choice) for choice in choices if sum(counts[part] for part in choice) >= FEWEST_NOTES
+    ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,14 +120,14 @@ class HeardStretch:
 
 
 def hear_stretch(
-    notes: ScoreNotes, stretch: Stretch, risen: Floats, beats_s: Times, transposition: int
+    notes: ScoreNotes, stretch: Stretch, scaled: Floats, beats_s: Times, transposition: int
 ) -> HeardStretch:
     """Place the chords of a stretch where they begin in the recording, and lay a line from beat to beat.
 
     Args:
         notes: Of the whole score.
         stretch: Where the path has it.
-        risen: Of the recording, as `refine_onsets` takes it.
+        scaled: Of the recording, as `refine_onsets` takes it.
         beats_s: Where the beats are in the score.
         transposition: Semitones by which the recording sounds higher.
     """
@@ -117,7 +148,7 @@ def hear_stretch(
     line_s = np.interp(knots_s, places, stretch.song_s[first_at])
     agreement = np.zeros(len(chord_s))
     for _ in range(ROUNDS if len(chord_s) else 0):
-        heard_s, clarity = refine_onsets(risen, np.interp(chord_s, knots_s, line_s), pitches, has_drums)
+        heard_s, clarity = refine_onsets(scaled, np.interp(chord_s, knots_s, line_s), pitches, has_drums)
         line_s = fit_beats(knots_s, chord_s, heard_s, clarity)
         off_s = heard_s - np.interp(chord_s, knots_s, line_s)
         agreement = clarity * np.exp(-((off_s / AGREEMENT_S) ** 2))

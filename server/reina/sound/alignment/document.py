@@ -64,6 +64,7 @@ def alignment_of(document: AlignmentDocument) -> Alignment:
         sounds_after=document.sounds_after,
         anchors=tuple(Anchor(**anchor.model_dump()) for anchor in document.anchors),
         offset_s=document.offset_s,
+        follows_key=document.follows_key,
     )
 
 

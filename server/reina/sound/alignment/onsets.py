@@ -33,13 +33,19 @@ def chords_of(onset_s: Times) -> NDArray[np.int64]:
     return np.array(firsts, dtype=np.int64)
 
 
+def scaled_rises(risen: Floats) -> Floats:
+    """Rises beside those that are usual in their band, 2 at most; what is given is overwritten."""
+    risen /= np.percentile(risen, 99, axis=0) + np.float32(1e-3 * risen.max() + 1e-9)
+    return np.minimum(risen, 2, out=risen)
+
+
 def refine_onsets(
-    risen: Floats, expected_s: Times, pitches: list[NDArray[np.int64]], unpitched: NDArray[np.bool_]
+    scaled: Floats, expected_s: Times, pitches: list[NDArray[np.int64]], unpitched: NDArray[np.bool_]
 ) -> tuple[Times, Times]:
     """Place chords where something begins, none far from its neighbours' displacement.
 
     Args:
-        risen: (F, BANDS) rises at FRAMES_PER_S.
+        scaled: (F, BANDS) of `scaled_rises`, at FRAMES_PER_S.
         expected_s: (G,) where the path has each chord, rising.
         pitches: Of each chord, as they sound; drums left out.
         unpitched: (G,) whether drums are in it too.
@@ -47,12 +53,10 @@ def refine_onsets(
     Returns:
         (G,) where they begin, and (G,) how clearly, 0..1.
     """
-    scaled = risen / (np.percentile(risen, 99, axis=0) + np.float32(1e-3 * risen.max() + 1e-9))
-    scaled = np.minimum(scaled, 2)
     broad = scaled.mean(axis=1)
     offsets = np.arange(-REACH, REACH + 1)
     evidence = np.empty((len(expected_s), len(offsets)))
-    whole = len(risen)
+    whole = len(scaled)
     for chord, (expected, sounding) in enumerate(zip(expected_s.tolist(), pitches, strict=True)):
         frames = np.clip(np.rint(expected * FRAMES_PER_S).astype(int) + offsets, 0, whole - 1)
         found = np.zeros(len(offsets))

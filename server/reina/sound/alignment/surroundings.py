@@ -24,16 +24,15 @@ APPLAUSE = 0.2
 """What is at least so loud beside the music is more than its noise."""
 
 
-def count_in(risen: Floats, frames_per_s: int, begins_s: float, beat_s: float) -> int:
+def count_in(broad: Floats, frames_per_s: int, begins_s: float, beat_s: float) -> int:
     """How many even beats are counted just before the music; 0 where it is not so.
 
     Args:
-        risen: (F, BANDS) by how much the recording's bands rise.
+        broad: (F,) by how much the recording's bands rise, all together.
         frames_per_s: How many frames a second has.
         begins_s: Where the music begins.
         beat_s: How long the first beats of the music last.
     """
-    broad = risen.mean(axis=1)
     begin = max(round(EDGE_S * frames_per_s), round((begins_s - LONGEST_COUNT_S) * frames_per_s))
     end = round((begins_s - APART_S) * frames_per_s)
     music = broad[end:]

@@ -13,7 +13,7 @@ from typing import Any
 from reina.errors import InputError
 from reina.music import ScoreWarning
 from reina.sound.recording.peaks import Peaks, peaks_path, read_peaks
-from reina.sound.recording.probe import AudioInfo
+from reina.sound.recording.probe import AudioInfo, Conversion
 
 PROGRAM = (sys.executable, "-m", "reina.sound.recording.worker")
 TIMEOUT_S = 300.0
@@ -46,14 +46,18 @@ class SongDecoder:
         self._timeout_s = timeout_s
         self._turns = asyncio.Semaphore(most_at_once)
 
-    async def probe(self, song: Path) -> AudioInfo:
+    async def probe(self, song: Path, conversion: Conversion | None = None) -> AudioInfo:
         """Tell what a recording is; its peaks stand beside it then, if it was decoded.
+
+        Args:
+            song: Its file.
+            conversion: Where what most browsers do not play is written as FLAC; None: it is not.
 
         Raises:
             InputError: It cannot be used, takes too long to decode, or makes the decoder crash.
         """
         async with self._turns:
-            message = await self._run(song)
+            message = await self._run(song, conversion)
         if "error" in message:
             raise InputError(message["error"])
         warnings = tuple(ScoreWarning(**warning) for warning in message.pop("warnings"))
@@ -71,9 +75,14 @@ class SongDecoder:
             peaks = await asyncio.to_thread(read_peaks, song)
         return peaks
 
-    async def _run(self, song: Path) -> dict[str, Any]:
+    async def _run(self, song: Path, conversion: Conversion | None) -> dict[str, Any]:
+        files = [song, peaks_path(song)]
+        options: list[str] = []
+        if conversion is not None:
+            files.append(conversion.path)
+            options += ["--forced"] if conversion.is_forced else []
         process = await asyncio.create_subprocess_exec(
-            *self._program, str(song), str(peaks_path(song)), stdin=PIPE, stdout=PIPE, stderr=PIPE
+            *self._program, *map(str, files), *options, stdin=PIPE, stdout=PIPE, stderr=PIPE
         )
         try:
             async with asyncio.timeout(self._timeout_s):

@@ -36,7 +36,9 @@ def read_mono(data: Data) -> tuple[NDArray[np.float32], int]:
         streams = audio_format.read(data, start)
         if isinstance(streams, AudioFacts):
             raise InputError(
-                f"{audio_format.name} is not decoded here; convert it to WAV, FLAC, MP3, Ogg Vorbis or Opus"
+                f"{audio_format.name} is not decoded here, only in the page, which plays it; convert it to "
+                "WAV, AIFF, FLAC, MP3, Ogg Vorbis or Opus, as by "
+                f"`ffmpeg -i song{audio_format.suffix} song.flac`"
             )
         thinner = Thinner()
         decoded = decode(streams, thinner.take)

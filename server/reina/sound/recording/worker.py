@@ -1,9 +1,10 @@
 """Probes one recording in a process of its own, started by `reina.sound.recording.decoder`.
 
-    python -m reina.sound.recording.worker SONG PEAKS
+    python -m reina.sound.recording.worker SONG PEAKS [FLAC [--forced]]
 
 On standard output it tells, as one JSON object, what `probe_recording` says, or ``{"error": "..."}``; the
-peaks are written to PEAKS. Standard input stays open: when it is closed, the one who asked is gone, and the
+peaks are written to PEAKS, and what browsers do not play, or anything where that is forced, to FLAC. Standard
+input stays open: when it is closed, the one who asked is gone, and the
 process ends.
 """
 
@@ -17,7 +18,7 @@ from pathlib import Path
 
 from reina.errors import InputError
 from reina.sound.recording.peaks import write_peaks
-from reina.sound.recording.probe import probe_recording
+from reina.sound.recording.probe import Conversion, probe_recording
 from reina.system.own_process import bound_memory, end_with_parent, yield_to_server
 
 MAX_MEMORY_BYTES = 1_500_000_000
@@ -27,6 +28,7 @@ MAX_MEMORY_BYTES = 1_500_000_000
 def main() -> int:
     """Probe, and tell."""
     song, peaks_file = Path(sys.argv[1]), Path(sys.argv[2])
+    conversion = Conversion(Path(sys.argv[3]), "--forced" in sys.argv[4:]) if len(sys.argv) > 3 else None
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
     threading.Thread(target=end_with_parent, daemon=True).start()
@@ -34,7 +36,7 @@ def main() -> int:
     try:
         with song.open("rb") as file:
             data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if song.stat().st_size else b""
-            info, peaks = probe_recording(data)
+            info, peaks = probe_recording(data, conversion)
         if peaks is not None:
             write_peaks(peaks_file, peaks)
     except InputError as error:

@@ -23,7 +23,8 @@ SCORES = (
     "trumpet-duet",
 )
 MELODIES, ACCOMPANIMENTS = (56, 60, 65, 68, 71, 73, 0), (0, 19, 24, 42, 61)
-"""General MIDI programs: brass, reeds, flute, piano; piano, organ, guitar, cello, brass section."""
+VOICE = 53
+"""General MIDI programs: a voice; brass, reeds, flute, piano; piano, organ, guitar, cello, brass section."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +33,13 @@ class Result:
 
     Attributes:
         errors_ms: (N,) of every note that is heard, without its sign.
+        beat_errors_ms: (N,) of its place of the score: without what the player is early or late by.
         median_ms: Their median.
         p95_ms: What 95 in a hundred are within.
     """
 
     errors_ms: np.ndarray[tuple[int], np.dtype[np.float64]]
+    beat_errors_ms: np.ndarray[tuple[int], np.dtype[np.float64]]
 
     @property
     def median_ms(self) -> float:
@@ -51,7 +54,9 @@ def measure(recording: Recording, alignment: Alignment) -> Result:
     """Hold an alignment against the truth."""
     heard = ~np.isnan(recording.onset_s)
     found = alignment.song_times(recording.score.notes.onset_s[heard])
-    return Result(1000 * np.abs(found - recording.onset_s[heard]))
+    return Result(
+        1000 * np.abs(found - recording.onset_s[heard]), 1000 * np.abs(found - recording.beat_s[heard])
+    )
 
 
 def bed(seed: int = 1) -> Iterable[tuple[str, Rendition]]:
@@ -96,6 +101,34 @@ def bed(seed: int = 1) -> Iterable[tuple[str, Rendition]]:
         yield "counted in", Rendition(score, tempo(0.05), count_in=4, lead_in_s=4, noise_db=-30, seed=number)
 
 
+def hard_bed(seed: int = 1) -> Iterable[tuple[str, Rendition]]:
+    """As people play: rubato, notes early, late, wrong and left out, vibrato, breath, a room; sung, too."""
+    random = np.random.default_rng(1000 + seed)
+    for score in SCORES:
+        parts = len(example(score).parts)
+        for kind, melody in (("played", int(random.choice(MELODIES))), ("sung", VOICE)):
+            others = (int(program) for program in random.choice(ACCOMPANIMENTS, parts - 1))
+            yield (
+                kind,
+                Rendition(
+                    score,
+                    (round(float(random.uniform(0.8, 1.25)), 2), 0.08),
+                    lead_in_s=1.7,
+                    tail_s=3,
+                    noise_db=-32,
+                    reverberation_s=1.2,
+                    programs=(melody, *others),
+                    rubato=0.08,
+                    jitter_s=round(float(random.uniform(0.015, 0.025)), 3),
+                    missing=0.05,
+                    wrong=0.05,
+                    vibrato_cents=35 if kind == "sung" else 20,
+                    breath_db=-15 if kind == "sung" else -22,
+                    seed=int(random.integers(1000)),
+                ),
+            )
+
+
 def other_music() -> Iterable[tuple[Recording, str]]:
     """Recordings, each with the name of a score that it is not."""
     names = [name for name in SCORES if name != "trumpet-duet"]
@@ -105,4 +138,4 @@ def other_music() -> Iterable[tuple[Recording, str]]:
             yield recording, written
 
 
-__all__ = ["RATE", "Result", "bed", "measure", "other_music", "record"]
+__all__ = ["RATE", "Result", "bed", "hard_bed", "measure", "other_music", "record"]

@@ -48,6 +48,11 @@ class Rendition:
         wrong: Share of the score's notes whose pitch is another than what is played.
         cut: `(from, seconds)`: what is taken out of the recording.
         repeat: `(from, seconds)`: what is heard twice.
+        rubato: By how much the tempo wanders from beat to beat, a share; it slows at the end.
+        jitter_s: How far each note is from where its beat is, its standard deviation.
+        missing: Share of the score's notes that are not played.
+        vibrato_cents: By how much all of it goes up and down, 5.5 times a second.
+        breath_db: Level of breaths, which end where notes begin, beside that of the music; None without.
         seed: Of all chance.
     """
 
@@ -66,6 +71,11 @@ class Rendition:
     wrong: float = 0.0
     cut: tuple[float, float] | None = None
     repeat: tuple[float, float] | None = None
+    rubato: float = 0.0
+    jitter_s: float = 0.0
+    missing: float = 0.0
+    vibrato_cents: float = 0.0
+    breath_db: float | None = None
     seed: int = 0
 
 
@@ -77,12 +87,14 @@ class Recording:
         score: What it is to be aligned with.
         samples: (F,) float32 at RATE.
         onset_s: (N,) where each note of the score begins in the recording; NaN if it is not heard, or twice.
+        beat_s: (N,) the same without what the player is late or early by.
         rendition: What it was made by.
     """
 
     score: Score
     samples: Sound
     onset_s: Floats
+    beat_s: Floats
     rendition: Rendition = field(repr=False)
 
 
@@ -99,13 +111,25 @@ def record(rendition: Rendition) -> Recording:
     score = example(rendition.score)
     random = np.random.default_rng(rendition.seed)
     warp_score, warp_song = _tempo_curve(score, rendition, random)
-    played = _played(score, rendition, warp_score, warp_song)
+    # Drawn only where they are asked for, so that other renditions stay what they were.
+    late_s = random.normal(0, rendition.jitter_s, len(score.notes)) if rendition.jitter_s else 0.0
+    heard = ~np.isin(score.notes.part, rendition.without_parts)
+    if rendition.missing:
+        heard &= random.random(len(score.notes)) >= rendition.missing
+    onset_s = np.maximum(np.interp(score.notes.onset_s, warp_score, warp_song) + late_s, 0)
+    played = _played(score, rendition, warp_score, warp_song, onset_s, heard)
+    slower = 2 ** (rendition.cents / 1200)
     sound = _detuned(render(played), rendition.cents)
-    warp_song = warp_song / 2 ** (rendition.cents / 1200)
+    warp_song = warp_song / slower
+    if rendition.vibrato_cents:
+        sound = _with_vibrato(sound, rendition.vibrato_cents)
+    if rendition.breath_db is not None:
+        sound = _with_breaths(sound, onset_s[heard] / slower, rendition.breath_db, random)
     if rendition.reverberation_s:
         sound = _reverberated(sound, rendition.reverberation_s, random)
-    onset_s = np.interp(score.notes.onset_s, warp_score, warp_song)
-    heard = ~np.isin(score.notes.part, rendition.without_parts)
+    beat_s = np.interp(score.notes.onset_s, warp_score, warp_song)
+    late_s = onset_s / slower - beat_s
+    onset_s = beat_s
     if rendition.cut is not None:
         begin_s, length_s = rendition.cut
         heard &= (onset_s < begin_s) | (onset_s >= begin_s + length_s)
@@ -117,10 +141,11 @@ def record(rendition: Rendition) -> Recording:
         heard &= (onset_s < begin_s) | (onset_s >= end_s)
         onset_s = np.where(onset_s >= end_s, onset_s + length_s, onset_s)
         sound = _joined(sound[: _at(end_s)], sound[_at(begin_s) :])
-    beat_s = float(np.interp(score.tempo_map.seconds(1.0), warp_score, warp_song))
-    sound = _framed(sound, rendition, beat_s, random)
-    onset_s = np.where(heard, onset_s + rendition.lead_in_s, np.nan)
-    return Recording(_with_wrong_notes(score, rendition.wrong, random), sound, onset_s, rendition)
+    first_beat_s = float(np.interp(score.tempo_map.seconds(1.0), warp_score, warp_song))
+    sound = _framed(sound, rendition, first_beat_s, random)
+    beat_s = np.where(heard, onset_s + rendition.lead_in_s, np.nan)
+    written = _with_wrong_notes(score, rendition.wrong, random)
+    return Recording(written, sound, beat_s + late_s, beat_s, rendition)
 
 
 def render(score: Score) -> Sound:
@@ -151,13 +176,24 @@ def _tempo_curve(score: Score, rendition: Rendition, random: np.random.Generator
         phases = random.uniform(0, 2 * np.pi, 2)
         bend = 0.6 * np.sin(times / 5 + phases[0]) + 0.4 * np.sin(times / 1.9 + phases[1])
         rate = mean * (1 + depth * bend)
+    if rendition.rubato:
+        beats = score.tempo_map.beats(times)
+        wander = rendition.rubato * random.standard_normal(int(beats[-1]) + 2)
+        rate = rate * np.exp(np.interp(beats, np.arange(len(wander)), wander))
+        rate = rate * (1 + 0.5 * np.clip((times - score.duration_s + 4) / 4, 0, 1))
     return times, np.concatenate(([0.0], np.cumsum(rate[:-1] * 0.05)))
 
 
-def _played(score: Score, rendition: Rendition, warp_score: Floats, warp_song: Floats) -> Score:
-    notes = score.notes.take(np.flatnonzero(~np.isin(score.notes.part, rendition.without_parts)))
-    onset_s = np.interp(notes.onset_s, warp_score, warp_song)
-    end_s = np.interp(notes.end_s, warp_score, warp_song)
+def _played(
+    score: Score,
+    rendition: Rendition,
+    warp_score: Floats,
+    warp_song: Floats,
+    onset_s: Floats,
+    heard: NDArray[np.bool_],
+) -> Score:
+    notes, onset_s = score.notes.take(np.flatnonzero(heard)), onset_s[heard]
+    end_s = np.maximum(np.interp(notes.end_s, warp_score, warp_song), onset_s + 0.03)
     parts, programs = score.parts, notes.program
     if rendition.programs:
         parts = tuple(
@@ -209,6 +245,27 @@ def _detuned(sound: Sound, cents: float) -> Sound:
     step = 2 ** (cents / 1200)
     at = np.arange(0, len(sound) - 1, step)
     return np.interp(at, np.arange(len(sound)), sound).astype(np.float32)
+
+
+def _with_vibrato(sound: Sound, cents: float) -> Sound:
+    """Read now a little faster, now a little slower."""
+    times = np.arange(len(sound)) / RATE
+    beat = 2 * np.pi * 5.5
+    late_s = (2 ** (cents / 1200) - 1) / beat * (1 - np.cos(beat * times))
+    return np.interp(times - late_s, times, sound).astype(np.float32)
+
+
+def _with_breaths(sound: Sound, onset_s: Floats, level_db: float, random: np.random.Generator) -> Sound:
+    """Noise that swells up to some of the notes, and hisses on softly beneath them."""
+    level = float(np.sqrt(np.mean(sound**2))) * 10 ** (level_db / 20)
+    swell = np.linspace(0, 1, RATE // 4) ** 2
+    strength = np.full(len(sound), 0.2)
+    for onset in random.choice(onset_s, len(onset_s) // 4, replace=False).tolist():
+        end = _at(onset)
+        begin = max(0, end - len(swell))
+        strength[begin:end] = np.maximum(strength[begin:end], swell[len(swell) - (end - begin) :])
+    hiss = np.diff(random.standard_normal(len(sound) + 1))
+    return (sound + level * strength * hiss).astype(np.float32)
 
 
 def _reverberated(sound: Sound, time_s: float, random: np.random.Generator) -> Sound:

@@ -9,6 +9,7 @@ from tests.unit.sound.alignment.bed import Result, measure
 from tests.unit.sound.alignment.renditions import RATE, Recording, Rendition, example, record, render
 from tests.unit.sound.material import Row, a_part, a_score
 
+from reina.errors import InputError
 from reina.sound.alignment import Alignment, align
 
 MEDIAN_MS, P95_MS = 10.0, 40.0
@@ -86,6 +87,46 @@ def test_a_count_in_and_a_repeat_are_told():
     assert gap.score_length_s < 0.5
 
 
+def test_a_scale_in_another_key_is_not_the_same_scale_a_note_later():
+    scale = Rendition("chromatic-scale", (0.9, 0.1), transposition=3, cents=30, seed=203)
+    _, alignment, result = aligned(scale)
+    assert alignment.transposition == 3
+    assert result.median_ms <= MEDIAN_MS
+    assert result.p95_ms <= P95_MS
+
+
+def test_a_part_alone_is_found_where_the_tune_is_not_played():
+    accompaniment = Rendition(ODE, (1.1, 0.1), without_parts=(0,), noise_db=-35, lead_in_s=1, seed=4)
+    _, alignment, result = aligned(accompaniment)
+    assert alignment.is_same_music
+    assert alignment.transposition == 0
+    assert result.p95_ms < 100
+
+
+def test_as_people_play_it_is_found_to_within_what_they_are_late_or_early_by():
+    played = Rendition(
+        VENICE,
+        (1.1, 0.08),
+        lead_in_s=1.7,
+        tail_s=3,
+        noise_db=-32,
+        reverberation_s=1.2,
+        rubato=0.05,
+        jitter_s=0.02,
+        missing=0.05,
+        wrong=0.05,
+        vibrato_cents=20,
+        breath_db=-22,
+        seed=9,
+    )
+    recording, alignment, result = aligned(played)
+    late_ms = 1000 * np.abs(recording.onset_s - recording.beat_s)
+    assert np.nanmedian(late_ms) > 10
+    assert result.median_ms < 25
+    assert np.percentile(result.beat_errors_ms, 95) < 80
+    assert alignment.confidence > 0.5
+
+
 def test_it_is_less_sure_of_what_is_spoilt():
     assert aligned(SPOILT)[1].confidence < aligned(SMOOTH)[1].confidence
 
@@ -102,6 +143,11 @@ def test_noise_and_silence_are_no_music():
     noise = np.random.default_rng(0).normal(0, 0.1, 20 * RATE).astype(np.float32)
     for samples in (noise, np.zeros(5 * RATE, dtype=np.float32), noise[: RATE // 10], noise[:1]):
         assert not align(samples, RATE, example(TAPS)).is_same_music
+
+
+def test_what_is_too_long_to_be_listened_to_is_refused_with_what_can_be_done():
+    with pytest.raises(InputError, match=r"lasts 167 minutes, and in 70 at most .* by hand"):
+        align(np.ones(10_000, dtype=np.float32), 1, example(TAPS))
 
 
 def test_progress_rises_to_the_whole():

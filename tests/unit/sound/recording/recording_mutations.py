@@ -37,6 +37,7 @@ def seeds() -> tuple[bytes, ...]:
     return (
         *(path.read_bytes() for path in sorted(CASES.glob("aud-*"))),
         wav(seconds=0.05),
+        recording("AIFF", "PCM_16", seconds=0.05),
         recording("WAV", "IMA_ADPCM", seconds=0.05, channels=1),
         recording("RF64", "FLOAT", seconds=0.05),
         flac,

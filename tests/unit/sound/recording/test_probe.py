@@ -8,6 +8,7 @@ import wave
 from typing import TYPE_CHECKING
 
 import pytest
+import soundfile
 from tests.unit.sound.recording.recordings import (
     RATE,
     element,
@@ -28,13 +29,14 @@ from tests.unit.sound.recording.recordings import (
 
 from reina.errors import InputError
 from reina.sound.recording import decode as sound_decode
-from reina.sound.recording.probe import probe_recording
+from reina.sound.recording.probe import Conversion, probe_recording
 from reina.sound.recording.wav import wav_header
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 WAV = wav()
+AIFF = recording("AIFF", "PCM_16")
 FLAC = recording("FLAC", "PCM_16")
 MP3 = recording("MP3", "MPEG_LAYER_III")
 VORBIS = recording("OGG", "VORBIS")
@@ -192,6 +194,72 @@ def test_tells_what_browsers_do_not_play(coding: str) -> None:
     assert probe_recording(wav(rate=3000))[0].warnings == ()
 
 
+AIFF_CODINGS = ("PCM_S8", "PCM_16", "PCM_24", "PCM_32", "FLOAT", "DOUBLE", "ALAW", "ULAW", "IMA_ADPCM")
+
+
+@pytest.mark.parametrize("coding", AIFF_CODINGS)
+def test_aiff_of_every_coding_is_decoded_and_told_not_to_be_played(coding: str) -> None:
+    info, peaks = probe_recording(id3(300) + recording("AIFF", coding))
+    assert (info.format, info.media_type, info.suffix) == ("AIFF", "audio/aiff", ".aiff")
+    assert info.duration_s == pytest.approx(1.0, abs=2e-3)
+    assert [warning.kind for warning in info.warnings] == ["song_not_played"]
+    assert peaks is not None
+    assert peaks.reduced(10).highest == pytest.approx([0.5] * 10, abs=0.03)
+
+
+def test_aiff_whose_end_is_missing_or_whose_lengths_are_wrong_is_what_is_decoded() -> None:
+    frames, size = AIFF.index(b"COMM") + 10, AIFF.index(b"SSND") + 4
+    half, _ = probe_recording(AIFF[: len(AIFF) // 2])
+    assert half.duration_s == pytest.approx(0.5, abs=1e-3)
+    assert [warning.kind for warning in half.warnings] == ["song_length", "song_not_played"]
+    for at, value in ((frames, 0), (frames, 7), (size, 0), (size, 0xFFFFFFFF)):
+        assert probe_recording(patched(AIFF, ">I", at, value))[0].duration_s == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("form", "coding", "channels", "kept"),
+    [
+        ("AIFF", "PCM_16", 2, "PCM_16"),
+        ("AIFF", "PCM_24", 1, "PCM_24"),
+        ("AIFF", "FLOAT", 8, "PCM_24"),
+        ("WAV", "DOUBLE", 2, "PCM_24"),
+        ("WAV", "MS_ADPCM", 1, "PCM_16"),
+    ],
+)
+def test_what_browsers_do_not_play_is_written_as_flac_without_loss(
+    form: str, coding: str, channels: int, kept: str, tmp_path: Path
+) -> None:
+    data = recording(form, coding, channels=channels)
+    info, _ = probe_recording(data, Conversion(tmp_path / "song.flac"))
+    assert (info.media_type, info.is_converted, info.warnings) == ("audio/flac", True, ())
+    with soundfile.SoundFile(tmp_path / "song.flac") as flac:
+        assert flac.subtype == kept
+    written, rate = soundfile.read(tmp_path / "song.flac", always_2d=True)
+    wanted, _ = soundfile.read(io.BytesIO(data), always_2d=True)
+    assert rate == RATE
+    assert written == pytest.approx(wanted, abs=2**-23)
+    again, _ = probe_recording((tmp_path / "song.flac").read_bytes())
+    assert (again.duration_s, again.warnings) == (info.duration_s, ())
+
+
+def test_louder_than_full_scale_is_full_scale_in_flac(tmp_path: Path) -> None:
+    loud = io.BytesIO()
+    soundfile.write(loud, [2.0, -2.0, 0.25, float("nan")], RATE, format="AIFF", subtype="FLOAT")
+    probe_recording(loud.getvalue(), Conversion(tmp_path / "song.flac"))
+    written, _ = soundfile.read(tmp_path / "song.flac")
+    assert written.tolist() == pytest.approx([1.0, -1.0, 0.25, 0.0], abs=1e-6)
+
+
+def test_what_browsers_play_and_what_flac_does_not_hold_is_left_as_it_is(tmp_path: Path) -> None:
+    nine = recording("AIFF", "PCM_16", channels=9)
+    for data, told in ((WAV, []), (MP3, []), (nine, ["song_not_played"])):
+        info, _ = probe_recording(data, Conversion(tmp_path / "song.flac"))
+        assert not info.is_converted
+        assert [warning.kind for warning in info.warnings] == told
+    assert list(tmp_path.iterdir()) == []
+    assert probe_recording(WAV, Conversion(tmp_path / "song.flac", is_forced=True))[0].is_converted
+
+
 def test_of_mp4_and_webm_the_headers_are_read() -> None:
     for data, audio_format, media_type in ((mp4(), "MP4", "audio/mp4"), (webm(), "WebM", "audio/webm")):
         info, peaks = probe_recording(data)
@@ -204,7 +272,8 @@ REFUSED = {
     "empty": (b"", "empty"),
     "text": (b"Not a song at all, only words.", "no audio file"),
     "MIDI": (b"MThd\0\0\0\x06\0\0\0\x01\0\x60", "no audio file"),
-    "AIFF": (recording("AIFF", "PCM_16"), "no audio file"),
+    "AIFF without sound": (AIFF[:38], "no chunk of sound"),
+    "AIFF that breaks off before its sound": (AIFF[:46], "cannot be decoded|no sound"),
     "AU": (recording("AU", "PCM_16"), "no audio file"),
     "CAF": (recording("CAF", "PCM_16"), "no audio file"),
     "zeros before FLAC": (bytes(5000) + FLAC, "no audio file"),

@@ -6,7 +6,7 @@ export const inTime = words("intime", {
   panel: "score and recording",
   reading: "Reading …",
   rendered: "The sound is made from the score, and in time with it.",
-  notListened: "The server cannot read such a file. Move everything, tap along, or drag bar lines.",
+  notListened: "Move everything, tap along, or drag bar lines.",
   unlikeByHand: "Both begin at 0. Move everything, tap along, or drag bar lines to where you hear them.",
   moreWays: "Only whoever opened this session can put it right.",
   countIn: counted({
@@ -22,6 +22,17 @@ export const inTime = words("intime", {
   lower: counted({
     one: "The recording sounds {count} semitone lower.",
     other: "The recording sounds {count} semitones lower.",
+  }),
+  fingered: "Notes and fingering",
+  fingeredMeans: "For all players; sheet and MIDI too",
+  asWritten: "as the score says",
+  asHeardHigher: counted({
+    one: "as the recording sounds: {count} semitone higher",
+    other: "as the recording sounds: {count} semitones higher",
+  }),
+  asHeardLower: counted({
+    one: "as the recording sounds: {count} semitone lower",
+    other: "as the recording sounds: {count} semitones lower",
   }),
   tunedHigher: filled("It is tuned {cents} cents higher than A = 440 Hz."),
   tunedLower: filled("It is tuned {cents} cents lower than A = 440 Hz."),
