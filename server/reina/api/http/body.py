@@ -44,6 +44,7 @@ CLIP = BodyLimit(20 * MEGABYTE, "clip")
 TRACK = BodyLimit(10 * MEGABYTE, "track")
 BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/sessions"): BodyLimit(MAX_BYTES, "upload"),
+    ("POST", "/transcriptions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/show"): SHOW,
     ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
     ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,

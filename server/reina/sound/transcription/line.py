@@ -33,7 +33,7 @@ NEVER = -1e9
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class FoundLine:
     """N notes, one after the other.
 
     Attributes:
@@ -47,12 +47,12 @@ class Line:
     pitch: NDArray[np.int64]
 
 
-def likeliest_line(heard: Posteriors, novelty: NDArray[np.float64], lowest: int, highest: int) -> Line:
+def likeliest_line(heard: Posteriors, novelty: NDArray[np.float64], lowest: int, highest: int) -> FoundLine:
     """Find the line that explains best what is heard, by dynamic programming.
 
-    At any time there is a rest or one note. A note begins where the network hears it begin, at the peak of that
-    or at one of `novelty`, and lasts as long as it sounds. It follows a rest, another note, or, for a further
-    cost, one of its own pitch.
+    At any time there is a rest or one note. A note begins where the network hears it begin, at the peak of
+    that or at one of `novelty`, and lasts as long as it sounds. It follows a rest, another note, or, for a
+    further cost, one of its own pitch.
 
     Args:
         heard: What the network hears, T frames.
@@ -67,7 +67,7 @@ def likeliest_line(heard: Posteriors, novelty: NDArray[np.float64], lowest: int,
     for frame in range(len(sounds)):
         trellis.go_on(frame, sounds[frame], begins[frame], repeats[frame])
     begin, end, pitch = (np.array(column, dtype=np.int64) for column in trellis.followed_back())
-    return Line(begin, end, pitch + lowest)
+    return FoundLine(begin, end, pitch + lowest)
 
 
 def largest_near(values: NDArray[np.floating], reach: int) -> NDArray[np.float64]:
@@ -86,7 +86,8 @@ def _beginnings(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(T, P) twice: how much speaks for a note that begins in a frame, and for one of the pitch before.
 
-    A note of the pitch before begins at the network's own peaks alone: else one beginning would be taken for two.
+    A note of the pitch before begins at the network's own peaks alone: else one beginning would be taken for
+    two.
     """
     strongest = largest_near(onset, NEAR)
     peaks = (onset >= strongest) & (onset > LEAST_ONSET)

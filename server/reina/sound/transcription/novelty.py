@@ -22,8 +22,8 @@ BLOCK_FRAMES = 2000
 def novelty(samples: NDArray[np.float32]) -> NDArray[np.float64]:
     """By how much the spectrum rises in each frame, as a share of what sounds.
 
-    A band is held against itself and its neighbours a frame before, so that vibrato is not taken for something
-    new (Böck and Widmer, "Maximum filter vibrato suppression for onset detection", 2013).
+    A band is held against itself and its neighbours a frame before, so that vibrato is not taken for
+    something new (Böck and Widmer, "Maximum filter vibrato suppression for onset detection", 2013).
 
     Args:
         samples: (S,) at the network's rate.

@@ -43,6 +43,11 @@ INPUT, CONTOUR, NOTE, ONSET = (
     "StatefulPartitionedCall:2",
 )
 
+AUDIBLE = 0.005
+"""The network listens to each window at the level that it has, however low: what is 46 dB below the loudest
+is left out afterwards."""
+LOUD_PERCENTILE = 95
+
 EXTRA = 'pip install "reina[transcribe]"'
 
 
@@ -51,7 +56,7 @@ class NoRuntimeError(InputError):
 
     def __init__(self) -> None:
         super().__init__(
-            f"to find the notes of a recording, the server needs ONNX Runtime, 50 MB: {EXTRA}, then start it again"
+            f"to find the notes of a recording, Reina needs ONNX Runtime: {EXTRA}, then start it again"
         )
 
     def __reduce__(self) -> tuple[type[NoRuntimeError], tuple[()]]:
@@ -75,6 +80,15 @@ class Posteriors:
     note: NDArray[np.float32]
     onset: NDArray[np.float32]
 
+    def where_audible(self, samples: NDArray[np.float32]) -> Posteriors:
+        """The same, with nothing heard where a recording, (S,) at `RATE`, is all but silent."""
+        frames = len(self.note)
+        padded = np.pad(samples, (HOP, 3 * HOP))[: (frames + 2) * HOP]
+        energy = np.square(padded, dtype=np.float64).reshape(-1, HOP).sum(axis=1)
+        level = np.sqrt((energy[:-2] + energy[1:-1])[:frames] / (2 * HOP))
+        audible = (level > AUDIBLE * np.percentile(level, LOUD_PERCENTILE))[:, None]
+        return Posteriors(np.where(audible, self.note, 0), np.where(audible, self.onset, 0))
+
 
 def hear(samples: NDArray[np.float32], tell: Callable[[float], None] = lambda _: None) -> Posteriors:
     """Have the network listen to a recording.
@@ -97,9 +111,7 @@ def hear(samples: NDArray[np.float32], tell: Callable[[float], None] = lambda _:
     # One thread: the server and its pages go on beside it.
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.log_severity_level = 3
-    network = onnxruntime.InferenceSession(
-        MODEL.read_bytes(), options, providers=["CPUExecutionProvider"]
-    )
+    network = onnxruntime.InferenceSession(MODEL.read_bytes(), options, providers=["CPUExecutionProvider"])
     frames = len(samples) // HOP + 1
     windows = -(-frames // KEPT_FRAMES)
     before = MARGIN_FRAMES * HOP

@@ -28,7 +28,7 @@ SUBDIVISIONS = (1, 2, 3, 4)
 FINER_COST = 0.03
 """An onset is taken for one of a finer division only where that is nearer by so many beats for each step."""
 UNCLEAR = 0.16
-"""Onsets that lie at random are on average a quarter of a step of their grid off; clear ones less than this."""
+"""Onsets that lie at random are on average a quarter of a step of their grid off; clear ones less."""
 DEFAULT_BEAT_S = 0.5
 BARS = (4, 3)
 BAR_LEAD = 1.1
@@ -40,8 +40,8 @@ class Pulse:
     """Beats, and how they make bars.
 
     Attributes:
-        beats_s: (K,) ascending seconds, from 0 or after it to after the last note's end; the first is not later
-            than the first onset.
+        beats_s: (K,) ascending seconds, from 0 or after it to after the last note's end; the first is not
+            later than the first onset.
         bar_beats: How many make a bar.
         pickup_beats: How many stand before the first bar line.
         is_clear: False where the onsets tell no beat: then there are 120 a minute.
@@ -72,10 +72,8 @@ def find_pulse(onset_s: NDArray[np.float64], end_s: float) -> Pulse:
     return _begun(onset_s[0] + DEFAULT_BEAT_S * np.arange(count), float(onset_s[0]), 4, 0, is_clear=False)
 
 
-def _tracked(
-    onset_s: NDArray[np.float64], weight: NDArray[np.float64], end_s: float
-) -> NDArray[np.float64]:
-    """Beats through the onsets, by dynamic programming (Ellis, "Beat tracking by dynamic programming", 2007)."""
+def _tracked(onset_s: NDArray[np.float64], weight: NDArray[np.float64], end_s: float) -> NDArray[np.float64]:
+    """Beats through the onsets (Ellis, "Beat tracking by dynamic programming", 2007)."""
     times = np.arange(0.0, end_s + 2 * SLOWEST_S, GRID_S)
     strength = np.zeros(len(times))
     reach = round(4 * ONSET_WIDTH_S / GRID_S)
@@ -121,7 +119,7 @@ def _usual_beat(strength: NDArray[np.float64]) -> float:
 def _smoothed(
     beats: NDArray[np.float64], onset_s: NDArray[np.float64], end_s: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
-    """Beats moved to go smoothly through onsets, those onsets in beats as they are meant, and if that is clear."""
+    """Beats moved to go smoothly through onsets; the onsets in beats, as they are meant; if that is clear."""
     usual = float(np.median(np.diff(beats))) if len(beats) > 1 else DEFAULT_BEAT_S
     beats = _reaching(beats, usual, float(onset_s[0]), max(end_s, float(onset_s[-1])) + usual)
     numbers = np.arange(len(beats), dtype=np.float64)
@@ -133,9 +131,7 @@ def _smoothed(
     return beats, meant, bool(np.mean(off) < UNCLEAR)
 
 
-def _reaching(
-    beats: NDArray[np.float64], usual: float, from_s: float, until_s: float
-) -> NDArray[np.float64]:
+def _reaching(beats: NDArray[np.float64], usual: float, from_s: float, until_s: float) -> NDArray[np.float64]:
     before = int(np.ceil(max(0.0, beats[0] - from_s) / usual - 0.25))
     after = int(np.ceil(max(0.0, until_s - beats[-1]) / usual)) + 1
     return np.concatenate(
@@ -148,7 +144,7 @@ def _reaching(
 
 
 def _meant(played: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Onsets on the divisions of a beat that they are nearest to, and how far off they are, in steps of these."""
+    """Onsets on the divisions of a beat that they are nearest to, and how far off they are, in quarters."""
     whole = np.floor(played)
     best = np.full(len(played), np.inf)
     meant = played.copy()
@@ -179,9 +175,7 @@ def _bars(onset_beats: NDArray[np.float64], lengths: NDArray[np.float64]) -> tup
     return (three if three[0] > BAR_LEAD * four[0] else four)[1:]
 
 
-def _begun(
-    beats: NDArray[np.float64], first_s: float, bar: int, phase: int, *, is_clear: bool
-) -> Pulse:
+def _begun(beats: NDArray[np.float64], first_s: float, bar: int, phase: int, *, is_clear: bool) -> Pulse:
     """Beats from the first that is wanted on: not before 0, and none that is later than the first note."""
     begin = max(0, int(np.searchsorted(beats, first_s + GRID_S, side="right")) - 1)
     while begin > 0 and beats[begin] < 0:

@@ -19,7 +19,6 @@ from reina.music import (
 )
 from reina.music.controls import Control
 
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 

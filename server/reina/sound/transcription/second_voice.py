@@ -11,14 +11,14 @@ from reina.sound.transcription.posteriors import FRAME_RATE, LOWEST_PITCH, PITCH
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from reina.sound.transcription.line import Line
+    from reina.sound.transcription.line import FoundLine
     from reina.sound.transcription.posteriors import Posteriors
 
 SOUNDS = 0.3
 """From which likelihood on a pitch counts as sounding beside the line."""
 MOST_SHARE = 0.06
-"""Of single lines, rendered in all kinds of rooms, by winds, brass, strings and voice, at most 3.5 % have a second
-voice by this measure; of duets, piano, accompanied and drummed lines 9 % and more."""
+"""Single lines, rendered in all kinds of rooms, by winds, brass, strings and voice, have a second voice by
+this measure for 3 % of the time at most; duets, piano, accompanied and drummed lines for 9 % and more."""
 PARTIALS = (-1, 0, 1, 12, 19, 24, 28, 31, 34, 36, 38, 40)
 BELOW = (-12, -19, -24, -36, -40)
 """Semitones from a note to what is heard with it: overtones, and tones whose overtones it and its own are."""
@@ -29,8 +29,8 @@ BEFORE, AFTER = 8, 1
 """How many notes before and after one are looked at for that."""
 
 
-def second_voice_share(heard: Posteriors, line: Line) -> float:
-    """The share of a line's time in which something sounds that is neither it nor its overtones nor its echo."""
+def second_voice_share(heard: Posteriors, line: FoundLine) -> float:
+    """The share of a line's time in which something sounds that is not it, its overtones or its echo."""
     beside = sounding = 0
     for note in range(len(line.pitch)):
         begin = int(line.begin[note]) + ATTACK_FRAMES
@@ -42,7 +42,7 @@ def second_voice_share(heard: Posteriors, line: Line) -> float:
     return beside / max(1, sounding)
 
 
-def _foreign(line: Line, note: int, begin: int, end: int) -> NDArray[np.bool_]:
+def _foreign(line: FoundLine, note: int, begin: int, end: int) -> NDArray[np.bool_]:
     """(88,): the pitches that a note and its neighbours do not explain."""
     foreign = np.ones(PITCHES, dtype=bool)
     own = int(line.pitch[note]) - LOWEST_PITCH

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from reina.instruments import Instrument
     from reina.music import Score
+    from reina.sound.transcription.line import FoundLine
 
 LONGEST_S = 900.0
 SILENCE = 1e-5
@@ -33,6 +35,10 @@ LATE_S = 0.008
 LEVEL_S = 0.1
 """How long after an onset a note's level is listened for."""
 LOUD_VELOCITY, LOUD_PERCENTILE = 0.85, 90
+"""Velocities go with the root of the amplitude, as General MIDI has it for synthesizers."""
+FAINTEST = 0.003
+"""What is 50 dB softer than loud notes is none."""
+SHORTEST_S = 0.005
 SOFTEST, LOUDEST = 0.15, 1.0
 LISTENING = 0.9
 """The share of the time that the network takes."""
@@ -67,6 +73,15 @@ class Line:
             )
 
 
+def line_of(instrument: Instrument) -> Line:
+    """The line that an instrument plays: what it can play bounds what is looked for."""
+    pitches = [
+        pitch for pitch in range(LOWEST_PITCH, LOWEST_PITCH + PITCHES) if instrument.can_play(pitch)
+    ] or [LOWEST_PITCH]
+    program = Line.program if instrument.program is None else instrument.program
+    return Line(instrument.title, program, pitches[0], pitches[-1])
+
+
 def transcribe(
     samples: NDArray[np.float32],
     rate: int,
@@ -95,13 +110,13 @@ def transcribe(
     length_s = len(samples) / rate
     if length_s > LONGEST_S:
         raise InputError(
-            f"the recording lasts {length_s / 60:.0f} minutes; the notes of {LONGEST_S / 60:.0f} minutes at most "
-            "are looked for: cut it into pieces"
+            f"the recording lasts {length_s / 60:.0f} minutes; the notes of {LONGEST_S / 60:.0f} minutes at "
+            "most are looked for: cut it into pieces"
         )
     if not len(samples) or float(np.max(np.abs(samples))) < SILENCE:
         raise InputError("the recording is silent; there are no notes in it")
     samples = resampled(samples, rate, RATE)
-    heard = hear(samples, lambda share: tell(LISTENING * share))
+    heard = hear(samples, lambda share: tell(LISTENING * share)).where_audible(samples)
     found = likeliest_line(heard, novelty(samples), line.lowest, line.highest)
     if len(found.pitch) < FEWEST_NOTES:
         raise InputError(
@@ -110,37 +125,36 @@ def transcribe(
     share = second_voice_share(heard, found)
     if share > MOST_SHARE:
         raise MixError(
-            f"this is a mix: more than one note sounds for {100 * share:.0f} % of the time. The notes of a single "
-            "line can be found, those of a mix cannot: use a recording of the solo alone, or give the score beside "
-            "the recording"
+            f"this is a mix: more than one note sounds for {100 * share:.0f} % of the time. The notes of a "
+            "single line can be found, those of a mix cannot: use a recording of the solo alone, or give the "
+            "score beside the recording"
         )
-    notes = _as_heard(samples, found.begin, found.end, found.pitch)
+    notes = _as_heard(samples, found)
     pulse = find_pulse(notes.onset_s, float(notes.end_s[-1]))
     tell(1.0)
     return make_score(notes, pulse, title=title, part_name=line.part_name, program=line.program)
 
 
-def _as_heard(
-    samples: NDArray[np.float32],
-    begin: NDArray[np.int64],
-    end: NDArray[np.int64],
-    pitch: NDArray[np.int64],
-) -> HeardNotes:
-    onset_s = refined(samples, np.maximum(begin / FRAME_RATE - LATE_S, 0.0), pitch)
-    order = np.argsort(onset_s, kind="stable")
-    onset_s, pitch, ends_s = onset_s[order], pitch[order], end[order] / FRAME_RATE
+def _as_heard(samples: NDArray[np.float32], found: FoundLine) -> HeardNotes:
+    onset_s = refined(samples, np.maximum(found.begin / FRAME_RATE - LATE_S, 0.0), found.pitch)
+    level = _levels(samples, onset_s)
+    loud = max(float(np.percentile(level, LOUD_PERCENTILE)), 1e-9)
+    # In silence the network hears what it likes.
+    kept = np.flatnonzero(level > FAINTEST * loud)
+    kept = kept[np.argsort(onset_s[kept], kind="stable")]
+    onset_s = onset_s[kept]
     # Two that were moved to one place are one after the other all the same.
-    onset_s = np.maximum.accumulate(onset_s + 1e-4 * np.arange(len(onset_s))) - 1e-4 * np.arange(len(onset_s))
-    following = np.append(onset_s[1:], np.inf)
-    ends_s = np.minimum(np.maximum(ends_s, onset_s + 1e-3), np.maximum(following, onset_s + 1e-3))
-    return HeardNotes(onset_s, ends_s, pitch, _velocities(samples, onset_s))
+    steps = SHORTEST_S * np.arange(len(kept))
+    onset_s = np.maximum.accumulate(onset_s - steps) + steps
+    earliest = onset_s + SHORTEST_S
+    ends_s = np.clip(found.end[kept] / FRAME_RATE, earliest, np.append(onset_s[1:], np.inf))
+    velocity = np.clip(LOUD_VELOCITY * np.sqrt(level[kept] / loud), SOFTEST, LOUDEST)
+    return HeardNotes(onset_s, ends_s, found.pitch[kept], velocity)
 
 
-def _velocities(samples: NDArray[np.float32], onset_s: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Levels as velocities: those of synthesizers, by General MIDI's guideline, go with the amplitude's root."""
+def _levels(samples: NDArray[np.float32], onset_s: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N,): how loud each note begins."""
     energy = np.concatenate(([0.0], np.cumsum(samples.astype(np.float64) ** 2)))
     first = np.clip((onset_s * RATE).astype(int), 0, len(samples) - 1)
     last = np.minimum(first + round(LEVEL_S * RATE), len(samples))
-    level = np.sqrt((energy[last] - energy[first]) / (last - first))
-    loud = max(float(np.percentile(level, LOUD_PERCENTILE)), 1e-9)
-    return np.clip(LOUD_VELOCITY * np.sqrt(level / loud), SOFTEST, LOUDEST)
+    return np.sqrt(np.maximum(energy[last] - energy[first], 0.0) / (last - first))
