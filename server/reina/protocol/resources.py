@@ -312,6 +312,8 @@ class Transcription(WireModel):
     """0..1."""
     notes: int
     """How many were found."""
+    has_beat: bool
+    """Whether they tell a beat; where they do not, 120 a minute are written."""
     fault: TranscriptionFault | None
     """Why there is no score: `mix`, more than one line sounds; `other`, as `detail` says."""
     detail: str | None

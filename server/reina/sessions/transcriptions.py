@@ -12,6 +12,7 @@ from reina.protocol.links import transcription_href
 from reina.protocol.resources import Transcription, TranscriptionLinks, TranscriptionStatus
 from reina.sessions.record import new_id
 from reina.sound.transcription.posteriors import NoRuntimeError, is_installed
+from reina.sound.transcription.score import NO_BEAT
 from reina.sound.transcription.transcribe import MixError
 from reina.sound.transcription.transcriber import Transcriber
 
@@ -38,6 +39,7 @@ class TranscriptionWork:
         progress: 0..1.
         midi: The score as a MIDI file, once it is found.
         notes: How many it has.
+        has_beat: Whether they tell a beat.
         error: Why there is none.
     """
 
@@ -47,6 +49,7 @@ class TranscriptionWork:
         self.progress = 0.0
         self.midi: bytes | None = None
         self.notes = 0
+        self.has_beat = False
         self.error: InputError | None = None
         self.task: asyncio.Task[None] | None = None
 
@@ -66,6 +69,7 @@ class TranscriptionWork:
             status=self.status,
             progress=round(self.progress, 3),
             notes=self.notes,
+            has_beat=self.has_beat,
             fault=None if self.error is None else "mix" if isinstance(self.error, MixError) else "other",
             detail=None if self.error is None else str(self.error),
             links=TranscriptionLinks(self=href, midi=f"{href}/score.mid"),
@@ -145,6 +149,7 @@ class Transcriptions:
             score = await self._transcriber.transcribe(song, line, work.title, follow)
             work.midi = await asyncio.to_thread(write_midi, score)
             work.notes, work.progress = len(score.notes), 1.0
+            work.has_beat = all(warning.kind != NO_BEAT for warning in score.warnings)
         except InputError as error:
             work.error = error
         finally:

@@ -549,6 +549,8 @@ export interface Transcription {
   progress: number
   /** How many were found. */
   notes: number
+  /** Whether they tell a beat; where they do not, 120 a minute are written. */
+  has_beat: boolean
   /** Why there is no score: mix, more than one line sounds; other, as detail says. */
   fault: "mix" | "other" | null
   /** The same in words. */

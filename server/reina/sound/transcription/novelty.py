@@ -42,7 +42,8 @@ def novelty(samples: NDArray[np.float32]) -> NDArray[np.float64]:
     rises = np.zeros(len(levels))
     rises[1:-1] = np.maximum(levels[2:] - before[:-2], 0).sum(axis=1)
     sounding = levels.sum(axis=1, dtype=np.float64)
-    around = np.convolve(sounding, np.full(MEAN_FRAMES, 1 / MEAN_FRAMES), "same")
+    half = MEAN_FRAMES // 2
+    around = np.convolve(sounding, np.full(MEAN_FRAMES, 1 / MEAN_FRAMES))[half : half + len(sounding)]
     return rises / (around + 0.1 * float(np.median(around)) + 1e-9)
 
 

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     from reina.sound.transcription.pulse import Pulse
 
+NO_BEAT = "no_beat"
+"""The kind of the warning that the onsets tell no beat."""
 SHORTEST_S = 0.02
 """A note that is let go of at once is written so long."""
 
@@ -87,5 +89,5 @@ def make_score(notes: HeardNotes, pulse: Pulse, *, title: str, part_name: str, p
 
 def _unclear() -> ScoreWarning:
     return ScoreWarning(
-        "no_beat", "whole score", "the recording tells no clear beat; 120 beats a minute are written"
+        NO_BEAT, "whole score", "the recording tells no clear beat; 120 beats a minute are written"
     )

@@ -103,7 +103,7 @@ def record(rendition: Rendition) -> Recording:
     sound = _detuned(render(played), rendition.cents)
     warp_song = warp_song / 2 ** (rendition.cents / 1200)
     if rendition.reverberation_s:
-        sound = _reverberated(sound, rendition.reverberation_s, random)
+        sound = reverberated(sound, rendition.reverberation_s, random)
     onset_s = np.interp(score.notes.onset_s, warp_score, warp_song)
     heard = ~np.isin(score.notes.part, rendition.without_parts)
     if rendition.cut is not None:
@@ -211,7 +211,8 @@ def _detuned(sound: Sound, cents: float) -> Sound:
     return np.interp(at, np.arange(len(sound)), sound).astype(np.float32)
 
 
-def _reverberated(sound: Sound, time_s: float, random: np.random.Generator) -> Sound:
+def reverberated(sound: Sound, time_s: float, random: np.random.Generator) -> Sound:
+    """Sound in a room in which it dies away by 60 dB in so many seconds."""
     length = _at(time_s)
     tail = random.standard_normal(length) * 10 ** (-3 * np.arange(length) / length)
     tail *= 0.7 / np.sqrt(np.sum(tail**2))
