@@ -92,7 +92,7 @@ async def transcribe(
     """
     known.require()
     line = _line(instrument)
-    folder = await store.stage()
+    folder = await store.staging_folder()
     try:
         song, filename = _song(await receive_upload(request, folder))
         work = known.begin(folder, song, line, title or FilePath(filename or "").stem or "Transcription")

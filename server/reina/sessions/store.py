@@ -148,7 +148,7 @@ class SessionStore:
         finally:
             await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
 
-    async def stage(self) -> Path:
+    async def staging_folder(self) -> Path:
         """A new folder; whoever asked for it removes it."""
         return await asyncio.to_thread(self._folders.stage)
 

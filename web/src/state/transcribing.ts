@@ -9,8 +9,6 @@ const POLL_MS = 400;
 const TOLD_STEP = 0.1;
 /** What the server says where it lacks what listens. */
 const NOT_INSTALLED = "urn:reina:problem:no-transcription";
-/** What a person types to add it; the same in every language. */
-const INSTALL = 'pip install "reina[transcribe]"';
 
 /** What a recording's search came to: the score as a MIDI file, and what is to be said of it. */
 export interface Transcribed {
@@ -36,7 +34,7 @@ export async function transcribed(
     return await search.follow(song, wait);
   } catch (error) {
     if (error instanceof ProblemError && error.type === NOT_INSTALLED) {
-      notices.say("problem", transcribing.notInstalled, transcribing.install({ command: INSTALL }));
+      notices.say("problem", transcribing.notInstalled, transcribing.install);
     } else if (!search.ended) notices.tell(error);
     return null;
   }

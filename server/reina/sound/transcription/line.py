@@ -19,7 +19,7 @@ ATTACK = 4
 SOUNDING_BIAS, SOUNDING_MOST, SOUNDING_LEAST = 0.8, 1.0, -4.0
 """What a frame speaks for a note with, at most and at least, and how far towards it: in reverberation and in
 fast runs the network is unsure of notes that are there."""
-ONSET_WEIGHT, ONSET_COST, REPEAT_COST = 2.0, 1.0, 0.5
+ONSET_WEIGHT, ONSET_COST, REPEAT_COST = 2.0, 1.0, 1.0
 """A beginning speaks for itself by its log odds, so many times; a note of the pitch before needs more."""
 REST_COST = 3.0
 """Of a rest: a short weakness is none."""

@@ -28,8 +28,8 @@ SUBDIVISIONS = (1, 2, 3, 4)
 FINER_COST = 0.03
 """An onset is taken for one of a finer division only where that is nearer by so many beats for each step."""
 UNCLEAR = 0.105
-"""Four times the mean distance of onsets from what they are taken for, in beats. Of onsets by chance it is 0.09 to
-0.16, of the examples' solos, played 10 ms off, at most 0.10."""
+"""Four times the mean distance of onsets from what they are taken for, in beats. Of onsets by chance it is
+0.09 to 0.16, of the examples' solos, played 10 ms off, at most 0.10."""
 DEFAULT_BEAT_S = 0.5
 BARS = (4, 3)
 BAR_LEAD = 1.1

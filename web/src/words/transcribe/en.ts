@@ -12,7 +12,7 @@ export const transcribing = words("transcribe", {
     "The notes of one line can be found, those of several at once cannot. Use a recording of the solo alone, or drop the score with the recording.",
   none: filled("No notes were found in {name}"),
   notInstalled: "The server cannot find notes yet",
-  install: filled("It needs one more package: {command}, then start it again."),
+  install: 'It needs one more package: pip install "reina[transcribe]", then start it again.',
   found: counted({ one: "{count} note found in {name}", other: "{count} notes found in {name}" }),
   noBeat: "No clear beat is heard: 120 beats a minute are written.",
   correct: "To correct them, download the MIDI file in the piece's panel, and drop it again with the recording.",
