@@ -30,6 +30,7 @@ from reina.api import (
     stances,
     stream,
     tracks,
+    transcriptions,
 )
 from reina.api.description import describe
 from reina.api.http import problems
@@ -42,6 +43,7 @@ from reina.api.settings import Settings
 from reina.protocol.links import API
 from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
+from reina.sessions.transcriptions import Transcriptions
 from reina.sound.renderer import SongRenderer
 
 if TYPE_CHECKING:
@@ -85,7 +87,9 @@ def create_app(
         await store.prune_songs()
         app.state.store = store
         app.state.computing = asyncio.Semaphore(1)
+        app.state.transcriptions = Transcriptions()
         yield
+        await app.state.transcriptions.aclose()
         await store.aclose()
 
     app = FastAPI(
@@ -112,6 +116,7 @@ def create_app(
         part,
         stances,
         catalogue,
+        transcriptions,
         stream,
     ):
         app.include_router(module.router, prefix=API, responses=problems.RESPONSES)

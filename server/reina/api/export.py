@@ -47,7 +47,7 @@ async def export_bvh(
     return StreamingResponse(
         _lines(export, request.app.state.computing),
         media_type="text/plain; charset=utf-8",
-        headers=_headers(f"{session.record.title} - {name}", "bvh"),
+        headers=attachment(f"{session.record.title} - {name}", "bvh"),
     )
 
 
@@ -62,10 +62,11 @@ async def export_midi(session: Watched, store: Store) -> Response:
     What no player plays stays as the score has it.
     """
     data = await store.reader.midi(session.production)
-    return Response(data, media_type="audio/midi", headers=_headers(session.record.title, "mid"))
+    return Response(data, media_type="audio/midi", headers=attachment(session.record.title, "mid"))
 
 
-def _headers(name: str, ending: str) -> dict[str, str]:
+def attachment(name: str, ending: str) -> dict[str, str]:
+    """The headers of a file that is to be kept under a name."""
     words = re.sub(r"[^\w.-]+", " ", name).split()
     filename = quote(f"{' '.join(words) or 'reina'}.{ending}", safe="")
     return {"Content-Disposition": f"attachment; filename*=UTF-8''{filename}", "Cache-Control": "no-store"}

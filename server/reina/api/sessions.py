@@ -93,6 +93,7 @@ def _draft(folder: Path, upload: Upload) -> Draft:
         title=fields.title,
         public=fields.public,
         cast=cast_of_fields(fields),
+        in_time=fields.in_time,
     )
 
 

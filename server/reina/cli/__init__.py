@@ -9,6 +9,7 @@ COMMANDS = {
     "serve": ("reina.cli.serve", "start the server and print its address"),
     "inspect": ("reina.cli.inspect", "say what is in a score and how it is fingered"),
     "align": ("reina.cli.align", "say where a score is heard in a recording"),
+    "transcribe": ("reina.cli.transcribe", "find the notes of a recording of one line"),
     "film": ("reina.cli.film", "make a film of a score, without a window"),
 }
 """Each command's module, which is imported when it is asked for, and what it does."""

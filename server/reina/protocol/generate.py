@@ -55,6 +55,7 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.ShowParameterList,
     resources.ExampleList,
     resources.FileRole,
+    resources.Transcription,
     resources.LightMoodList,
     resources.Health,
     resources.Problem,

@@ -24,6 +24,11 @@ def stance_href(session_id: str, name: str) -> str:
     return f"{session_href(session_id)}/stances/{quote(name, safe='')}"
 
 
+def transcription_href(transcription_id: str) -> str:
+    """The search for a recording's notes."""
+    return f"{API}/transcriptions/{transcription_id}"
+
+
 def rig_href(name: str) -> str:
     """A rig."""
     return f"{API}/rigs/{name}"

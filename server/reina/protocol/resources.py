@@ -278,6 +278,9 @@ class SessionFields(WireModel):
     """Who plays: a rig that holds the instrument."""
     handedness: Handedness = "right"
     """Which hand leads, where the instrument can be played so."""
+    in_time: bool = False
+    """The score is in time with the song already, as one is that was found in it: its seconds are the song's,
+    and it is not looked for."""
     cast: Annotated[
         Literal["auto"] | Json[CastFields] | None,
         WithJsonSchema({"type": "string", "contentMediaType": "application/json"}),
@@ -285,6 +288,37 @@ class SessionFields(WireModel):
     """Everybody who plays, as `PUT /sessions/{id}/cast` takes it, in place of part, transposition, written,
     octave_fit, joined_parts, usual_fingerings, player and handedness; `auto`, the default where none of these
     is there, gives a player to each part that the score has for the instruments that there are."""
+
+
+TranscriptionStatus = Literal["searching", "found", "failed"]
+TranscriptionFault = Literal["mix", "other"]
+
+
+class TranscriptionLinks(WireModel):
+    """Where the search for a recording's notes is, and what came of it."""
+
+    self: str
+    midi: str
+    """The score as a MIDI file, once it is found."""
+
+
+class Transcription(WireModel):
+    """The search for the notes of a recording. Whoever has its id may take what is found, and end it."""
+
+    id: str
+    title: str
+    status: TranscriptionStatus
+    progress: float
+    """0..1."""
+    notes: int
+    """How many were found."""
+    has_beat: bool
+    """Whether they tell a beat; where they do not, 120 a minute are written."""
+    fault: TranscriptionFault | None
+    """Why there is no score: `mix`, more than one line sounds; `other`, as `detail` says."""
+    detail: str | None
+    """The same in words."""
+    links: TranscriptionLinks
 
 
 class CastingSummary(WireModel):

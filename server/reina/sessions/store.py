@@ -27,6 +27,7 @@ from reina.show import ShowError
 from reina.skeleton import pose_of
 from reina.sound.alignment.aligner_process import Aligner
 from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
+from reina.sound.alignment.alignment import Alignment, MapPoint
 from reina.sound.recording.decoder import SongDecoder
 from reina.sound.recording.peaks import peaks_path
 from reina.sound.recording.probe import Conversion
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from reina.sessions.session_index import Entry
     from reina.sessions.stage import Stage
     from reina.show import ShowHistory
-    from reina.sound.alignment.alignment import Alignment
     from reina.sound.recording.probe import AudioInfo
     from reina.sound.renderer import SongRenderer
 
@@ -81,6 +81,7 @@ class Draft:
         title: What to call the session; the score's own title when None.
         public: Whether the list of sessions shows it.
         cast: Who plays what.
+        in_time: Whether the score's seconds are the song's already, so that it need not be looked for.
     """
 
     folder: Path
@@ -91,6 +92,7 @@ class Draft:
     title: str | None = None
     public: bool = False
     cast: Cast = field(default_factory=Cast)
+    in_time: bool = False
 
 
 class SessionStore:
@@ -152,6 +154,10 @@ class SessionStore:
         finally:
             await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
 
+    async def staging_folder(self) -> Path:
+        """A new folder; whoever asked for it removes it."""
+        return await asyncio.to_thread(self._folders.stage)
+
     async def create(self, draft: Draft) -> tuple[Session, str]:
         """Make a session.
 
@@ -182,6 +188,10 @@ class SessionStore:
             await asyncio.to_thread(show_file.unlink)
             production = await asyncio.to_thread(production.with_show, show)
         made = await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
+        if draft.in_time and song is not None and song.duration_s is not None:
+            in_time = _in_time(production.score.duration_s, song.duration_s)
+            await asyncio.to_thread(self._folders.write_alignment, made[0].id, in_time)
+            return self._admit(*made, in_time), token
         session = self._admit(*made)
         self.search_alignment(session)
         return session, token
@@ -601,6 +611,13 @@ def _check_heard(info: AudioInfo, song: SongRecord) -> None:
             f"the sound lasts {info.duration_s:.2f} s, and the song {song.duration_s:.2f} s: it is not this "
             "song, or not all of it"
         )
+
+
+def _in_time(score_duration_s: float, song_duration_s: float) -> Alignment:
+    """Score and song go alike, and that is sure."""
+    end_s = min(score_duration_s, song_duration_s)
+    points = (MapPoint(0.0, 0.0, 1.0), MapPoint(end_s, end_s, 1.0))
+    return Alignment(points, score_duration_s, song_duration_s)
 
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:

@@ -16,6 +16,7 @@ import type {
   ShowParameterList,
   Stance,
   TransportCommand,
+  Transcription,
   TransportState,
 } from "../generated/protocol";
 import type { ShowTrack } from "../generated/show";
@@ -29,6 +30,8 @@ export interface SessionFiles {
   /** Who plays what, and what to call it, where that is not left to the server. */
   readonly cast?: Cast;
   readonly title?: string;
+  /** The score's seconds are the song's already. */
+  readonly inTime?: boolean;
 }
 
 /** So much of a file's beginning says what it is. */
@@ -54,8 +57,31 @@ export class ReinaApi {
     if (files.song !== undefined) form.append("song", files.song);
     if (files.show !== undefined) form.append("show", files.show);
     if (files.title !== undefined) form.append("title", files.title);
+    if (files.inTime === true) form.append("in_time", "true");
     if (files.cast !== undefined) form.append("cast", JSON.stringify(castFields(files.cast)));
     return this.#json("POST", `${this.#base}/sessions`, { body: form });
+  }
+
+  /** Have the server look for the notes of a recording of one line. */
+  transcribe(song: File): Promise<Transcription> {
+    const form = new FormData();
+    form.append("song", song);
+    return this.#json("POST", `${this.#base}/transcriptions`, { body: form });
+  }
+
+  transcription(id: string): Promise<Transcription> {
+    return this.#json("GET", this.#transcriptionPath(id));
+  }
+
+  /** The score that was found. */
+  async transcribedScore({ id, title }: Transcription): Promise<File> {
+    const response = await this.request("GET", `${this.#transcriptionPath(id)}/score.mid`);
+    return new File([await response.blob()], `${title}.mid`);
+  }
+
+  /** Give a search up, or forget what it found. */
+  async endTranscription(id: string): Promise<void> {
+    await this.request("DELETE", this.#transcriptionPath(id));
   }
 
   session(id: string): Promise<Session> {
@@ -183,6 +209,10 @@ export class ReinaApi {
     }
     if (!response.ok) throw await problemOf(response);
     return response;
+  }
+
+  #transcriptionPath(id: string): string {
+    return `${this.#base}/transcriptions/${encodeURIComponent(id)}`;
   }
 
   #sessionPath(id: string): string {

@@ -540,6 +540,24 @@ export interface FileRole {
   advice: string
 }
 
+/** The search for the notes of a recording. Whoever has its id may take what is found, and end it. */
+export interface Transcription {
+  id: string
+  title: string
+  status: "searching" | "found" | "failed"
+  /** 0..1. */
+  progress: number
+  /** How many were found. */
+  notes: number
+  /** Whether they tell a beat; where they do not, 120 a minute are written. */
+  has_beat: boolean
+  /** Why there is no score: mix, more than one line sounds; other, as detail says. */
+  fault: "mix" | "other" | null
+  /** The same in words. */
+  detail: string | null
+  links: TranscriptionLinks
+}
+
 /** Lights to choose without programming. */
 export interface LightMoodList {
   moods: LightMood[]
@@ -1257,6 +1275,13 @@ export interface TimeKnots {
   seconds: number[]
   beats: number[]
   bars: number[]
+}
+
+/** Where the search for a recording's notes is, and what came of it. */
+export interface TranscriptionLinks {
+  self: string
+  /** The score as a MIDI file, once it is found. */
+  midi: string
 }
 
 /** A stretch in which one player has the tune. */

@@ -9,7 +9,9 @@ import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
 import { remember, remembered, rememberToken } from "./storage";
+import { transcribed } from "./transcribing";
 import { told } from "../words/told/en";
+import { transcribing } from "../words/transcribe/en";
 
 export type Phase = "opening" | "open" | "unknown" | "failed";
 
@@ -179,8 +181,12 @@ export class Reina {
         this.word(told.kept({ name: song.name }), told.keptMeans);
       },
     };
+    const find = { label: transcribing.find, run: () => this.findNotes(song) };
     if (view === null) {
-      keep.run();
+      this.notices.say("question", told.whatRecording({ name: song.name }), transcribing.alone, {
+        actions: [find, keep],
+        over: () => this.view !== null,
+      });
       return;
     }
     const { title } = view.session;
@@ -192,10 +198,20 @@ export class Reina {
       told.whatRecording({ name: song.name }),
       length === null ? told.pieceIsOpen(piece) : compared({ ...piece, song: clockTime(length) }),
       {
-        actions: [{ label: told.playWith({ title }), run: () => this.addSong(song) }, keep],
+        actions: [{ label: told.playWith({ title }), run: () => this.addSong(song) }, find, keep],
         over: () => this.view !== view,
       },
     );
+  }
+
+  /** A new session of a recording of one line and of the notes that are heard in it. */
+  async findNotes(song: File): Promise<void> {
+    const found = await transcribed(this.api, this.notices, song);
+    if (found === null) return;
+    const { score, notes, hasBeat } = found;
+    if (!(await this.#make(told.reading({ name: score.name }), () => ({ score, song, inTime: true })))) return;
+    const means = hasBeat ? transcribing.correct : `${transcribing.noBeat} ${transcribing.correct}`;
+    this.word(transcribing.found({ count: notes, name: song.name }), means);
   }
 
   /** A new session of the open one's score, cast and show, with a recording; the server keeps it. */

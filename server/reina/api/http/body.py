@@ -45,6 +45,7 @@ TRACK = BodyLimit(10 * MEGABYTE, "track")
 BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/sessions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/song/analysis"): BodyLimit(FILE_LIMITS["song"], "sound"),
+    ("POST", "/transcriptions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/show"): SHOW,
     ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
     ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,

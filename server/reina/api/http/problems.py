@@ -15,7 +15,9 @@ from reina.instruments import CastError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
 from reina.sessions.store import SessionEndedError
+from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
+from reina.sound.transcription.posteriors import NoRuntimeError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -94,6 +96,8 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (KeyNotFoundError, 404, "unknown-keyframe", "There is no such track or keyframe"),
     (CastError, 422, "cast-unusable", "The cast cannot play"),
     (ShowError, 422, "show-unusable", "The show cannot be used"),
+    (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
+    (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )
 """What an input error is told as: the first row that fits."""

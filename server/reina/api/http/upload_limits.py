@@ -16,6 +16,7 @@ FIELD_LIMITS = {
     "sequence": 10,
     "player": 200,
     "handedness": 10,
+    "in_time": 5,
     "cast": 20_000,
 }
 LIMITS = FILE_LIMITS | FIELD_LIMITS

@@ -126,7 +126,7 @@ def record(rendition: Rendition) -> Recording:
     if rendition.breath_db is not None:
         sound = _with_breaths(sound, onset_s[heard] / slower, rendition.breath_db, random)
     if rendition.reverberation_s:
-        sound = _reverberated(sound, rendition.reverberation_s, random)
+        sound = reverberated(sound, rendition.reverberation_s, random)
     beat_s = np.interp(score.notes.onset_s, warp_score, warp_song)
     late_s = onset_s / slower - beat_s
     onset_s = beat_s
@@ -268,7 +268,8 @@ def _with_breaths(sound: Sound, onset_s: Floats, level_db: float, random: np.ran
     return (sound + level * strength * hiss).astype(np.float32)
 
 
-def _reverberated(sound: Sound, time_s: float, random: np.random.Generator) -> Sound:
+def reverberated(sound: Sound, time_s: float, random: np.random.Generator) -> Sound:
+    """Sound in a room in which it dies away by 60 dB in so many seconds."""
     length = _at(time_s)
     tail = random.standard_normal(length) * 10 ** (-3 * np.arange(length) / length)
     tail *= 0.7 / np.sqrt(np.sum(tail**2))

@@ -8,6 +8,7 @@ export const piece = words("piece", {
   othersToo: "Play other parts too",
   othersMeans: "For music of one player that the file spreads over several parts",
   moreParts: counted({ one: "{count} more", other: "{count} more" }),
+  saveMidi: "Download as MIDI",
   saveMotion: "Save the motion",
   saveMotionMeans: "How the body moves, for animation programs: a BVH file",
   bvh: filled("{player}, BVH"),
