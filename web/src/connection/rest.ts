@@ -6,6 +6,7 @@ import type {
   Example,
   ExampleList,
   FileRole,
+  Health,
   InstrumentList,
   LightMood,
   LightMoodList,
@@ -19,6 +20,7 @@ import type {
   TransportState,
 } from "../generated/protocol";
 import type { ShowTrack } from "../generated/show";
+import type { ClockProbe } from "./clock-sync";
 import { problemOf, unreachable } from "./problem";
 
 /** What a new session is made of. */
@@ -46,6 +48,19 @@ export class ReinaApi {
   constructor(base = "/api/v1", fetchFunction: typeof fetch = (...request) => fetch(...request)) {
     this.#base = base;
     this.#fetch = fetchFunction;
+  }
+
+  /**
+   * What the server's clock says, and when it was asked.
+   *
+   * @param now the page's clock, seconds
+   */
+  async clockProbe(now: () => number): Promise<ClockProbe> {
+    const sentAt = now();
+    const response = await this.request("GET", `${this.#base}/health`, { cache: "no-store" });
+    const receivedAt = now();
+    const { server_time_s: serverTime } = (await response.json()) as Health;
+    return { sentAt, receivedAt, serverTime };
   }
 
   createSession(files: SessionFiles): Promise<CreatedSession> {
@@ -163,6 +178,7 @@ export class ReinaApi {
       ifMatch?: string;
       signal?: AbortSignal;
       keepalive?: boolean;
+      cache?: RequestCache;
     } = {},
   ): Promise<Response> {
     const headers: Record<string, string> = { Accept: "application/json, */*" };
@@ -173,6 +189,7 @@ export class ReinaApi {
     const init: RequestInit = { method, headers };
     if (body !== undefined) init.body = body;
     if (options.keepalive !== undefined) init.keepalive = options.keepalive;
+    if (options.cache !== undefined) init.cache = options.cache;
     if (options.signal !== undefined) init.signal = options.signal;
     let response: Response;
     try {

@@ -25,11 +25,18 @@ const FRAMES_PER_MESSAGE = 3;
 const FIRST_RETRY_S = 0.25;
 const LAST_RETRY_S = 5;
 /** Pairs of probes right after connecting, then one pair every few seconds. */
-const EAGER_PAIRS = 4;
+const EAGER_PAIRS = 8;
 const EAGER_INTERVAL_S = 0.08;
 const PROBE_INTERVAL_S = 2;
 /** Without any message for so long, the connection is taken for dead. */
 const SILENCE_S = 8;
+/** A page that has slept asks, and takes the connection for dead where nothing is heard for so long. */
+const WAKING_S = 1;
+/** A timer that comes so much later than it was set for has slept. */
+const SLEPT_S = 1.5;
+
+/** WebSocket.OPEN. */
+const OPEN = 1;
 
 const browserWorld: StreamWorld = {
   now: () => performance.now() / 1000,
@@ -63,6 +70,8 @@ export class Stream {
   #heardAt = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #probing: ReturnType<typeof setTimeout> | undefined;
+  #probeDue = Infinity;
+  #waking: ReturnType<typeof setTimeout> | undefined;
 
   constructor(url: string, listener: StreamListener, world: StreamWorld = browserWorld) {
     this.#url = url;
@@ -81,6 +90,7 @@ export class Stream {
     this.#closed = true;
     clearTimeout(this.#timer);
     clearTimeout(this.#probing);
+    clearTimeout(this.#waking);
     this.#socket?.close(1000);
     this.#socket = null;
     this.#listener.connection("closed", null);
@@ -93,6 +103,34 @@ export class Stream {
     this.#connect();
   }
 
+  /**
+   * The page has slept, was hidden, or has another network: look at once whether the server still answers, and what
+   * its clock says, rather than when the next probe is due.
+   */
+  wake(): void {
+    if (this.#closed) return;
+    if (this.#socket === null) {
+      this.retryNow();
+      return;
+    }
+    if (this.#socket.readyState !== OPEN) return;
+    clearTimeout(this.#waking);
+    const asleepUntil = this.#world.now();
+    this.#heardAt = asleepUntil;
+    this.#pairs = 0;
+    this.#probeDue = Infinity;
+    clearTimeout(this.#probing);
+    this.#probe();
+    this.#waking = setTimeout(() => {
+      if (this.#heardAt === asleepUntil) this.#giveUp();
+    }, WAKING_S * 1000);
+  }
+
+  /** Say something to the server; while there is no connection nobody hears it. */
+  send(message: ViewerMessage): void {
+    if (this.#socket?.readyState === OPEN) this.#socket.send(JSON.stringify(message));
+  }
+
   #connect(): void {
     this.#listener.connection("connecting", null);
     const socket = this.#world.connect(this.#url, SUBPROTOCOL);
@@ -101,7 +139,6 @@ export class Stream {
     socket.onopen = () => {
       if (this.#socket !== socket) return;
       this.#heardAt = this.#world.now();
-      this.clock.reset();
       this.#pings.clear();
       this.#pairs = 0;
       this.#listener.connection("open", null);
@@ -132,6 +169,7 @@ export class Stream {
   #lose(): void {
     this.#socket = null;
     clearTimeout(this.#probing);
+    clearTimeout(this.#waking);
     if (this.#closed) return;
     const pause = Math.min(FIRST_RETRY_S * 2 ** this.#tries, LAST_RETRY_S) * (0.75 + 0.5 * this.#world.random());
     this.#tries += 1;
@@ -142,22 +180,34 @@ export class Stream {
   #probe(): void {
     const socket = this.#socket;
     if (socket === null) return;
-    if (this.#world.now() - this.#heardAt > SILENCE_S) {
-      socket.close();
-      this.#lose();
+    const now = this.#world.now();
+    if (now - this.#probeDue > SLEPT_S) {
+      this.wake();
+      return;
+    }
+    if (now - this.#heardAt > SILENCE_S) {
+      this.#giveUp();
       return;
     }
     this.#ping(false);
     this.#pairs += 1;
     const pause = this.#pairs < EAGER_PAIRS ? EAGER_INTERVAL_S : PROBE_INTERVAL_S;
+    this.#probeDue = now + pause;
     this.#probing = setTimeout(() => this.#probe(), pause * 1000);
+  }
+
+  /** Nobody is there any more: connect again at once. */
+  #giveUp(): void {
+    const socket = this.#socket;
+    this.#lose();
+    socket?.close();
+    this.retryNow();
   }
 
   #ping(second: boolean): void {
     const id = this.#nextPing++;
     this.#pings.set(id, { sentAt: this.#world.now(), second });
-    const ping: ViewerMessage = { type: "ping", id };
-    if (this.#socket?.readyState === 1) this.#socket.send(JSON.stringify(ping));
+    this.send({ type: "ping", id });
   }
 
   #takePong(id: number, serverTime: number): void {

@@ -91,7 +91,11 @@ const whole = new WholeSong({ duration: 20 } as AudioBuffer);
 
 function playing(change: Partial<TransportState> = {}, song: SongSource = whole): SongPlayer {
   const time = { pageNow: () => now, songTimeAt };
-  const player = new SongPlayer(time, (state) => states.push(state), context as unknown as AudioContext);
+  const player = new SongPlayer(
+    time,
+    (state) => states.push(state),
+    () => context as unknown as AudioContext,
+  );
   player.setSong(song);
   transport = { ...transport, playing: true, ...change };
   player.follow(transport);

@@ -32,9 +32,19 @@ export interface PageMeasures {
   readonly clockOffset: number;
   readonly clockRoundTrip: number;
   /** Picture less sound, seconds: how many readings, their mean, and what 95 % of them stay within. */
-  readonly sync: { readonly readings: number; readonly mean: number; readonly p95: number };
+  readonly sync: {
+    readonly readings: number;
+    readonly mean: number;
+    readonly p95: number;
+    /** The last of them, with how long each picture took from when it was drawn until it was seen. */
+    readonly recent: readonly (readonly [difference: number, interval: number])[];
+  };
   /** Seconds by which what is heard is ahead of the server's song time; null while nothing is. */
   readonly soundAhead: number | null;
+  /** The song time that is heard, seconds; null while none is. */
+  readonly heard: number | null;
+  /** How long before they are due frames are asked for, seconds. */
+  readonly lead: number;
   /** Pictures drawn since the page was opened, and the draw calls of the last. */
   readonly pictures: number;
   readonly drawCalls: number;
@@ -105,10 +115,21 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     get sync() {
       const sync = view()?.sync;
-      return { readings: sync?.count ?? 0, mean: sync?.mean ?? 0, p95: sync?.within(0.95) ?? 0 };
+      return {
+        readings: sync?.count ?? 0,
+        mean: sync?.mean ?? 0,
+        p95: sync?.within(0.95) ?? 0,
+        recent: sync?.recent ?? [],
+      };
     },
     get soundAhead() {
       return view()?.soundAhead ?? null;
+    },
+    get heard() {
+      return view()?.heard ?? null;
+    },
+    get lead() {
+      return view()?.lead ?? 0;
     },
     get pictures() {
       return stage.pictures;

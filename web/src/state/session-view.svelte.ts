@@ -1,6 +1,8 @@
 import {
   FrameQueue,
+  LeadControl,
   ProblemError,
+  QuietProbes,
   songTimeAt,
   Stream,
   streamAddress,
@@ -35,14 +37,16 @@ import {
 } from "../sound";
 import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
+import { Refresh } from "./refresh";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
+import { watchWakes } from "./wakes";
 import { told } from "../words/told/en";
 
 const CHECK_INTERVAL_MS = 100;
 const SHARE_INTERVAL_MS = 1000;
-/** A picture drawn now is seen at the display's next refresh. */
-const PRESENTATION_S = 1 / 60;
+/** Frames carry an epoch modulo this. */
+const EPOCHS = 256;
 /** The last frame of a song stands up to this much before its end. */
 const END_TOLERANCE_S = 0.025;
 
@@ -107,6 +111,12 @@ export class SessionView {
   readonly #stream: Stream;
   readonly #player: SongPlayer;
   readonly #checking: ReturnType<typeof setInterval>;
+  readonly #unwatch: () => void;
+  readonly #probes: QuietProbes;
+  readonly #lead = new LeadControl();
+  readonly #refresh = new Refresh();
+  /** The picture that was drawn last, until it is seen: its song time, epoch and when it was drawn. */
+  #coming = { songTime: 0, epoch: -1, drawnAt: 0 };
   readonly #ended = new AbortController();
   #queue: FrameQueue | null = null;
   #followed: TransportState | null = null;
@@ -160,7 +170,12 @@ export class SessionView {
       frames: (bytes) => this.#takeFrames(bytes),
       connection: (state) => this.#connected(state),
     });
+    this.#probes = new QuietProbes(this.#stream.clock, () =>
+      surroundings.api.clockProbe(() => performance.now() / 1000),
+    );
+    this.#probes.begin();
     this.#checking = setInterval(() => this.#check(), CHECK_INTERVAL_MS);
+    this.#unwatch = watchWakes(() => this.wake());
   }
 
   get api(): ReinaApi {
@@ -171,19 +186,50 @@ export class SessionView {
     return this.token !== null;
   }
 
-  /** The picture to be drawn now; null until the first frame has come. */
-  frameNow(): QueuedFrame | null {
-    const frame = this.#queue?.frameAt(this.#stream.serverNow() + PRESENTATION_S) ?? null;
+  /**
+   * The picture to be drawn in a turn of the display; null until the first frame has come.
+   *
+   * @param turn the turn's time as requestAnimationFrame gives it, seconds
+   */
+  frameAt(turn: number): QueuedFrame | null {
+    this.#measureSync(turn);
+    const seenAt = this.#refresh.seenAt(turn, performance.now() / 1000);
+    const frame = this.#queue?.frameAt(this.#stream.clock.serverTime(seenAt)) ?? null;
     if (frame === null) return null;
     if (frame.songTime !== this.songTime) this.songTime = frame.songTime;
-    const heard = frame.playing ? this.#player.heardSongTime() : null;
-    if (heard !== null) this.sync.add(frame.songTime - PRESENTATION_S * this.transport.rate - heard);
+    const runs = frame.playing && frame.epoch === this.transport.epoch % EPOCHS;
+    this.#coming = { songTime: frame.songTime, epoch: runs ? frame.epoch : -1, drawnAt: turn };
     return frame;
+  }
+
+  /** What was drawn in the turn before is seen now: compare it with what is heard. */
+  #measureSync(turn: number): void {
+    const { songTime, epoch, drawnAt } = this.#coming;
+    if (epoch !== this.transport.epoch % EPOCHS) return;
+    const ahead = this.#player.heardAhead(songTime, turn);
+    if (ahead !== null) this.sync.add(-ahead / this.transport.rate, turn - drawnAt);
+  }
+
+  /** The page may have missed something: see that clock, connection and sound are as they should be. */
+  wake(): void {
+    this.#stream.wake();
+    this.#probes.begin();
+    this.#player.wake();
   }
 
   /** How far the sound is ahead of the server's song time, seconds; null while none is heard. */
   get soundAhead(): number | null {
     return this.#player.soundAhead();
+  }
+
+  /** The song time that is heard, seconds; null while none is. */
+  get heard(): number | null {
+    return this.#player.heardSongTime();
+  }
+
+  /** How long before they are due frames are asked for, seconds. */
+  get lead(): number {
+    return this.#lead.lead;
   }
 
   /** The picture that was drawn last; null before the first. Read, never kept. */
@@ -287,12 +333,24 @@ export class SessionView {
     return this.#player.unlock();
   }
 
+  /** Seconds by which sound comes to the ear later than the browser knows. */
+  setSoundTrim(trim: number): void {
+    this.#player.setTrim(trim);
+  }
+
+  /** Let a click be heard at a time of the page's clock, seconds. */
+  click(pageTime: number): void {
+    this.#player.click(pageTime);
+  }
+
   setVolume(volume: number, muted: boolean): void {
     this.#player.setVolume(volume, muted);
   }
 
   async close(): Promise<void> {
     clearInterval(this.#checking);
+    this.#unwatch();
+    this.#probes.close();
     this.#ended.abort();
     this.#stream.close();
     await this.#player.close();
@@ -333,6 +391,7 @@ export class SessionView {
     switch (message.type) {
       case "hello":
         this.#queue = new FrameQueue(message, message.transport.epoch);
+        this.#lead.begin(message.transport.server_time_s);
         this.hello = message;
         this.duration = message.duration_s;
         this.#setTransport(message.transport, true);
@@ -371,6 +430,7 @@ export class SessionView {
   #takeFrames(bytes: ArrayBuffer): void {
     try {
       this.#queue?.push(bytes);
+      this.#followNetwork();
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
       this.#surroundings.tell(
@@ -389,12 +449,31 @@ export class SessionView {
     if (!anew && transport.epoch < this.transport.epoch) return;
     this.transport = transport;
     this.#queue?.enterEpoch(transport.epoch);
+    this.#lead.begin(transport.server_time_s);
     this.#check();
+  }
+
+  /** Ask for frames as long before they are due as the network needs. */
+  #followNetwork(): void {
+    const { clock } = this.#stream;
+    if (!clock.ready) return;
+    const now = this.#stream.serverNow();
+    const due = this.#queue?.firstDue ?? Infinity;
+    if (Number.isFinite(due) && this.transport.playing) this.#lead.arrived(due, now);
+  }
+
+  #askForLead(): void {
+    const { clock } = this.#stream;
+    const lead = this.#lead.wanted(this.#stream.serverNow(), clock.roundTrip);
+    if (lead !== null) this.#stream.send({ type: "lead", lead_s: lead });
   }
 
   #connected(state: StreamState): void {
     this.connection = state;
-    if (state === "open") this.#surroundings.answered();
+    if (state === "open") {
+      this.#surroundings.answered();
+      this.#lead.forgetAsked();
+    }
     if (state === "lost") void this.#lookWhetherGone();
   }
 
@@ -420,6 +499,7 @@ export class SessionView {
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
   #check(): void {
     if (!this.#stream.clock.ready) return;
+    if (this.connection === "open") this.#askForLead();
     if (this.#followed !== this.transport) {
       this.#followed = this.transport;
       this.#player.follow(this.transport);
