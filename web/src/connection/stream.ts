@@ -71,6 +71,8 @@ export class Stream {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #probing: ReturnType<typeof setTimeout> | undefined;
   #probeDue = Infinity;
+  /** Something has come since the page woke. */
+  #answered = false;
   #waking: ReturnType<typeof setTimeout> | undefined;
 
   constructor(url: string, listener: StreamListener, world: StreamWorld = browserWorld) {
@@ -115,14 +117,14 @@ export class Stream {
     }
     if (this.#socket.readyState !== OPEN) return;
     clearTimeout(this.#waking);
-    const asleepUntil = this.#world.now();
-    this.#heardAt = asleepUntil;
+    this.#heardAt = this.#world.now();
+    this.#answered = false;
     this.#pairs = 0;
     this.#probeDue = Infinity;
     clearTimeout(this.#probing);
     this.#probe();
     this.#waking = setTimeout(() => {
-      if (this.#heardAt === asleepUntil) this.#giveUp();
+      if (!this.#answered) this.#giveUp();
     }, WAKING_S * 1000);
   }
 
@@ -154,6 +156,7 @@ export class Stream {
 
   #receive(data: string | ArrayBuffer): void {
     this.#heardAt = this.#world.now();
+    this.#answered = true;
     if (typeof data !== "string") {
       this.#listener.frames(data);
       return;

@@ -13,6 +13,8 @@ export interface SongTime {
   pageNow(): number;
   /** The song time that should be heard at a time of the page's clock, seconds. */
   songTimeAt(pageTime: number): number;
+  /** Whether the picture of what is to be heard now is there. */
+  pictured(): boolean;
 }
 
 export type SoundState =
@@ -35,6 +37,8 @@ const SHORTEST_START_S = 0.25;
 const SETTLE_S = 0.6;
 /** How many segments are decoded before they are needed. */
 const SEGMENTS_AHEAD = 2;
+/** So long a start waits for its picture: sound before it is noticed sooner than sound behind it. */
+const PICTURE_WAIT_S = 1;
 /** After the page has slept or has another device, a correction that would take longer than this is made at once. */
 const PATIENCE_S = 0.5;
 const IMPATIENT_S = 3;
@@ -58,6 +62,7 @@ export class SongPlayer {
   #scrubbed: GainNode | null = null;
   #checkFrom = 0;
   #impatientUntil = 0;
+  #soundsWithoutFrom = 0;
   #state: SoundState = "silent";
   #volume = 1;
   #muted = false;
@@ -109,6 +114,11 @@ export class SongPlayer {
     this.#tellState();
     if (this.#voice === null) this.#startWhereSilent();
     else this.#voice.extend();
+  }
+
+  /** A picture has come that sound may have waited for. */
+  pictureCame(): void {
+    if (this.#voice === null) this.#startWhereSilent();
   }
 
   /** The transport changed: play, pause or move accordingly. */
@@ -277,6 +287,7 @@ export class SongPlayer {
 
   #restart(): void {
     this.#stopVoice();
+    this.#soundsWithoutFrom = this.#time.pageNow() + PICTURE_WAIT_S;
     const transport = this.#transport;
     if (this.#song === null || transport?.playing !== true) return;
     if (!this.#output.running) {
@@ -288,6 +299,7 @@ export class SongPlayer {
   }
 
   #startVoice(song: SongSource, transport: TransportState): void {
+    if (!this.#time.pictured() && this.#time.pageNow() < this.#soundsWithoutFrom) return;
     // On the samples' grid, so that nothing is interpolated at the written tempo.
     const when = this.#onGrid(this.#context.currentTime + LEAD_S);
     const pageTime = this.#time.pageNow();
@@ -344,7 +356,7 @@ export class SongPlayer {
 }
 
 /** Whether both transports say the same song time for every moment to come. */
-function sameMotion(a: TransportState, b: TransportState): boolean {
+export function sameMotion(a: TransportState, b: TransportState): boolean {
   if (a.playing !== b.playing || a.rate !== b.rate) return false;
   if (a.loop?.start_s !== b.loop?.start_s || a.loop?.end_s !== b.loop?.end_s) return false;
   const moved = b.song_time_s - a.song_time_s - (b.server_time_s - a.server_time_s) * a.rate;

@@ -29,6 +29,7 @@ import {
   loadSegment,
   loadWhole,
   plannedSong,
+  sameMotion,
   SegmentedSong,
   SongPlayer,
   songState,
@@ -159,7 +160,11 @@ export class SessionView {
     this.songTime = transport.song_time_s;
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
-      { pageNow: () => performance.now() / 1000, songTimeAt: (pageTime) => this.#songTimeAt(pageTime) },
+      {
+        pageNow: () => performance.now() / 1000,
+        songTimeAt: (pageTime) => this.#songTimeAt(pageTime),
+        pictured: () => this.#pictured,
+      },
       (state) => {
         this.sound = state;
         this.#startWithSound();
@@ -431,6 +436,7 @@ export class SessionView {
     try {
       this.#queue?.push(bytes);
       this.#followNetwork();
+      if (this.transport.playing && this.#pictured) this.#player.pictureCame();
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
       this.#surroundings.tell(
@@ -447,8 +453,10 @@ export class SessionView {
 
   #setTransport(transport: TransportState, anew = false): void {
     if (!anew && transport.epoch < this.transport.epoch) return;
+    // An edit of the show does not move the music: until its first frame is here those before it fit.
+    const moved = anew || !sameMotion(this.transport, transport);
     this.transport = transport;
-    this.#queue?.enterEpoch(transport.epoch);
+    if (moved) this.#queue?.enterEpoch(transport.epoch);
     this.#lead.begin(transport.server_time_s);
     this.#check();
   }
@@ -509,6 +517,13 @@ export class SessionView {
 
   #songTimeAt(pageTime: number): number {
     return songTimeAt(this.transport, this.#stream.clock.serverTime(pageTime), this.duration);
+  }
+
+  /** Whether a frame of the present epoch is here that is not past. */
+  get #pictured(): boolean {
+    const queue = this.#queue;
+    const current = queue?.epoch === this.transport.epoch % EPOCHS;
+    return current && queue.lastDue >= this.#stream.serverNow();
   }
 
   get #soundComes(): boolean {
