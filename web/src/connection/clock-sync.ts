@@ -7,8 +7,8 @@ export interface ClockProbe {
 
 /** A round trip over this says nothing about the clocks. */
 const LONGEST_ROUND_TRIP_S = 2;
-/** Faster than two clocks come apart, seconds a second: a probe counts for less the older it is. */
-const DRIFT = 60e-6;
+/** About as fast as two clocks come apart, seconds a second: a probe counts for less the older it is. */
+const DRIFT = 30e-6;
 /** A probe that contradicts what is known by more than this was answered on another clock. */
 const CONTRADICTION_S = 0.005;
 /** The time that is given out comes to a better estimate at this rate, too slow to be seen or heard. */

@@ -217,7 +217,7 @@ export class SongPlayer {
     const voice = this.#voice;
     if (voice === null || !this.#output.running) return null;
     const heard = this.#output.heard(pageTime);
-    return heard < voice.until ? voice.path.errorAt(heard, songTime) : null;
+    return heard >= voice.from && heard < voice.until ? voice.path.errorAt(heard, songTime) : null;
   }
 
   /** How far what is heard now is ahead of the song time that should be, seconds; null when nothing is. */
