@@ -42,15 +42,15 @@ class Weather:
 
 
 @contextmanager
-def bad_network(address: str, weather: Weather, *, seed: int = 1) -> Generator[str]:
-    """An address by which a server is reached through a network of this weather."""
+def bad_network(address: str, weather: Weather, *, seed: int = 1) -> Generator[BadNetwork]:
+    """A server's address, reached through a network of this weather."""
     loop = asyncio.new_event_loop()
     thread = threading.Thread(target=loop.run_forever, name="bad network", daemon=True)
     thread.start()
-    proxy = _Proxy(address, weather, random.Random(seed))
+    proxy = BadNetwork(address, weather, random.Random(seed))
     try:
-        port = asyncio.run_coroutine_threadsafe(proxy.open(), loop).result(10.0)
-        yield f"http://127.0.0.1:{port}"
+        asyncio.run_coroutine_threadsafe(proxy.open(), loop).result(10.0)
+        yield proxy
     finally:
         asyncio.run_coroutine_threadsafe(proxy.close(), loop).result(10.0)
         loop.call_soon_threadsafe(loop.stop)
@@ -58,7 +58,9 @@ def bad_network(address: str, weather: Weather, *, seed: int = 1) -> Generator[s
         loop.close()
 
 
-class _Proxy:
+class BadNetwork:
+    """A network between whoever connects to `address` and a server."""
+
     def __init__(self, address: str, weather: Weather, dice: random.Random) -> None:
         at = urlsplit(address)
         self._host, self._port = at.hostname or "127.0.0.1", at.port or 80
@@ -66,12 +68,22 @@ class _Proxy:
         self._dice = dice
         self._server: asyncio.Server | None = None
         self._connections: set[asyncio.Task[None]] = set()
+        self._forgotten = 0
+        self._made = 0
+        self.address = ""
+        """Where the server is reached through this network."""
 
-    async def open(self) -> int:
+    def forget_connections(self) -> None:
+        """From now on what is connected hears nothing, and is not told, as behind a router that has forgotten it."""
+        self._forgotten = self._made
+
+    async def open(self) -> None:
+        """Listen on a free port."""
         self._server = await asyncio.start_server(self._accept, "127.0.0.1", 0)
-        return int(self._server.sockets[0].getsockname()[1])
+        self.address = f"http://127.0.0.1:{self._server.sockets[0].getsockname()[1]}"
 
     async def close(self) -> None:
+        """End every connection."""
         if self._server:
             self._server.close()
         for connection in self._connections:
@@ -82,6 +94,8 @@ class _Proxy:
         connection = asyncio.current_task()
         assert connection is not None
         self._connections.add(connection)
+        self._made += 1
+        number = self._made
         try:
             # The handshake goes there and back before anything is sent.
             await asyncio.sleep(2 * self._weather.delay_s)
@@ -89,13 +103,15 @@ class _Proxy:
             for each in (writer, far_writer):
                 each.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             with contextlib.suppress(ConnectionError):
-                await asyncio.gather(self._carry(reader, far_writer), self._carry(far_reader, writer))
+                await asyncio.gather(
+                    self._carry(number, reader, far_writer), self._carry(number, far_reader, writer)
+                )
         except (asyncio.CancelledError, OSError):
             writer.close()
         finally:
             self._connections.discard(connection)
 
-    async def _carry(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def _carry(self, number: int, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         """Carry packets one way, each as long as the weather has it, none before another."""
         loop = asyncio.get_running_loop()
         under_way: asyncio.Queue[tuple[float, bytes]] = asyncio.Queue(ON_ITS_WAY)
@@ -114,8 +130,9 @@ class _Proxy:
                 await asyncio.sleep(max(comes - loop.time(), 0.0))
                 if not packet:
                     break
-                writer.write(packet)
-                await writer.drain()
+                if number > self._forgotten:
+                    writer.write(packet)
+                    await writer.drain()
         finally:
             sending.cancel()
             writer.close()

@@ -17,13 +17,14 @@ const CHAINS = 2;
  */
 export class QuietProbes {
   readonly #clock: ClockSync;
-  readonly #ask: () => Promise<ClockProbe>;
+  readonly #ask: (number: number) => Promise<ClockProbe>;
+  #asked = 0;
   #count = 0;
   #closed = false;
   readonly #timers = new Map<number, ReturnType<typeof setTimeout>>();
 
-  /** @param ask one question over HTTP and its answer */
-  constructor(clock: ClockSync, ask: () => Promise<ClockProbe>) {
+  /** @param ask one question over HTTP and its answer; numbered, so that none is taken for another */
+  constructor(clock: ClockSync, ask: (number: number) => Promise<ClockProbe>) {
     this.#clock = clock;
     this.#ask = ask;
   }
@@ -52,7 +53,7 @@ export class QuietProbes {
   async #probe(chain: number): Promise<void> {
     try {
       if (this.#clock.ready && this.#clock.roundTrip > FAR_ROUND_TRIP_S) {
-        this.#clock.add(await this.#ask());
+        this.#clock.add(await this.#ask(this.#asked++));
         this.#count += 1;
       }
     } catch {

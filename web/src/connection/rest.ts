@@ -36,6 +36,9 @@ export interface SessionFiles {
 /** So much of a file's beginning says what it is. */
 const BEGINNING_BYTES = 65_536;
 
+/** A probe of the clock that is answered later than this is worth nothing. */
+const PROBE_MS = 3000;
+
 /** The server's calls, typed. Each throws ProblemError when the server refuses or does not answer. */
 export class ReinaApi {
   readonly #base: string;
@@ -51,16 +54,22 @@ export class ReinaApi {
   }
 
   /**
-   * What the server's clock says, and when it was asked.
+   * What the server's clock says, and when it was asked, on the page's clock, performance.now's.
    *
-   * @param now the page's clock, seconds
+   * The browser notes when the request left and its answer came, however busy the page was with drawing then.
    */
-  async clockProbe(now: () => number): Promise<ClockProbe> {
-    const sentAt = now();
-    const response = await this.request("GET", `${this.#base}/health`, { cache: "no-store" });
-    const receivedAt = now();
+  async clockProbe(number: number): Promise<ClockProbe> {
+    const path = `${this.#base}/health?probe=${number}`;
+    const sentAt = performance.now();
+    const response = await this.request("GET", path, { cache: "no-store", signal: AbortSignal.timeout(PROBE_MS) });
+    const receivedAt = performance.now();
     const { server_time_s: serverTime } = (await response.json()) as Health;
-    return { sentAt, receivedAt, serverTime };
+    const noted = timingOf(response.url);
+    return {
+      sentAt: (noted?.requestStart ?? sentAt) / 1000,
+      receivedAt: (noted?.responseStart ?? receivedAt) / 1000,
+      serverTime,
+    };
   }
 
   createSession(files: SessionFiles): Promise<CreatedSession> {
@@ -228,4 +237,12 @@ function castFields({ sequence, castings }: Cast): CastFields {
       }),
     ),
   };
+}
+
+/** The browser's own times of a request; undefined where it notes none. */
+function timingOf(address: string): PerformanceResourceTiming | undefined {
+  const [entry] = performance.getEntriesByName(address, "resource") as PerformanceResourceTiming[];
+  // There is room for few, and nobody else reads them.
+  performance.clearResourceTimings();
+  return entry !== undefined && entry.requestStart > 0 && entry.responseStart > 0 ? entry : undefined;
 }

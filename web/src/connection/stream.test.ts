@@ -153,8 +153,17 @@ describe("Stream", () => {
     now += 600;
     stream.wake();
     expect(dead.sent).toHaveLength(before + 1);
-    vi.advanceTimersByTime(1100);
+    dead.receive(new ArrayBuffer(96));
+    vi.advanceTimersByTime(1800);
     expect(dead.readyState).toBe(3);
+    expect(sockets).toHaveLength(2);
+  });
+
+  it("does not ask first after a long sleep", () => {
+    const stream = open();
+    socketAt(0).open();
+    stream.wake(600);
+    expect(socketAt(0).readyState).toBe(3);
     expect(sockets).toHaveLength(2);
   });
 
@@ -164,7 +173,7 @@ describe("Stream", () => {
     socket.open();
     now += 600;
     vi.advanceTimersByTime(90);
-    socket.receive(new ArrayBuffer(96));
+    answerPing(socket, -1, 0.1, 1000);
     vi.advanceTimersByTime(2000);
     expect(socket.readyState).toBe(1);
     expect(sockets).toHaveLength(1);

@@ -30,8 +30,11 @@ const EAGER_INTERVAL_S = 0.08;
 const PROBE_INTERVAL_S = 2;
 /** Without any message for so long, the connection is taken for dead. */
 const SILENCE_S = 8;
-/** A page that has slept asks, and takes the connection for dead where nothing is heard for so long. */
-const WAKING_S = 1;
+/** A page that has slept asks, and takes the connection for dead where no answer comes for so long and two round trips. */
+const WAKING_S = 0.7;
+const LONGEST_WAY_S = 0.5;
+/** Whoever is between has forgotten a connection by then, or the server has. */
+const LONG_ASLEEP_S = 10;
 /** A timer that comes so much later than it was set for has slept. */
 const SLEPT_S = 1.5;
 
@@ -71,8 +74,8 @@ export class Stream {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #probing: ReturnType<typeof setTimeout> | undefined;
   #probeDue = Infinity;
-  /** Something has come since the page woke. */
-  #answered = false;
+  /** The first ping since the page woke, until it or a later one is answered; what was on its way tells nothing. */
+  #wakingPing: number | null = null;
   #waking: ReturnType<typeof setTimeout> | undefined;
 
   constructor(url: string, listener: StreamListener, world: StreamWorld = browserWorld) {
@@ -108,24 +111,33 @@ export class Stream {
   /**
    * The page has slept, was hidden, or has another network: look at once whether the server still answers, and what
    * its clock says, rather than when the next probe is due.
+   *
+   * @param asleep for how long nothing ran here, seconds; after long the connection is not worth asking
    */
-  wake(): void {
+  wake(asleep = 0): void {
     if (this.#closed) return;
     if (this.#socket === null) {
       this.retryNow();
       return;
     }
     if (this.#socket.readyState !== OPEN) return;
+    if (asleep > LONG_ASLEEP_S) {
+      this.#giveUp();
+      return;
+    }
     clearTimeout(this.#waking);
     this.#heardAt = this.#world.now();
-    this.#answered = false;
+    this.#wakingPing = this.#nextPing;
     this.#pairs = 0;
     this.#probeDue = Infinity;
     clearTimeout(this.#probing);
     this.#probe();
-    this.#waking = setTimeout(() => {
-      if (!this.#answered) this.#giveUp();
-    }, WAKING_S * 1000);
+    this.#waking = setTimeout(
+      () => {
+        if (this.#wakingPing !== null) this.#giveUp();
+      },
+      (WAKING_S + 2 * Math.min(this.clock.roundTrip, LONGEST_WAY_S)) * 1000,
+    );
   }
 
   /** Say something to the server; while there is no connection nobody hears it. */
@@ -142,6 +154,7 @@ export class Stream {
       if (this.#socket !== socket) return;
       this.#heardAt = this.#world.now();
       this.#pings.clear();
+      this.#wakingPing = null;
       this.#pairs = 0;
       this.#listener.connection("open", null);
       this.#probe();
@@ -156,7 +169,6 @@ export class Stream {
 
   #receive(data: string | ArrayBuffer): void {
     this.#heardAt = this.#world.now();
-    this.#answered = true;
     if (typeof data !== "string") {
       this.#listener.frames(data);
       return;
@@ -217,6 +229,7 @@ export class Stream {
     const ping = this.#pings.get(id);
     if (ping === undefined) return;
     this.#pings.delete(id);
+    if (this.#wakingPing !== null && id >= this.#wakingPing) this.#wakingPing = null;
     this.clock.add({ sentAt: ping.sentAt, receivedAt: this.#heardAt, serverTime });
     if (!ping.second) this.#ping(true);
   }

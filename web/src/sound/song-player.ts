@@ -181,6 +181,7 @@ export class SongPlayer {
     this.#impatientUntil = this.#time.pageNow() + IMPATIENT_S;
     this.#checkFrom = 0;
     this.#drift.reset();
+    this.#song?.loadAgain();
     if (this.#transport?.playing === true) void this.#output.resume();
     this.check();
   }

@@ -28,7 +28,7 @@ export interface PageMeasures {
   readonly soundHeld: number;
   /** The share of the sound that the server has made; null once all of it is there. */
   readonly soundShare: number | null;
-  /** Seconds from the page's clock to the server's, and the round trip of the probe that says so. */
+  /** Seconds from the page's clock to the server's, as it is gone by, and the least round trip that it rests on. */
   readonly clockOffset: number;
   readonly clockRoundTrip: number;
   /** Picture less sound, seconds: how many readings, their mean, and what 95 % of them stay within. */
@@ -108,7 +108,8 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
       return view()?.soundShare ?? null;
     },
     get clockOffset() {
-      return view()?.clock.offset ?? 0;
+      const now = performance.now() / 1000;
+      return (view()?.clock.serverTime(now) ?? now) - now;
     },
     get clockRoundTrip() {
       return view()?.clock.roundTrip ?? Infinity;

@@ -1,4 +1,5 @@
 import {
+  type ClockSync,
   FrameQueue,
   LeadControl,
   ProblemError,
@@ -175,12 +176,10 @@ export class SessionView {
       frames: (bytes) => this.#takeFrames(bytes),
       connection: (state) => this.#connected(state),
     });
-    this.#probes = new QuietProbes(this.#stream.clock, () =>
-      surroundings.api.clockProbe(() => performance.now() / 1000),
-    );
+    this.#probes = new QuietProbes(this.#stream.clock, (number) => surroundings.api.clockProbe(number));
     this.#probes.begin();
     this.#checking = setInterval(() => this.#check(), CHECK_INTERVAL_MS);
-    this.#unwatch = watchWakes(() => this.wake());
+    this.#unwatch = watchWakes((asleep) => this.wake(asleep));
   }
 
   get api(): ReinaApi {
@@ -215,9 +214,13 @@ export class SessionView {
     if (ahead !== null) this.sync.add(-ahead / this.transport.rate, turn - drawnAt);
   }
 
-  /** The page may have missed something: see that clock, connection and sound are as they should be. */
-  wake(): void {
-    this.#stream.wake();
+  /**
+   * The page may have missed something: see that clock, connection and sound are as they should be.
+   *
+   * @param asleep for how long nothing of it ran, seconds; 0 where that is not known
+   */
+  wake(asleep: number): void {
+    this.#stream.wake(asleep);
     this.#probes.begin();
     this.#player.wake();
   }
@@ -242,8 +245,8 @@ export class SessionView {
     return this.#queue?.drawn ?? null;
   }
 
-  /** Seconds from the page's clock to the server's, and the round trip that this rests on. */
-  get clock(): { offset: number; roundTrip: number; ready: boolean } {
+  /** The server's clock as it is known here. */
+  get clock(): Pick<ClockSync, "serverTime" | "roundTrip" | "ready"> {
     return this.#stream.clock;
   }
 
