@@ -154,7 +154,7 @@ describe("Stream", () => {
     stream.wake();
     expect(dead.sent).toHaveLength(before + 1);
     dead.receive(new ArrayBuffer(96));
-    vi.advanceTimersByTime(1800);
+    vi.advanceTimersByTime(2600);
     expect(dead.readyState).toBe(3);
     expect(sockets).toHaveLength(2);
   });

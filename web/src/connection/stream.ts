@@ -30,8 +30,10 @@ const EAGER_INTERVAL_S = 0.08;
 const PROBE_INTERVAL_S = 2;
 /** Without any message for so long, the connection is taken for dead. */
 const SILENCE_S = 8;
-/** A page that has slept asks, and takes the connection for dead where no answer comes for so long and two round trips. */
-const WAKING_S = 0.7;
+/** A page that has slept asks, and takes the connection for dead where no answer comes for so long and three round trips. */
+const WAKING_S = 1;
+/** A page that is itself so late is busy, and answers may wait to be read. */
+const LATE_S = 0.3;
 const LONGEST_WAY_S = 0.5;
 /** Whoever is between has forgotten a connection by then, or the server has. */
 const LONG_ASLEEP_S = 10;
@@ -132,12 +134,17 @@ export class Stream {
     this.#probeDue = Infinity;
     clearTimeout(this.#probing);
     this.#probe();
-    this.#waking = setTimeout(
-      () => {
-        if (this.#wakingPing !== null) this.#giveUp();
-      },
-      (WAKING_S + 2 * Math.min(this.clock.roundTrip, LONGEST_WAY_S)) * 1000,
-    );
+    this.#awaitAnswer();
+  }
+
+  #awaitAnswer(): void {
+    const patience = WAKING_S + 3 * Math.min(this.clock.roundTrip, LONGEST_WAY_S);
+    const due = this.#world.now() + patience;
+    this.#waking = setTimeout(() => {
+      if (this.#wakingPing === null) return;
+      if (this.#world.now() - due > LATE_S) this.#awaitAnswer();
+      else this.#giveUp();
+    }, patience * 1000);
   }
 
   /** Say something to the server; while there is no connection nobody hears it. */
@@ -196,6 +203,7 @@ export class Stream {
     const socket = this.#socket;
     if (socket === null) return;
     const now = this.#world.now();
+    // What slept, or was busy, has heard nothing: that is not the server's silence.
     if (now - this.#probeDue > SLEPT_S) {
       this.wake();
       return;
