@@ -1,4 +1,4 @@
-"""A bad network between a page and its server, made of delays on loopback: no rights and no tools are needed."""
+"""A bad network between a page and its server, made of delays on loopback: it needs no rights."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class BadNetwork:
         """Where the server is reached through this network."""
 
     def forget_connections(self) -> None:
-        """From now on what is connected hears nothing, and is not told, as behind a router that has forgotten it."""
+        """What is connected hears nothing any more and is not told, as behind a router that forgot it."""
         self._forgotten = self._made
 
     async def open(self) -> None:

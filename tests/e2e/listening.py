@@ -18,7 +18,7 @@ SAMPLED = """() => {
 }"""
 QUESTIONS = 40
 DRAWN_IN_TIME_S = 1 / 60
-"""A machine that takes longer for a picture shows it as much later: what no clock can mend is not held against it."""
+"""A machine that takes longer for a picture shows it as much later, which no clock can mend."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def hear(opened: Opened, samples: int = 20) -> Heard:
 def apart(opened: Opened) -> NDArray[np.float64]:
     """The last pictures' distance from the sound, seconds, positive where the picture was ahead.
 
-    Where a picture took longer than DRAWN_IN_TIME_S until it was seen, that is taken off what it is behind or ahead.
+    Where a picture took longer than DRAWN_IN_TIME_S until it was seen, that is taken off the distance.
     """
     recent = np.array(opened.measure("sync")["recent"]).reshape(-1, 2)
     excess = np.maximum(recent[:, 1] - DRAWN_IN_TIME_S, 0.0)

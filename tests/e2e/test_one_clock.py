@@ -1,4 +1,4 @@
-"""One clock: picture and sound go with the server's, behind a bad network, and again after a page was away."""
+"""One clock: picture and sound go with the server's, behind a bad network, and after a page was away."""
 
 from __future__ import annotations
 
@@ -40,8 +40,9 @@ READINGS = 100
 """Pictures in a row that are judged."""
 ROUNDS = 30
 """How often it is looked again where the machine had something else to do."""
-IN_TIME = """(place) => window.reina.playing && window.reina.songTime > place && window.reina.sound === 'ready'
-  && window.reina.soundLevel > 0.01 && Math.abs(window.reina.soundAhead ?? 1) < 0.02
+IN_TIME = """(place) => window.reina.playing && window.reina.songTime > place
+  && window.reina.sound === 'ready' && window.reina.soundLevel > 0.01
+  && Math.abs(window.reina.soundAhead ?? 1) < 0.02
   && Math.abs(window.reina.songTime - window.reina.heard) < 0.25"""
 """Picture and sound go again; what is drawn on a busy machine may be a few pictures old."""
 
@@ -112,7 +113,9 @@ def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: 
         assert abs(one.measure("clockOffset") - offset) < CLOCK_S + unsure
         late.append(float(np.median(hear(one).late_s(transport))))
     figures = [(one.measure("soundAhead"), one.measure("clockOffset")) for one in (pair.near, pair.far)]
-    assert max(np.abs(late)) < EARLY_S + CLOCK_S, f"heard late by {late} s; {figures}, {true_offset(pair.far)}"
+    assert max(np.abs(late)) < EARLY_S + CLOCK_S, (
+        f"heard late by {late} s; {figures}, {true_offset(pair.far)}"
+    )
     assert abs(late[0] - late[1]) < PAGES_APART_S
 
 
