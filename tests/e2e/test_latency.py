@@ -31,7 +31,7 @@ def test_the_delay_is_moved_by_keys_tried_by_ear_and_remembered(visit: Callable[
     assert panel.get_by_role("button", name="5 ms more").is_disabled()
     page.keyboard.press("Home")
     panel.get_by_role("button", name="5 ms more").click()
-    panel.get_by_text("−295 ms").wait_for()
+    panel.get_by_text("-295 ms").wait_for()
     panel.get_by_role("button", name="Click and flash").click()
     opened.until("document.querySelector('.lamp.lit') !== null")
     opened.until("window.reina.soundLevel > 0.05")
@@ -41,7 +41,7 @@ def test_the_delay_is_moved_by_keys_tried_by_ear_and_remembered(visit: Callable[
     page.reload()
     opened.until_drawn()
     page.get_by_role("button", name="Sound delay of the headphones").click()
-    panel.get_by_text("−295 ms").wait_for()
+    panel.get_by_text("-295 ms").wait_for()
     panel.get_by_role("button", name="Reset").click()
     panel.get_by_text("0 ms", exact=True).wait_for()
     assert page.evaluate("JSON.parse(localStorage.reina).latencies") == {"": 0}

@@ -39,9 +39,9 @@ export class OutputLatency {
 
   set(milliseconds: number): void {
     this.milliseconds = withinRange(milliseconds);
-    const { latencies } = remembered();
-    const others = Object.entries(latencies).filter(([device]) => device !== this.device);
-    remember({ latencies: Object.fromEntries([...others, [this.device, this.milliseconds]].slice(-MAX_DEVICES)) });
+    const others = Object.entries(remembered().latencies).filter(([device]) => device !== this.device);
+    const kept: [string, number][] = [...others, [this.device, this.milliseconds]];
+    remember({ latencies: Object.fromEntries(kept.slice(-MAX_DEVICES)) });
     clearTimeout(this.#settling);
     this.#settling = setTimeout(() => this.#apply(this.seconds), SETTLED_MS);
   }

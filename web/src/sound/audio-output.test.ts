@@ -3,7 +3,7 @@ import { AudioOutput } from "./audio-output";
 
 /** A device under the test's hand: its time goes with the page's while it is neither stopped nor stuck. */
 class HeldContext {
-  state: string = "running";
+  state = "running";
   stuck = false;
   refuses = false;
   readonly destination = {};
