@@ -94,7 +94,8 @@ def kept_in_time(opened: Opened) -> bool:
     """Whether of the last pictures 95 % are near their sound, and none behind it by more than EARLY_S."""
     distances = apart(opened)[-READINGS:]
     near = np.count_nonzero(np.abs(distances) <= APART_S)
-    return len(distances) == READINGS and near >= 0.95 * READINGS and not np.any(distances < -EARLY_S)
+    early = bool(np.any(distances < -EARLY_S))
+    return len(distances) == READINGS and int(near) >= 0.95 * READINGS and not early
 
 
 def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: Pair) -> None:
@@ -107,7 +108,7 @@ def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: 
             one.page.wait_for_timeout(500)
         else:
             pytest.fail(f"picture less sound, ms: {np.round(1000 * apart(one)).tolist()}")
-    late = []
+    late: list[float] = []
     for one in (pair.near, pair.far):
         offset, unsure = true_offset(one)
         assert abs(one.measure("clockOffset") - offset) < CLOCK_S + unsure
@@ -137,7 +138,7 @@ def test_a_laptop_that_slept_connects_again_and_plays_on_where_the_others_are(
 
 def test_a_tab_that_was_frozen_plays_on_where_the_others_are(pair: Pair) -> None:
     pair.play(20.0)
-    lifecycle = pair.near.page.context.new_cdp_session(pair.near.page)
+    lifecycle: Any = pair.near.page.context.new_cdp_session(pair.near.page)
     lifecycle.send("Page.setWebLifecycleState", {"state": "frozen"})
     time.sleep(3.0)
     lifecycle.send("Page.setWebLifecycleState", {"state": "active"})
@@ -166,7 +167,7 @@ def test_a_sound_device_that_goes_or_changes_is_followed(pair: Pair) -> None:
 
 def renderer_of(browser: Browser, opened: Opened) -> int:
     """The operating system's number of the process that runs a page: the one that a busy page keeps busy."""
-    session = browser.new_browser_cdp_session()
+    session: Any = browser.new_browser_cdp_session()
 
     def spent() -> dict[int, float]:
         processes = session.send("SystemInfo.getProcessInfo")["processInfo"]
