@@ -30,6 +30,7 @@ SEEKS_TO_FILL = 30
 """Each sends twelve frames, 18 kB: together more than `BACKLOG_BYTES`."""
 BODY = 24
 """Where a frame's header ends: what stands there is the same for everybody at any time."""
+MAX_PINGS = 500
 
 
 def whole(watcher: Watcher, chosen: NDArray[np.bool_]) -> dict[int, bytes]:
@@ -275,6 +276,30 @@ def test_the_end_stops_the_clock(server: Running, owned: Owned) -> None:
     again = owned.control("play")
     assert again["song_time_s"] < 1.0
     owned.control("pause")
+
+
+def test_a_viewer_may_ask_for_its_frames_earlier(server: Running, owned: Owned) -> None:
+    async def scenario() -> Watcher:
+        async with watch(server, owned.id) as watcher:
+            await watcher.socket.send(json.dumps({"type": "lead", "lead_s": 1.0}))
+            await control(owned, "play")
+            early_s, pings = 0.0, 0
+            while early_s < 0.5:
+                await watcher.socket.send(json.dumps({"type": "ping", "id": pings}))
+                pings += 1
+                await watcher.until(lambda: len(watcher.of_type("pong")) == pings)  # noqa: B023
+                now_s = watcher.of_type("pong")[-1]["server_time_s"]
+                early_s = float(watcher.frames["due_time_s"].max()) - now_s
+                assert pings < MAX_PINGS, f"frames come {early_s:.2f} s before they are due"
+                await asyncio.sleep(0.02)
+            for lead in ("null", "9", '"x"'):
+                await watcher.socket.send(f'{{"type": "lead", "lead_s": {lead}}}')
+            await watcher.until(lambda: len(watcher.of_type("error")) == 3)
+            return watcher
+
+    watcher = asyncio.run(scenario())
+    owned.control("pause")
+    assert '"lead"' in watcher.of_type("error")[0]["detail"]
 
 
 def test_ping_measures_the_servers_clock(server: Running, owned: Owned) -> None:

@@ -11,10 +11,11 @@ from pydantic import ValidationError
 from reina.api.http.access import unknown_session
 from reina.api.http.problems import ProblemError
 from reina.protocol import SUBPROTOCOL
-from reina.protocol.messages import Ping, Pong, StreamError
+from reina.protocol.messages import Lead, Pong, StreamError, viewer_message
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
+    from reina.sessions.session import Session
     from reina.sessions.store import SessionStore
 
 router = APIRouter()
@@ -80,7 +81,7 @@ async def stream(
     await session.ready()
     session.join(viewer)
     sending = asyncio.create_task(viewer.run())
-    receiving = asyncio.create_task(_receive(socket, viewer, now))
+    receiving = asyncio.create_task(_receive(socket, viewer, session, now))
     try:
         await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
     finally:
@@ -92,17 +93,23 @@ async def stream(
                 await task
 
 
-async def _receive(socket: WebSocket, viewer: Viewer, now: Callable[[], float]) -> None:
-    """Answer pings until the viewer goes."""
+async def _receive(socket: WebSocket, viewer: Viewer, session: "Session", now: Callable[[], float]) -> None:
+    """Answer what the viewer says until it goes."""
     while True:
         message = await socket.receive()
         received_s = now()
         if message["type"] == "websocket.disconnect":
             return
         try:
-            ping = Ping.model_validate_json(message.get("text") or "")
+            said = viewer_message.validate_json(message.get("text") or "")
         except ValidationError:
-            detail = 'viewers send {"type": "ping", "id": 1} and nothing else'
+            detail = (
+                'viewers send {"type": "ping", "id": 1} or {"type": "lead", "lead_s": 0.5} (0.1 to 1.5), '
+                "and nothing else"
+            )
             viewer.post_text(StreamError(title="Not understood", detail=detail).model_dump_json())
         else:
-            viewer.post_text(Pong(id=ping.id, server_time_s=received_s).model_dump_json())
+            if isinstance(said, Lead):
+                session.take_lead(viewer, said.lead_s)
+            else:
+                viewer.post_text(Pong(id=said.id, server_time_s=received_s).model_dump_json())

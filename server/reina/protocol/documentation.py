@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
 FROM_SERVER: tuple[type[BaseModel], ...] = get_args(get_args(messages.ServerMessage)[0])
-FROM_VIEWER: tuple[type[BaseModel], ...] = (messages.Ping,)
+FROM_VIEWER: tuple[type[BaseModel], ...] = get_args(get_args(messages.ViewerMessage)[0])
 PARTS: tuple[type[BaseModel], ...] = (
     SkeletonManifest,
     ParameterManifest,
@@ -50,10 +50,10 @@ padded with zeros to {ALIGNMENT} bytes. J counts the joints of all skeletons, S 
 floats of all parameters; `hello` says where each skeleton and each parameter stands.
 
 Frames lie on the grid k / fps whatever the rate of play (above rate 1 some are passed over), are
-sent about 100 ms before they are due, and are of the clock's present epoch: a viewer discards
-frames of an older one. While paused, one frame comes with each change. A viewer shows the frame
-whose due time has come; where it blends two neighbouring frames, it does not blend into one that is
-flagged as a cut, nor parameters whose `blend` is false.
+sent about 100 ms before they are due (longer, where the viewer asks for it by `lead`), and are of
+the clock's present epoch: a viewer discards frames of an older one. While paused, one frame comes
+with each change. A viewer shows the frame whose due time has come; where it blends two neighbouring
+frames, it does not blend into one that is flagged as a cut, nor parameters whose `blend` is false.
 
 The same frames come over HTTP from `GET /api/v1/sessions/{{id}}/frames?start_s=&end_s=&fps=`, with
 epoch and due time 0; what `hello` says comes from `GET .../manifest`.

@@ -173,6 +173,17 @@ class Ping(WireModel):
     id: Annotated[int, Field(ge=0, le=2**53)]
 
 
+class Lead(WireModel):
+    """A viewer wants frames longer before they are due, as behind a network that is slow or loses packets.
+
+    Some that were sent already may come again.
+    """
+
+    type: Literal["lead"]
+    lead_s: Annotated[float, Field(ge=0.1, le=1.5)]
+    """How long before they are due frames are sent from now on; 0.1 until it is said."""
+
+
 ServerMessage = Annotated[
     Hello
     | Transport
@@ -186,6 +197,7 @@ ServerMessage = Annotated[
     | StreamError,
     Field(discriminator="type"),
 ]
-ViewerMessage = Ping
+ViewerMessage = Annotated[Ping | Lead, Field(discriminator="type")]
 
 server_message: TypeAdapter[ServerMessage] = TypeAdapter(ServerMessage)
+viewer_message: TypeAdapter[ViewerMessage] = TypeAdapter(ViewerMessage)

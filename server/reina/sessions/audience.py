@@ -60,7 +60,8 @@ class Audience:
         self._now = now
         self._viewers: set[Viewer] = set()
         self._state = clock.state()
-        self._broadcast = Broadcast(frames, self._state)
+        self._resumed = False
+        self._broadcasts: dict[float, Broadcast] = {}
         self._woken = asyncio.Event()
         self._ticking: asyncio.Task[None] | None = None
         notes.begin(self._state)
@@ -85,13 +86,21 @@ class Audience:
             self._notes.begin(state)
         for text in (hello(state), *self._notes.sounding()):
             viewer.post_text(text)
-        for message in self._broadcast.catch_up(state, viewer.frames_per_message):
-            viewer.post_frames(message)
+        self._catch_up(viewer, state)
         self._viewers.add(viewer)
         self._woken.set()
         if self._ticking is None:
             self._ticking = asyncio.create_task(self._run())
             self._ticking.add_done_callback(self._stopped)
+
+    def take_lead(self, viewer: Viewer, lead_s: float) -> None:
+        """Send to a viewer so long before it is due, seconds; a few frames may be sent again."""
+        now = self._now()
+        self._settle(now)
+        viewer.take_lead(lead_s)
+        if viewer in self._viewers:
+            self._catch_up(viewer, self._clock.state(now))
+            self._woken.set()
 
     def leave(self, viewer: Viewer) -> None:
         """Let a viewer go; the last one stops the ticker."""
@@ -99,7 +108,8 @@ class Audience:
         if not self._viewers:
             self.frames.forget()
             # Who comes next begins at the present, not where the last one left off.
-            self._broadcast = Broadcast(self.frames, self._state, resumed=True)
+            self._broadcasts = {}
+            self._resumed = True
             if self._ticking:
                 self._ticking.cancel()
                 self._ticking = None
@@ -129,8 +139,9 @@ class Audience:
             if notes is not None:
                 self._post(self._notes.end())
         self._notes = notes or self._notes
-        self._begin(self._clock.state(now), Broadcast(self.frames, self._clock.state(now)))
-        self._send_due(now)
+        self._begin(self._clock.state(now), resumed=False)
+        for viewers, broadcast in self._by_lead():
+            self._send(viewers, broadcast.begin(now, _sizes(viewers)))
         self._woken.set()
 
     def song_time_s(self, later_s: float = 0.0) -> float:
@@ -148,24 +159,50 @@ class Audience:
         """Take note of the music's end, which the clock comes to by itself."""
         state = self._clock.state(now)
         if self._state.playing and not state.playing:
-            self._begin(state, Broadcast(self.frames, state, resumed=True))
+            self._begin(state, resumed=True)
 
-    def _begin(self, state: ClockState, broadcast: Broadcast) -> None:
+    def _begin(self, state: ClockState, *, resumed: bool) -> None:
         self._state = state
-        self._broadcast = broadcast
+        self._resumed = resumed
+        self._broadcasts = {}
         for viewer in self._viewers:
             viewer.drop_frames()
         self.announce(transport_message(state))
         self._post(self._notes.begin(state))
 
     def _send_due(self, now: float) -> None:
-        messages = self._broadcast.until(now, self._sizes())
-        for viewer in self._viewers:
+        for viewers, broadcast in self._by_lead():
+            self._send(viewers, broadcast.until(now, _sizes(viewers)))
+
+    def _send(self, viewers: list[Viewer], messages: dict[int, list[bytes]]) -> None:
+        for viewer in viewers:
             for message in messages[viewer.frames_per_message]:
                 viewer.post_frames(message)
 
-    def _sizes(self) -> set[int]:
-        return {viewer.frames_per_message for viewer in self._viewers}
+    def _catch_up(self, viewer: Viewer, state: ClockState) -> None:
+        for message in self._broadcast(viewer.lead_s).catch_up(state, viewer.frames_per_message):
+            viewer.post_frames(message)
+
+    def _by_lead(self) -> list[tuple[list[Viewer], Broadcast]]:
+        """The viewers by their lead, with what they are sent; a broadcast that is nobody's is dropped."""
+        groups: dict[float, list[Viewer]] = {}
+        for viewer in self._viewers:
+            groups.setdefault(viewer.lead_s, []).append(viewer)
+        self._broadcasts = {lead_s: self._broadcast(lead_s) for lead_s in groups}
+        return [(viewers, self._broadcasts[lead_s]) for lead_s, viewers in groups.items()]
+
+    def _broadcast(self, lead_s: float) -> Broadcast:
+        broadcast = self._broadcasts.get(lead_s)
+        if broadcast is None:
+            broadcast = Broadcast(self.frames, self._state, resumed=self._resumed, lead_s=lead_s)
+            self._broadcasts[lead_s] = broadcast
+        return broadcast
+
+    def _due_frames(self, now: float) -> set[int]:
+        due: set[int] = set()
+        for viewers, broadcast in self._by_lead():
+            due |= broadcast.frames_until(now, _sizes(viewers))
+        return due
 
     def _post(self, texts: Iterable[str]) -> None:
         for text in texts:
@@ -186,7 +223,7 @@ class Audience:
         while True:
             self._woken.clear()
             now = self._now()
-            missing = self.frames.missing(self._broadcast.frames_until(now, self._sizes()))
+            missing = self.frames.missing(self._due_frames(now))
             if missing:
                 # What was not evaluated ahead in time is not evaluated here either: the event loop is
                 # everybody's.
@@ -197,10 +234,15 @@ class Audience:
                 await self._woken.wait()
                 continue
             await asyncio.sleep(0)  # the viewers' outboxes first
-            self.frames.prefetch(self.song_time_s(LEAD_S + AHEAD_S))
+            self.frames.prefetch(self.song_time_s(max(self._broadcasts, default=LEAD_S) + AHEAD_S))
             # The schedule's own times are the deadlines: a turn that was late delays none after it.
-            next_time = self._broadcast.next_time()
+            times = [broadcast.next_time() for broadcast in self._broadcasts.values()]
+            next_time = min((time for time in times if time is not None), default=None)
             wait_s = max(0.0, next_time - self._now()) if next_time else LAST_FRAME_S
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(wait_s):
                     await self._woken.wait()
+
+
+def _sizes(viewers: list[Viewer]) -> set[int]:
+    return {viewer.frames_per_message for viewer in viewers}

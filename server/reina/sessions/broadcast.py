@@ -14,27 +14,36 @@ if TYPE_CHECKING:
     from reina.sessions.schedule import DueFrame
 
 LEAD_S = 0.1
-"""How long before it is due a frame is sent."""
+"""How long before it is due a frame is sent to viewers who ask for nothing else."""
 
 
 class Broadcast:
     """The binary messages of one epoch.
 
     Viewers that want the same number of frames in a message share its bytes. A message goes out when the
-    first of its frames is `LEAD_S` from being due; the others in it are only earlier then.
+    first of its frames is `lead_s` from being due; the others in it are only earlier then.
 
     Args:
         frames: Where the bytes come from.
         state: The clock at the begin of the epoch, or where it has come to its end.
         resumed: The epoch began before `state`.
+        lead_s: How long before it is due a frame is sent, seconds.
     """
 
-    def __init__(self, frames: EncodedFrames, state: ClockState, *, resumed: bool = False) -> None:
+    def __init__(
+        self, frames: EncodedFrames, state: ClockState, *, resumed: bool = False, lead_s: float = LEAD_S
+    ) -> None:
+        self.lead_s = lead_s
+        """How long before it is due a frame is sent, seconds."""
         self._frames = frames
         self._state = state
         self._resumed = resumed
         self._fps = frames.manifest.fps
         self._schedules: dict[int, FrameSchedule] = {}
+
+    def begin(self, now: float, sizes: set[int]) -> dict[int, list[bytes]]:
+        """The first of `until`'s messages: what is due within `LEAD_S`, however great the lead."""
+        return self.until(now - max(self.lead_s - LEAD_S, 0.0), sizes)
 
     def until(self, now: float, sizes: set[int]) -> dict[int, list[bytes]]:
         """The messages to be sent by server time `now` that were not given out before.
@@ -54,7 +63,7 @@ class Broadcast:
             if schedule is None:
                 schedule = FrameSchedule(self._state, fps=self._fps, resumed=self._resumed)
                 self._schedules[size] = schedule
-            messages[size] = self._messages(schedule, size, now + LEAD_S)
+            messages[size] = self._messages(schedule, size, now + self.lead_s)
         return messages
 
     def frames_until(self, now: float, sizes: set[int]) -> set[int]:
@@ -63,7 +72,7 @@ class Broadcast:
         for size in sizes:
             schedule = self._schedules.get(size) or FrameSchedule(self._state, fps=self._fps)
             ahead = copy.copy(schedule)
-            while ahead.next and ahead.next.due_time_s <= now + LEAD_S:
+            while ahead.next and ahead.next.due_time_s <= now + self.lead_s:
                 for frame in ahead.take(size):
                     frames.update(range(frame.index - frame.skipped, frame.index + 1))
         return frames
@@ -80,7 +89,7 @@ class Broadcast:
         if following is None:
             # Nobody shares this size yet: `until` goes on where this leaves off.
             self._schedules[size] = schedule
-            return self._messages(schedule, size, state.server_time_s + LEAD_S)
+            return self._messages(schedule, size, state.server_time_s + min(self.lead_s, LEAD_S))
         before = following.next.due_time_s if following.next else math.inf
         due: list[DueFrame] = []
         while schedule.next and schedule.next.due_time_s < before - 0.5 / self._fps:
@@ -90,7 +99,7 @@ class Broadcast:
     def next_time(self) -> float | None:
         """Server time at which `until` has something to give again; None when this epoch has no more."""
         times = [schedule.next.due_time_s for schedule in self._schedules.values() if schedule.next]
-        return min(times) - LEAD_S if times else None
+        return min(times) - self.lead_s if times else None
 
     def _messages(self, schedule: FrameSchedule, size: int, horizon_s: float) -> list[bytes]:
         messages: list[bytes] = []

@@ -203,6 +203,10 @@ class Session:
         """Let somebody watch."""
         self.audience.join(viewer, lambda state: self.hello(state).model_dump_json())
 
+    def take_lead(self, viewer: Viewer, lead_s: float) -> None:
+        """Send somebody's frames so long before they are due, seconds."""
+        self.audience.take_lead(viewer, lead_s)
+
     def leave(self, viewer: Viewer) -> None:
         """Let somebody go."""
         self.audience.leave(viewer)

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import math
 from collections import deque
 from typing import Protocol
+
+from reina.sessions.broadcast import LEAD_S
 
 GOING_AWAY = 1001
 INTERNAL_ERROR = 1011
 TRY_AGAIN_LATER = 1013
 FRAMES_WAITING = 12
-"""Most frames that wait for a viewer; when more come, the oldest are dropped."""
+"""Most frames that wait for a viewer, beside what a greater lead brings; of more the oldest are dropped."""
+FRAMES_A_SECOND = 60
+"""As many frames are due in a second at most."""
 MESSAGES_WAITING = 256
 """Most control messages that wait; when more come, the viewer is closed with 1013 and may come again."""
 CLOSING_GRACE_S = 10.0
@@ -46,11 +51,13 @@ class Viewer:
 
     def __init__(self, connection: Connection, *, frames_per_message: int = 1) -> None:
         self.frames_per_message = frames_per_message
+        self.lead_s = LEAD_S
+        """How long before they are due its frames are sent, seconds."""
         self.dropped = 0
         """Binary messages that it was too slow for."""
         self._connection = connection
         self._texts: deque[str] = deque()
-        self._frames: deque[bytes] = deque(maxlen=max(2, FRAMES_WAITING // frames_per_message))
+        self._frames: deque[bytes] = deque(maxlen=self._most_waiting())
         self._posted = asyncio.Event()
         self._ended = asyncio.Event()
         self._ending = (TRY_AGAIN_LATER, "")
@@ -62,6 +69,14 @@ class Viewer:
             return
         self._texts.append(text)
         self._posted.set()
+
+    def take_lead(self, lead_s: float) -> None:
+        """From now on frames are posted so long before they are due, seconds, rounded up to a tenth.
+
+        Viewers of the same lead share what is encoded.
+        """
+        self.lead_s = math.ceil(round(lead_s * 10, 6)) / 10
+        self._frames = deque(self._frames, maxlen=self._most_waiting())
 
     def post_frames(self, message: bytes) -> None:
         """Queue a binary message, in place of the oldest when too many wait."""
@@ -100,6 +115,10 @@ class Viewer:
         finally:
             sending.cancel()
             ended.cancel()
+
+    def _most_waiting(self) -> int:
+        frames = FRAMES_WAITING + math.ceil((self.lead_s - LEAD_S) * FRAMES_A_SECOND)
+        return max(2, frames // self.frames_per_message)
 
     async def _send(self) -> None:
         while True:

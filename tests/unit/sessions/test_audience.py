@@ -12,6 +12,7 @@ from reina.music import MusicClock
 from reina.protocol import FrameFlag
 from reina.protocol.notes import WireNote
 from reina.sessions.audience import Audience
+from reina.sessions.broadcast import LEAD_S
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.viewer import Viewer
 
@@ -123,6 +124,34 @@ def test_whoever_joins_hears_hello_first_and_sees_the_present() -> None:
         inbox = hall.join()
         assert inbox.types == ["hello", "note_on"]
         assert hall.read(inbox)["index"].tolist() == [75]
+
+    in_hall(scenario)
+
+
+def test_a_viewer_behind_a_slow_network_is_sent_its_frames_earlier_and_nobody_else() -> None:
+    def scenario(hall: Hall) -> None:
+        near, far = hall.join(3), hall.join(3)
+        hall.clock.play()
+        hall.audience.restart()
+        hall.run(0.2)
+        hall.audience.take_lead(far, 0.93)
+        hall.run(0.1)
+        seen = hall.read(far)
+        assert seen["due_time_s"].max() > hall.now() + 0.98, "a lead is rounded up to a tenth"
+        assert set(range(18 + 60)) <= set(seen["index"].tolist()), "without a gap"
+        assert hall.read(near)["due_time_s"].max() < hall.now() + LEAD_S + 2 * FRAME
+        hall.clock.seek(0.5)
+        hall.audience.restart()
+        assert hall.read(far)["due_time_s"].max() < hall.now() + LEAD_S + 3 * FRAME, "the present first"
+        hall.run(0.05)
+        hall.audience.take_lead(far, LEAD_S)
+        hall.run(1.2)
+        seen = hall.read(far)
+        assert seen["due_time_s"].max() < hall.now() + LEAD_S + 2 * FRAME
+        assert set(range(37, 30 + 75)) <= set(seen["index"].tolist()), "without a gap"
+        hall.clock.pause()
+        hall.audience.restart()
+        assert len(hall.read(far)) == 1
 
     in_hall(scenario)
 

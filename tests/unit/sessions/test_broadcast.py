@@ -35,6 +35,19 @@ def test_a_message_of_several_frames_goes_out_with_its_first() -> None:
     assert later["index"].tolist() == [8, 9, 10, 11]
 
 
+def test_a_greater_lead_sends_the_same_frames_earlier() -> None:
+    frames = encoded()
+    usual, early = Broadcast(frames, state()), Broadcast(frames, state(), lead_s=1.0)
+    begun = early.begin(1000.0, {1})[1]
+    assert begun == usual.until(1000.0, {1})[1], "what is due first is not held up by what is due later"
+    rest = early.until(1000.0, {1})[1]
+    assert read(frames, [*begun, *rest])["index"].tolist() == list(range(61))
+    assert early.next_time() == pytest.approx(1000.0 + FRAME)
+    assert early.frames_until(1000.0 + FRAME, {1}) == {61}
+    later = usual.until(1000.9, {1})[1]
+    assert rest[: len(later)] == later
+
+
 def test_all_sizes_carry_the_same_frames() -> None:
     frames = encoded()
     broadcast = Broadcast(frames, state())

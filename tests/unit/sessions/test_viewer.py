@@ -74,6 +74,16 @@ def test_a_viewer_that_does_not_read_loses_the_oldest_frames() -> None:
     assert sent == [b"0", *(b"%d" % number for number in range(1000 - FRAMES_WAITING, 1000))]
 
 
+def test_more_frames_may_wait_for_a_viewer_with_a_greater_lead() -> None:
+    viewer = Viewer(Line(), frames_per_message=3)
+    viewer.take_lead(1.0)
+    for number in range(1000):
+        viewer.post_frames(b"%d" % number)
+    assert viewer.waiting == (FRAMES_WAITING + 54) // 3
+    viewer.take_lead(0.1)
+    assert viewer.waiting == FRAMES_WAITING // 3
+
+
 def test_too_many_control_messages_end_it_with_try_again_later() -> None:
     async def scenario() -> tuple[tuple[int, str] | None, int]:
         line = Line()

@@ -39,6 +39,19 @@ describe("FrameQueue", () => {
     expect(queue.frameAt(100)?.songTime).toBeCloseTo(11 / 60, 9);
   });
 
+  it("takes a frame that is sent twice once, but the music's end anew", () => {
+    const queue = queueOf();
+    const frames = [10, 11, 12].map((index) => ({ index, due: 5 + (index - 10) * STEP }));
+    expect(queue.push(encodeSampleFrames(...frames))).toBe(3);
+    expect(queue.firstDue).toBe(5);
+    const again = frames.slice(1).map(({ index, due }) => ({ index, due: due + 1e-9 }));
+    expect(queue.push(encodeSampleFrames(...again, { index: 13, due: 5 + 3 * STEP }))).toBe(1);
+    expect(queue.firstDue).toBeCloseTo(5 + 3 * STEP, 9);
+    expect(queue.frameAt(5 + 2.5 * STEP)?.songTime).toBeCloseTo(12.5 / 60, 9);
+    expect(queue.push(encodeSampleFrames({ index: 13, due: 5 + 3 * STEP, flags: 0 }))).toBe(1);
+    expect(queue.frameAt(6)).toMatchObject({ index: 13, playing: false });
+  });
+
   it.each([
     ["a cut", FLAG_PLAYING | FLAG_CUT],
     ["a new beginning", FLAG_PLAYING | FLAG_FIRST],

@@ -6,6 +6,9 @@ const EPOCHS = 256;
 /** Frames further apart than this were lost in between, and are not blended over. */
 const MAX_FRAMES_BLENDED_OVER = 8;
 
+/** Due times of one frame may differ by a rounding where it is sent twice, seconds. */
+const SAME_S = 1e-4;
+
 /** What is to be drawn at a moment: a frame, or the blend of two. The same object is given out each time. */
 export interface QueuedFrame {
   songTime: number;
@@ -38,6 +41,7 @@ export class FrameQueue {
   #first = 0;
   #count = 0;
   #epoch: number;
+  #firstDue = Infinity;
   #shown = false;
 
   /**
@@ -78,14 +82,21 @@ export class FrameQueue {
     return this.#count === 0 ? -Infinity : this.#slot(this.#count - 1).frame.dueTimeS;
   }
 
+  /** Server time at which the first frame of the last message is due, seconds; Infinity where none of it was kept. */
+  get firstDue(): number {
+    return this.#firstDue;
+  }
+
   /**
-   * Take in a binary message: one or more whole frames, back to back. Returns how many were kept.
+   * Take in a binary message: one or more whole frames, back to back. Returns how many were kept; those that were
+   * here already are not.
    *
    * @throws RangeError when it is not whole frames of this manifest and version
    */
   push(message: ArrayBuffer): number {
     const count = this.#reader.open(message);
     let kept = 0;
+    this.#firstDue = Infinity;
     for (let number = 0; number < count; number++) {
       if (this.#count === this.#slots.length) this.#dropFirst();
       const { frame } = this.#slot(this.#count);
@@ -93,6 +104,8 @@ export class FrameQueue {
       const ahead = epochsAhead(frame.epoch, this.#epoch);
       if (ahead < 0) continue;
       if (ahead > 0) this.#restart(frame.epoch);
+      else if (this.#cameBefore(frame)) continue;
+      if (kept === 0) this.#firstDue = frame.dueTimeS;
       this.#count += 1;
       kept += 1;
     }
@@ -126,6 +139,16 @@ export class FrameQueue {
       this.#epoch = epoch % EPOCHS;
       this.#count = 0;
     }
+  }
+
+  /** Whether a frame of this epoch is no later than the last that is held; the end of the music is a frame anew. */
+  #cameBefore(frame: Frame): boolean {
+    if (this.#count === 0) return false;
+    const last = this.#slot(this.#count - 1).frame;
+    if (frame.playing !== last.playing) return false;
+    return (
+      frame.dueTimeS < last.dueTimeS - SAME_S || (frame.index === last.index && frame.dueTimeS < last.dueTimeS + SAME_S)
+    );
   }
 
   /** Keep only the frame that was just read, the first of a newer epoch. */

@@ -6,6 +6,7 @@ import type {
   Example,
   ExampleList,
   FileRole,
+  Health,
   InstrumentList,
   LightMood,
   LightMoodList,
@@ -20,6 +21,7 @@ import type {
   TransportState,
 } from "../generated/protocol";
 import type { ShowTrack } from "../generated/show";
+import type { ClockProbe } from "./clock-sync";
 import { problemOf, unreachable } from "./problem";
 
 /** What a new session is made of. */
@@ -37,6 +39,9 @@ export interface SessionFiles {
 /** So much of a file's beginning says what it is. */
 const BEGINNING_BYTES = 65_536;
 
+/** A probe of the clock that is answered later than this is worth nothing. */
+const PROBE_MS = 3000;
+
 /** The server's calls, typed. Each throws ProblemError when the server refuses or does not answer. */
 export class ReinaApi {
   readonly #base: string;
@@ -49,6 +54,25 @@ export class ReinaApi {
   constructor(base = "/api/v1", fetchFunction: typeof fetch = (...request) => fetch(...request)) {
     this.#base = base;
     this.#fetch = fetchFunction;
+  }
+
+  /**
+   * What the server's clock says, and when it was asked, on the page's clock, performance.now's.
+   *
+   * The browser notes when the request left and its answer came, however busy the page was with drawing then.
+   */
+  async clockProbe(number: number): Promise<ClockProbe> {
+    const path = `${this.#base}/health?probe=${number}`;
+    const sentAt = performance.now();
+    const response = await this.request("GET", path, { cache: "no-store", signal: AbortSignal.timeout(PROBE_MS) });
+    const receivedAt = performance.now();
+    const { server_time_s: serverTime } = (await response.json()) as Health;
+    const noted = timingOf(response.url);
+    return {
+      sentAt: (noted?.requestStart ?? sentAt) / 1000,
+      receivedAt: (noted?.responseStart ?? receivedAt) / 1000,
+      serverTime,
+    };
   }
 
   createSession(files: SessionFiles): Promise<CreatedSession> {
@@ -189,6 +213,7 @@ export class ReinaApi {
       ifMatch?: string;
       signal?: AbortSignal;
       keepalive?: boolean;
+      cache?: RequestCache;
     } = {},
   ): Promise<Response> {
     const headers: Record<string, string> = { Accept: "application/json, */*" };
@@ -199,6 +224,7 @@ export class ReinaApi {
     const init: RequestInit = { method, headers };
     if (body !== undefined) init.body = body;
     if (options.keepalive !== undefined) init.keepalive = options.keepalive;
+    if (options.cache !== undefined) init.cache = options.cache;
     if (options.signal !== undefined) init.signal = options.signal;
     let response: Response;
     try {
@@ -241,4 +267,12 @@ function castFields({ sequence, castings }: Cast): CastFields {
       }),
     ),
   };
+}
+
+/** The browser's own times of a request; undefined where it notes none. */
+function timingOf(address: string): PerformanceResourceTiming | undefined {
+  const [entry] = performance.getEntriesByName(address, "resource") as PerformanceResourceTiming[];
+  // There is room for few, and nobody else reads them.
+  performance.clearResourceTimings();
+  return entry !== undefined && entry.requestStart > 0 && entry.responseStart > 0 ? entry : undefined;
 }

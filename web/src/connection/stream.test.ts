@@ -144,6 +144,41 @@ describe("Stream", () => {
     expect(sockets).toHaveLength(2);
   });
 
+  it("asks at once after a sleep, and connects again where nobody answers", () => {
+    const stream = open();
+    const dead = socketAt(0);
+    dead.open();
+    dead.receive({ type: "hello" });
+    const before = dead.sent.length;
+    now += 600;
+    stream.wake();
+    expect(dead.sent).toHaveLength(before + 1);
+    dead.receive(new ArrayBuffer(96));
+    vi.advanceTimersByTime(2600);
+    expect(dead.readyState).toBe(3);
+    expect(sockets).toHaveLength(2);
+  });
+
+  it("does not ask first after a long sleep", () => {
+    const stream = open();
+    socketAt(0).open();
+    stream.wake(600);
+    expect(socketAt(0).readyState).toBe(3);
+    expect(sockets).toHaveLength(2);
+  });
+
+  it("keeps a connection that answers after a sleep, and does not take what slept for silence", () => {
+    open();
+    const socket = socketAt(0);
+    socket.open();
+    now += 600;
+    vi.advanceTimersByTime(90);
+    answerPing(socket, -1, 0.1, 1000);
+    vi.advanceTimersByTime(2000);
+    expect(socket.readyState).toBe(1);
+    expect(sockets).toHaveLength(1);
+  });
+
   it("does not come back once it is closed", () => {
     const stream = open();
     socketAt(0).open();

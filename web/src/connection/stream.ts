@@ -25,11 +25,23 @@ const FRAMES_PER_MESSAGE = 3;
 const FIRST_RETRY_S = 0.25;
 const LAST_RETRY_S = 5;
 /** Pairs of probes right after connecting, then one pair every few seconds. */
-const EAGER_PAIRS = 4;
+const EAGER_PAIRS = 8;
 const EAGER_INTERVAL_S = 0.08;
 const PROBE_INTERVAL_S = 2;
 /** Without any message for so long, the connection is taken for dead. */
 const SILENCE_S = 8;
+/** A page that has slept asks, and takes the connection for dead where no answer comes for so long and three round trips. */
+const WAKING_S = 1;
+/** A page that is itself so late is busy, and answers may wait to be read. */
+const LATE_S = 0.3;
+const LONGEST_WAY_S = 0.5;
+/** Whoever is between has forgotten a connection by then, or the server has. */
+const LONG_ASLEEP_S = 10;
+/** A timer that comes so much later than it was set for has slept. */
+const SLEPT_S = 1.5;
+
+/** WebSocket.OPEN. */
+const OPEN = 1;
 
 const browserWorld: StreamWorld = {
   now: () => performance.now() / 1000,
@@ -63,6 +75,10 @@ export class Stream {
   #heardAt = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #probing: ReturnType<typeof setTimeout> | undefined;
+  #probeDue = Infinity;
+  /** The first ping since the page woke, until it or a later one is answered; what was on its way tells nothing. */
+  #wakingPing: number | null = null;
+  #waking: ReturnType<typeof setTimeout> | undefined;
 
   constructor(url: string, listener: StreamListener, world: StreamWorld = browserWorld) {
     this.#url = url;
@@ -81,6 +97,7 @@ export class Stream {
     this.#closed = true;
     clearTimeout(this.#timer);
     clearTimeout(this.#probing);
+    clearTimeout(this.#waking);
     this.#socket?.close(1000);
     this.#socket = null;
     this.#listener.connection("closed", null);
@@ -93,6 +110,48 @@ export class Stream {
     this.#connect();
   }
 
+  /**
+   * The page has slept, was hidden, or has another network: look at once whether the server still answers, and what
+   * its clock says, rather than when the next probe is due.
+   *
+   * @param asleep for how long nothing ran here, seconds; after long the connection is not worth asking
+   */
+  wake(asleep = 0): void {
+    if (this.#closed) return;
+    if (this.#socket === null) {
+      this.retryNow();
+      return;
+    }
+    if (this.#socket.readyState !== OPEN) return;
+    if (asleep > LONG_ASLEEP_S) {
+      this.#giveUp();
+      return;
+    }
+    clearTimeout(this.#waking);
+    this.#heardAt = this.#world.now();
+    this.#wakingPing = this.#nextPing;
+    this.#pairs = 0;
+    this.#probeDue = Infinity;
+    clearTimeout(this.#probing);
+    this.#probe();
+    this.#awaitAnswer();
+  }
+
+  #awaitAnswer(): void {
+    const patience = WAKING_S + 3 * Math.min(this.clock.roundTrip, LONGEST_WAY_S);
+    const due = this.#world.now() + patience;
+    this.#waking = setTimeout(() => {
+      if (this.#wakingPing === null) return;
+      if (this.#world.now() - due > LATE_S) this.#awaitAnswer();
+      else this.#giveUp();
+    }, patience * 1000);
+  }
+
+  /** Say something to the server; while there is no connection nobody hears it. */
+  send(message: ViewerMessage): void {
+    if (this.#socket?.readyState === OPEN) this.#socket.send(JSON.stringify(message));
+  }
+
   #connect(): void {
     this.#listener.connection("connecting", null);
     const socket = this.#world.connect(this.#url, SUBPROTOCOL);
@@ -101,8 +160,8 @@ export class Stream {
     socket.onopen = () => {
       if (this.#socket !== socket) return;
       this.#heardAt = this.#world.now();
-      this.clock.reset();
       this.#pings.clear();
+      this.#wakingPing = null;
       this.#pairs = 0;
       this.#listener.connection("open", null);
       this.#probe();
@@ -132,6 +191,7 @@ export class Stream {
   #lose(): void {
     this.#socket = null;
     clearTimeout(this.#probing);
+    clearTimeout(this.#waking);
     if (this.#closed) return;
     const pause = Math.min(FIRST_RETRY_S * 2 ** this.#tries, LAST_RETRY_S) * (0.75 + 0.5 * this.#world.random());
     this.#tries += 1;
@@ -142,28 +202,42 @@ export class Stream {
   #probe(): void {
     const socket = this.#socket;
     if (socket === null) return;
-    if (this.#world.now() - this.#heardAt > SILENCE_S) {
-      socket.close();
-      this.#lose();
+    const now = this.#world.now();
+    // What slept, or was busy, has heard nothing: that is not the server's silence.
+    if (now - this.#probeDue > SLEPT_S) {
+      this.wake();
+      return;
+    }
+    if (now - this.#heardAt > SILENCE_S) {
+      this.#giveUp();
       return;
     }
     this.#ping(false);
     this.#pairs += 1;
     const pause = this.#pairs < EAGER_PAIRS ? EAGER_INTERVAL_S : PROBE_INTERVAL_S;
+    this.#probeDue = now + pause;
     this.#probing = setTimeout(() => this.#probe(), pause * 1000);
+  }
+
+  /** Nobody is there any more: connect again at once. */
+  #giveUp(): void {
+    const socket = this.#socket;
+    this.#lose();
+    socket?.close();
+    this.retryNow();
   }
 
   #ping(second: boolean): void {
     const id = this.#nextPing++;
     this.#pings.set(id, { sentAt: this.#world.now(), second });
-    const ping: ViewerMessage = { type: "ping", id };
-    if (this.#socket?.readyState === 1) this.#socket.send(JSON.stringify(ping));
+    this.send({ type: "ping", id });
   }
 
   #takePong(id: number, serverTime: number): void {
     const ping = this.#pings.get(id);
     if (ping === undefined) return;
     this.#pings.delete(id);
+    if (this.#wakingPing !== null && id >= this.#wakingPing) this.#wakingPing = null;
     this.clock.add({ sentAt: ping.sentAt, receivedAt: this.#heardAt, serverTime });
     if (!ping.second) this.#ping(true);
   }

@@ -590,6 +590,17 @@ export interface Ping {
   id: number
 }
 
+/**
+ * A viewer wants frames longer before they are due, as behind a network that is slow or loses packets.
+ *
+ * Some that were sent already may come again.
+ */
+export interface Lead {
+  type: "lead"
+  /** How long before they are due frames are sent from now on; 0.1 until it is said. */
+  lead_s: number
+}
+
 /** Play from where the clock stands (from the start, where it stands at the end). */
 export interface Play {
   action: "play"
@@ -1328,6 +1339,7 @@ export type ServerMessage =
 
 export type ViewerMessage =
   | Ping
+  | Lead
 
 export type TransportCommand =
   | Play

@@ -8,7 +8,7 @@ function readAll(watch: DriftWatch, errors: readonly number[], rate = 1): Correc
 
 describe("DriftWatch", () => {
   it("lets an error pass that nobody hears", () => {
-    const corrections = readAll(new DriftWatch(), [0.01, -0.011, 0.009, 0.01, 0.008, 0.011]);
+    const corrections = readAll(new DriftWatch(), [0.005, -0.0055, 0.0045, 0.005, 0.004, 0.0055]);
     expect(corrections.every(({ kind }) => kind === "none")).toBe(true);
   });
 

@@ -6,8 +6,8 @@ export type Correction =
   /** Too far off to be caught up with unheard: start anew at the right place. */
   | { readonly kind: "restart" };
 
-/** Nobody hears less than this. */
-export const TOLERATED_S = 0.012;
+/** Nobody hears less than this, and it leaves the picture most of the 25 ms that the two may be apart. */
+export const TOLERATED_S = 0.006;
 const RESTART_FROM_S = 0.15;
 const BURST = 0.03;
 const READINGS = 5;

@@ -1,5 +1,5 @@
 export { audioLength } from "./audio-length";
 export { monoWav } from "./mono-wav";
 export { loadSegment, loadWhole, plannedSong, songState } from "./song-loader";
-export { SongPlayer, type SongTime, type SoundState } from "./song-player";
+export { sameMotion, SongPlayer, type SongTime, type SoundState } from "./song-player";
 export { SegmentedSong, WholeSong } from "./song-source";

@@ -65,6 +65,7 @@ let sources: HeldSource[];
 let now: number;
 let transport: TransportState;
 let states: SoundState[];
+let pictured: boolean;
 
 /** A context whose clock is the page's, heard LATENCY later. */
 const context = {
@@ -90,8 +91,12 @@ function songTimeAt(pageTime: number): number {
 const whole = new WholeSong({ duration: 20 } as AudioBuffer);
 
 function playing(change: Partial<TransportState> = {}, song: SongSource = whole): SongPlayer {
-  const time = { pageNow: () => now, songTimeAt };
-  const player = new SongPlayer(time, (state) => states.push(state), context as unknown as AudioContext);
+  const time = { pageNow: () => now, songTimeAt, pictured: () => pictured };
+  const player = new SongPlayer(
+    time,
+    (state) => states.push(state),
+    () => context as unknown as AudioContext,
+  );
   player.setSong(song);
   transport = { ...transport, playing: true, ...change };
   player.follow(transport);
@@ -118,6 +123,7 @@ function lastSource(): HeldSource {
 beforeEach(() => {
   sources = [];
   states = [];
+  pictured = true;
   now = 5;
   context.state = "running";
   context.resume.mockClear();
@@ -210,6 +216,56 @@ describe("SongPlayer", () => {
     transport = { ...transport, song_time_s: transport.song_time_s + 1 };
     for (now = 12; now < 12.5; now += 0.1) player.check();
     expect(sources).toHaveLength(2);
+  });
+
+  it("waits for the picture of its place, but not for ever", () => {
+    pictured = false;
+    const player = playing();
+    now = 5.4;
+    player.check();
+    expect(sources).toHaveLength(0);
+    pictured = true;
+    player.pictureCame();
+    expect(sources).toHaveLength(1);
+    expect(start(0)[1]).toBeCloseTo(songTimeAt(start(0)[0] + LATENCY), GRID);
+    player.pictureCame();
+    expect(sources).toHaveLength(1);
+    pictured = false;
+    player.follow((transport = { ...transport, song_time_s: 9, epoch: 2 }));
+    expect(sources).toHaveLength(1);
+    now = 6.5;
+    player.check();
+    expect(sources).toHaveLength(2);
+  });
+
+  it.each([0.2, -0.2])("asks for sound so much earlier as it comes late: %f s", (trim) => {
+    const player = playing();
+    now = 8;
+    player.setTrim(trim);
+    expect(sources).toHaveLength(2);
+    const [when, offset] = start(1);
+    expect(offset).toBeCloseTo(songTimeAt(when + LATENCY + trim), GRID);
+    now = 9;
+    expect(player.soundAhead()).toBeCloseTo(0, GRID);
+    player.setTrim(trim);
+    expect(sources, "nothing starts anew for nothing").toHaveLength(2);
+  });
+
+  it("puts right at once what is wrong after a sleep", () => {
+    const player = playing();
+    transport = { ...transport, song_time_s: transport.song_time_s + 0.1 };
+    now = 8;
+    player.wake();
+    for (; now < 8.6; now += 0.1) player.check();
+    expect(sources, "not by a burst of three seconds").toHaveLength(2);
+    expect(player.soundAhead()).toBeCloseTo(0, GRID);
+  });
+
+  it("tells how far what is heard is from a picture, at the time at which the picture was seen", () => {
+    const player = playing();
+    now = 8;
+    expect(player.heardAhead(6, 8)).toBeCloseTo(0, GRID);
+    expect(player.heardAhead(5.9, 7.95)).toBeCloseTo(0.05, GRID);
   });
 
   it("waits for the browser to let sound out, then starts at the right place", () => {

@@ -1,6 +1,7 @@
 import type { TransportState } from "../generated/protocol";
+import { AudioOutput } from "./audio-output";
+import { playClick } from "./click";
 import { DriftWatch } from "./drift";
-import { heardContextTime } from "./heard-time";
 import { PlaybackPath } from "./playback-path";
 import { segmentAt, segmentsAhead } from "./song-parts";
 import type { SongSource } from "./song-source";
@@ -12,6 +13,8 @@ export interface SongTime {
   pageNow(): number;
   /** The song time that should be heard at a time of the page's clock, seconds. */
   songTimeAt(pageTime: number): number;
+  /** Whether the picture of what is to be heard now is there. */
+  pictured(): boolean;
 }
 
 export type SoundState =
@@ -32,9 +35,13 @@ const SCRUB_S = 0.14;
 const SHORTEST_START_S = 0.25;
 /** After a start the output timestamp needs a moment to be true. */
 const SETTLE_S = 0.6;
-const VOLUME_GLIDE_S = 0.03;
 /** How many segments are decoded before they are needed. */
 const SEGMENTS_AHEAD = 2;
+/** So long a start waits for its picture: sound before it is noticed sooner than sound behind it. */
+const PICTURE_WAIT_S = 1;
+/** After the page has slept or has another device, a correction that would take longer than this is made at once. */
+const PATIENCE_S = 0.5;
+const IMPATIENT_S = 3;
 /** What browsers compute at once; a source's rate changes between such quanta only. */
 const QUANTUM = 128;
 
@@ -45,9 +52,7 @@ const QUANTUM = 128;
  * is really heard, brings it back when it has drifted, and asks for what will be needed.
  */
 export class SongPlayer {
-  readonly #context: AudioContext;
-  readonly #master: GainNode;
-  readonly #meter: AnalyserNode;
+  readonly #output: AudioOutput;
   readonly #time: SongTime;
   readonly #onState: (state: SoundState) => void;
   readonly #drift = new DriftWatch();
@@ -56,29 +61,29 @@ export class SongPlayer {
   #voice: Voice | null = null;
   #scrubbed: GainNode | null = null;
   #checkFrom = 0;
+  #impatientUntil = 0;
+  #soundsWithoutFrom = 0;
   #state: SoundState = "silent";
   #volume = 1;
   #muted = false;
 
-  constructor(time: SongTime, onState: (state: SoundState) => void, context = new AudioContext()) {
+  constructor(
+    time: SongTime,
+    onState: (state: SoundState) => void,
+    make: () => AudioContext = () => new AudioContext(),
+  ) {
     this.#time = time;
     this.#onState = onState;
-    this.#context = context;
-    this.#master = context.createGain();
-    this.#master.connect(context.destination);
-    this.#meter = context.createAnalyser();
-    this.#master.connect(this.#meter);
-    context.onstatechange = () => {
-      this.#tellState();
-      this.#restart();
-    };
+    this.#output = new AudioOutput(
+      make,
+      () => time.pageNow(),
+      (renewed) => this.#outputChanged(renewed),
+    );
   }
 
   /** The highest sample that left the page in the last moments, 0…1. */
   get level(): number {
-    const samples = new Float32Array(this.#meter.fftSize);
-    this.#meter.getFloatTimeDomainData(samples);
-    return samples.reduce((highest, sample) => Math.max(highest, Math.abs(sample)), 0);
+    return this.#output.level;
   }
 
   /** Seconds of sound that are decoded. */
@@ -111,6 +116,11 @@ export class SongPlayer {
     else this.#voice.extend();
   }
 
+  /** A picture has come that sound may have waited for. */
+  pictureCame(): void {
+    if (this.#voice === null) this.#startWhereSilent();
+  }
+
   /** The transport changed: play, pause or move accordingly. */
   follow(transport: TransportState): void {
     const before = this.#transport;
@@ -125,8 +135,8 @@ export class SongPlayer {
   /** Play a moment of the song from a place, seconds, unless it plays already; the moment before ends at once. */
   scrub(position: number): void {
     if (this.#song === null || this.#transport?.playing === true || position >= this.#song.duration) return;
-    if (this.#context.state !== "running") {
-      void this.#context.resume();
+    if (!this.#output.running) {
+      void this.#output.resume();
       return;
     }
     const now = this.#context.currentTime;
@@ -145,7 +155,7 @@ export class SongPlayer {
     gain.gain.linearRampToValueAtTime(1, now + FADE_S);
     gain.gain.setValueAtTime(1, now + SCRUB_S - FADE_S);
     gain.gain.linearRampToValueAtTime(0, now + SCRUB_S);
-    source.connect(gain).connect(this.#master);
+    source.connect(gain).connect(this.#output.into);
     source.start(now, Math.max(position, 0) - segment * song.segmentLength + song.overlap, SCRUB_S);
     this.#scrubbed = gain;
     source.onended = () => {
@@ -156,7 +166,31 @@ export class SongPlayer {
 
   /** Let sound out; to be called from a click or a key. */
   async unlock(): Promise<void> {
-    if (this.#context.state !== "running") await this.#context.resume();
+    await this.#output.resume();
+  }
+
+  /** Seconds by which sound comes to the ear later than the browser knows: it is asked for so much earlier. */
+  setTrim(trim: number): void {
+    if (trim === this.#output.trim) return;
+    this.#output.trim = trim;
+    if (this.#voice !== null) this.#restart();
+  }
+
+  /** The page has slept, was hidden, or plays on another device: what is wrong is put right at once. */
+  wake(): void {
+    this.#impatientUntil = this.#time.pageNow() + IMPATIENT_S;
+    this.#checkFrom = 0;
+    this.#drift.reset();
+    this.#song?.loadAgain();
+    if (this.#transport?.playing === true) void this.#output.resume();
+    this.check();
+  }
+
+  /** Let a click be heard at a time of the page's clock, seconds, as loud as the song. */
+  click(pageTime: number): void {
+    const when = this.#output.heard(pageTime);
+    if (this.#output.running && when > this.#context.currentTime) playClick(this.#context, this.#output.into, when);
+    else void this.#output.resume();
   }
 
   /** 0…1. */
@@ -165,27 +199,39 @@ export class SongPlayer {
     this.#muted = muted;
     // Loudness is heard by ratios: the square makes the slider's middle sound like the middle.
     const gain = this.#muted ? 0 : this.#volume * this.#volume;
-    this.#master.gain.setTargetAtTime(gain, this.#context.currentTime, VOLUME_GLIDE_S);
+    this.#output.setGain(gain);
   }
 
   /** The song time that is heard now, seconds; null when none is. */
   heardSongTime(): number | null {
     const voice = this.#voice;
-    if (voice === null || this.#context.state !== "running") return null;
+    if (voice === null || !this.#output.running) return null;
     const heard = this.#heard();
     return heard < voice.until ? voice.path.positionAt(heard) : null;
+  }
+
+  /**
+   * How far what is heard at a time of the page's clock is ahead of a song time, seconds of song, the shorter way
+   * round a loop; null when nothing is heard.
+   */
+  heardAhead(songTime: number, pageTime: number): number | null {
+    const voice = this.#voice;
+    if (voice === null || !this.#output.running) return null;
+    const heard = this.#output.heard(pageTime);
+    return heard >= voice.from && heard < voice.until ? voice.path.errorAt(heard, songTime) : null;
   }
 
   /** How far what is heard now is ahead of the song time that should be, seconds; null when nothing is. */
   soundAhead(): number | null {
     const voice = this.#voice;
-    if (voice === null || this.#context.state !== "running") return null;
+    if (voice === null || !this.#output.running) return null;
     return voice.path.errorAt(this.#heard(), this.#time.songTimeAt(this.#time.pageNow()));
   }
 
   /** Measure, and correct when the sound is not where it should be, or is silent where the song has sound. */
   check(): void {
     this.#want();
+    if (this.#transport?.playing === true && this.#song !== null) this.#output.look();
     this.#tellState();
     const voice = this.#voice;
     if (voice === null) {
@@ -202,7 +248,8 @@ export class SongPlayer {
     const error = this.soundAhead();
     if (error === null) return;
     const correction = this.#drift.read(error, voice.rate);
-    if (correction.kind === "restart") this.#restart();
+    const slow = correction.kind === "burst" && correction.seconds > PATIENCE_S && pageTime < this.#impatientUntil;
+    if (correction.kind === "restart" || slow) this.#restart();
     else if (correction.kind === "burst") {
       const begin = this.#onGrid(this.#context.currentTime + LEAD_S, QUANTUM);
       const end = this.#onGrid(begin + correction.seconds, QUANTUM);
@@ -214,30 +261,46 @@ export class SongPlayer {
   /** Stop and give the sound device back. */
   async close(): Promise<void> {
     this.#stopVoice();
-    this.#context.onstatechange = null;
-    await this.#context.close();
+    await this.#output.close();
+  }
+
+  get #context(): AudioContext {
+    return this.#output.context;
+  }
+
+  #outputChanged(renewed: boolean): void {
+    if (renewed) {
+      // What was scheduled is lost with its context.
+      this.#voice = null;
+      this.#scrubbed = null;
+      this.#impatientUntil = this.#time.pageNow() + IMPATIENT_S;
+    }
+    this.#tellState();
+    this.#restart();
   }
 
   /** What was not there in time has come, or a loop has come back from behind the song's end. */
   #startWhereSilent(): void {
-    if (this.#song === null || this.#transport?.playing !== true || this.#context.state !== "running") return;
+    if (this.#song === null || this.#transport?.playing !== true || !this.#output.running) return;
     const position = this.#position();
     if (position < this.#song.duration - SHORTEST_START_S) this.#startVoice(this.#song, this.#transport);
   }
 
   #restart(): void {
     this.#stopVoice();
+    this.#soundsWithoutFrom = this.#time.pageNow() + PICTURE_WAIT_S;
     const transport = this.#transport;
     if (this.#song === null || transport?.playing !== true) return;
-    if (this.#context.state !== "running") {
+    if (!this.#output.running) {
       // Granted at once where the person has touched the page already, else once they do.
-      void this.#context.resume();
+      void this.#output.resume();
       return;
     }
     this.#startVoice(this.#song, transport);
   }
 
   #startVoice(song: SongSource, transport: TransportState): void {
+    if (!this.#time.pictured() && this.#time.pageNow() < this.#soundsWithoutFrom) return;
     // On the samples' grid, so that nothing is interpolated at the written tempo.
     const when = this.#onGrid(this.#context.currentTime + LEAD_S);
     const pageTime = this.#time.pageNow();
@@ -246,7 +309,7 @@ export class SongPlayer {
     const { rate } = transport;
     const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
     const path = new PlaybackPath(when, position, rate, loop);
-    this.#voice = new Voice(this.#context, song, this.#master, { path, position, rate, loop }, FADE_S);
+    this.#voice = new Voice(this.#context, song, this.#output.into, { path, position, rate, loop }, FADE_S);
     this.#drift.reset();
     this.#checkFrom = pageTime + SETTLE_S;
   }
@@ -274,15 +337,7 @@ export class SongPlayer {
   }
 
   #heard(): number {
-    const stamp = this.#context.getOutputTimestamp();
-    return heardContextTime({
-      pageTime: this.#time.pageNow(),
-      currentTime: this.#context.currentTime,
-      outputLatency: this.#context.outputLatency,
-      baseLatency: this.#context.baseLatency,
-      outputContextTime: stamp.contextTime,
-      outputPageTime: stamp.performanceTime === undefined ? undefined : stamp.performanceTime / 1000,
-    });
+    return this.#output.heard();
   }
 
   #tellState(): void {
@@ -297,12 +352,12 @@ export class SongPlayer {
     if (song === null) return "silent";
     const position = this.#position();
     if (position < song.duration && song.at(segmentAt(position, song)) === null) return "coming";
-    return this.#context.state === "running" ? "ready" : "blocked";
+    return this.#output.running ? "ready" : "blocked";
   }
 }
 
 /** Whether both transports say the same song time for every moment to come. */
-function sameMotion(a: TransportState, b: TransportState): boolean {
+export function sameMotion(a: TransportState, b: TransportState): boolean {
   if (a.playing !== b.playing || a.rate !== b.rate) return false;
   if (a.loop?.start_s !== b.loop?.start_s || a.loop?.end_s !== b.loop?.end_s) return false;
   const moved = b.song_time_s - a.song_time_s - (b.server_time_s - a.server_time_s) * a.rate;

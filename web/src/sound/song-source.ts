@@ -10,6 +10,8 @@ export interface SongSource extends SongShape {
   at(segment: number): AudioBuffer | null;
   /** Have these decoded, the first most urgently, and others forgotten as room is needed. */
   want(segments: readonly number[]): void;
+  /** Ask anew for what is being loaded, as after a sleep: its connection may be gone without a word. */
+  loadAgain(): void;
   close(): void;
 }
 
@@ -39,6 +41,10 @@ export class WholeSong implements SongSource {
   }
 
   want(): void {
+    return;
+  }
+
+  loadAgain(): void {
     return;
   }
 
@@ -99,6 +105,10 @@ export class SegmentedSong implements SongSource {
     const loading = this.#loading;
     if (loading !== null && !segments.includes(loading.segment)) loading.abort.abort();
     this.#loadNext();
+  }
+
+  loadAgain(): void {
+    this.#loading?.abort.abort();
   }
 
   close(): void {

@@ -27,6 +27,8 @@ interface Scheduled {
 export class Voice {
   readonly path: PlaybackPath;
   readonly rate: number;
+  /** Context time at which it begins. */
+  readonly from: number;
   readonly #context: AudioContext;
   readonly #song: SongSource;
   readonly #loop: Loop | null;
@@ -52,6 +54,7 @@ export class Voice {
     this.#loop = loop;
     this.#next = position;
     const when = path.timeAt(position);
+    this.from = when;
     this.#gain = new GainNode(context, { gain: 0 });
     this.#gain.gain.setValueAtTime(0, when);
     this.#gain.gain.linearRampToValueAtTime(1, when + fade);

@@ -28,13 +28,23 @@ export interface PageMeasures {
   readonly soundHeld: number;
   /** The share of the sound that the server has made; null once all of it is there. */
   readonly soundShare: number | null;
-  /** Seconds from the page's clock to the server's, and the round trip of the probe that says so. */
+  /** Seconds from the page's clock to the server's, as it is gone by, and the least round trip that it rests on. */
   readonly clockOffset: number;
   readonly clockRoundTrip: number;
   /** Picture less sound, seconds: how many readings, their mean, and what 95 % of them stay within. */
-  readonly sync: { readonly readings: number; readonly mean: number; readonly p95: number };
+  readonly sync: {
+    readonly readings: number;
+    readonly mean: number;
+    readonly p95: number;
+    /** The last of them, with how long each picture took from when it was drawn until it was seen. */
+    readonly recent: readonly (readonly [difference: number, interval: number])[];
+  };
   /** Seconds by which what is heard is ahead of the server's song time; null while nothing is. */
   readonly soundAhead: number | null;
+  /** The song time that is heard, seconds; null while none is. */
+  readonly heard: number | null;
+  /** How long before they are due frames are asked for, seconds. */
+  readonly lead: number;
   /** Pictures drawn since the page was opened, and the draw calls of the last. */
   readonly pictures: number;
   readonly drawCalls: number;
@@ -98,17 +108,29 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
       return view()?.soundShare ?? null;
     },
     get clockOffset() {
-      return view()?.clock.offset ?? 0;
+      const now = performance.now() / 1000;
+      return (view()?.clock.serverTime(now) ?? now) - now;
     },
     get clockRoundTrip() {
       return view()?.clock.roundTrip ?? Infinity;
     },
     get sync() {
       const sync = view()?.sync;
-      return { readings: sync?.count ?? 0, mean: sync?.mean ?? 0, p95: sync?.within(0.95) ?? 0 };
+      return {
+        readings: sync?.count ?? 0,
+        mean: sync?.mean ?? 0,
+        p95: sync?.within(0.95) ?? 0,
+        recent: sync?.recent ?? [],
+      };
     },
     get soundAhead() {
       return view()?.soundAhead ?? null;
+    },
+    get heard() {
+      return view()?.heard ?? null;
+    },
+    get lead() {
+      return view()?.lead ?? 0;
     },
     get pictures() {
       return stage.pictures;

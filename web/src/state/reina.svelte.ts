@@ -8,6 +8,7 @@ import { Notices, type NoticeOptions } from "./notices.svelte";
 import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
+import { OutputLatency } from "../latency/output-latency.svelte";
 import { remember, remembered, rememberToken } from "./storage";
 import { transcribed } from "./transcribing";
 import { told } from "../words/told/en";
@@ -46,6 +47,8 @@ export class Reina {
   volume = $state(remembered().volume);
   muted = $state(remembered().muted);
   hasPlayed = $state(remembered().hasPlayed);
+  /** By how much sound comes late on the device that is listened to. */
+  readonly latency = new OutputLatency((seconds) => this.view?.setSoundTrim(seconds));
 
   #listed = $state.raw<readonly ShowParameter[]>([]);
   /** A recording that waits for its score. */
@@ -359,6 +362,7 @@ export class Reina {
     this.view = view;
     this.phase = "open";
     view.setVolume(this.volume, this.muted);
+    view.setSoundTrim(this.latency.seconds);
     document.title = `${view.session.title} · Reina`;
     const { pieces } = remembered();
     if (view.canControl) {

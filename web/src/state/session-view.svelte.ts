@@ -1,6 +1,9 @@
 import {
+  type ClockSync,
   FrameQueue,
+  LeadControl,
   ProblemError,
+  QuietProbes,
   songTimeAt,
   Stream,
   streamAddress,
@@ -28,6 +31,7 @@ import {
   loadWhole,
   monoWav,
   plannedSong,
+  sameMotion,
   SegmentedSong,
   SongPlayer,
   songState,
@@ -37,14 +41,16 @@ import {
 import { isListenedTo } from "./alignment-words";
 import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
+import { Refresh } from "./refresh";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
+import { watchWakes } from "./wakes";
 import { told } from "../words/told/en";
 
 const CHECK_INTERVAL_MS = 100;
 const SHARE_INTERVAL_MS = 1000;
-/** A picture drawn now is seen at the display's next refresh. */
-const PRESENTATION_S = 1 / 60;
+/** Frames carry an epoch modulo this. */
+const EPOCHS = 256;
 /** The last frame of a song stands up to this much before its end. */
 const END_TOLERANCE_S = 0.025;
 
@@ -111,6 +117,12 @@ export class SessionView {
   readonly #stream: Stream;
   readonly #player: SongPlayer;
   readonly #checking: ReturnType<typeof setInterval>;
+  readonly #unwatch: () => void;
+  readonly #probes: QuietProbes;
+  readonly #lead = new LeadControl();
+  readonly #refresh = new Refresh();
+  /** The picture that was drawn last, until it is seen: its song time, epoch and when it was drawn. */
+  #coming = { songTime: 0, epoch: -1, drawnAt: 0 };
   readonly #ended = new AbortController();
   #queue: FrameQueue | null = null;
   #followed: TransportState | null = null;
@@ -153,7 +165,11 @@ export class SessionView {
     this.songTime = transport.song_time_s;
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
-      { pageNow: () => performance.now() / 1000, songTimeAt: (pageTime) => this.#songTimeAt(pageTime) },
+      {
+        pageNow: () => performance.now() / 1000,
+        songTimeAt: (pageTime) => this.#songTimeAt(pageTime),
+        pictured: () => this.#pictured,
+      },
       (state) => {
         this.sound = state;
         this.#startWithSound();
@@ -164,7 +180,10 @@ export class SessionView {
       frames: (bytes) => this.#takeFrames(bytes),
       connection: (state) => this.#connected(state),
     });
+    this.#probes = new QuietProbes(this.#stream.clock, (number) => surroundings.api.clockProbe(number));
+    this.#probes.begin();
     this.#checking = setInterval(() => this.#check(), CHECK_INTERVAL_MS);
+    this.#unwatch = watchWakes((asleep) => this.wake(asleep));
   }
 
   get api(): ReinaApi {
@@ -175,14 +194,39 @@ export class SessionView {
     return this.token !== null;
   }
 
-  /** The picture to be drawn now; null until the first frame has come. */
-  frameNow(): QueuedFrame | null {
-    const frame = this.#queue?.frameAt(this.#stream.serverNow() + PRESENTATION_S) ?? null;
+  /**
+   * The picture to be drawn in a turn of the display; null until the first frame has come.
+   *
+   * @param turn the turn's time as requestAnimationFrame gives it, seconds
+   */
+  frameAt(turn: number): QueuedFrame | null {
+    this.#measureSync(turn);
+    const seenAt = this.#refresh.seenAt(turn, performance.now() / 1000);
+    const frame = this.#queue?.frameAt(this.#stream.clock.serverTime(seenAt)) ?? null;
     if (frame === null) return null;
     if (frame.songTime !== this.songTime) this.songTime = frame.songTime;
-    const heard = frame.playing ? this.#player.heardSongTime() : null;
-    if (heard !== null) this.sync.add(frame.songTime - PRESENTATION_S * this.transport.rate - heard);
+    const runs = frame.playing && frame.epoch === this.transport.epoch % EPOCHS;
+    this.#coming = { songTime: frame.songTime, epoch: runs ? frame.epoch : -1, drawnAt: turn };
     return frame;
+  }
+
+  /** What was drawn in the turn before is seen now: compare it with what is heard. */
+  #measureSync(turn: number): void {
+    const { songTime, epoch, drawnAt } = this.#coming;
+    if (epoch !== this.transport.epoch % EPOCHS) return;
+    const ahead = this.#player.heardAhead(songTime, turn);
+    if (ahead !== null) this.sync.add(-ahead / this.transport.rate, turn - drawnAt);
+  }
+
+  /**
+   * The page may have missed something: see that clock, connection and sound are as they should be.
+   *
+   * @param asleep for how long nothing of it ran, seconds; 0 where that is not known
+   */
+  wake(asleep: number): void {
+    this.#stream.wake(asleep);
+    this.#probes.begin();
+    this.#player.wake();
   }
 
   /** How far the sound is ahead of the server's song time, seconds; null while none is heard. */
@@ -190,13 +234,23 @@ export class SessionView {
     return this.#player.soundAhead();
   }
 
+  /** The song time that is heard, seconds; null while none is. */
+  get heard(): number | null {
+    return this.#player.heardSongTime();
+  }
+
+  /** How long before they are due frames are asked for, seconds. */
+  get lead(): number {
+    return this.#lead.lead;
+  }
+
   /** The picture that was drawn last; null before the first. Read, never kept. */
   get drawn(): Readonly<QueuedFrame> | null {
     return this.#queue?.drawn ?? null;
   }
 
-  /** Seconds from the page's clock to the server's, and the round trip that this rests on. */
-  get clock(): { offset: number; roundTrip: number; ready: boolean } {
+  /** The server's clock as it is known here. */
+  get clock(): Pick<ClockSync, "serverTime" | "roundTrip" | "ready"> {
     return this.#stream.clock;
   }
 
@@ -291,12 +345,24 @@ export class SessionView {
     return this.#player.unlock();
   }
 
+  /** Seconds by which sound comes to the ear later than the browser knows. */
+  setSoundTrim(trim: number): void {
+    this.#player.setTrim(trim);
+  }
+
+  /** Let a click be heard at a time of the page's clock, seconds. */
+  click(pageTime: number): void {
+    this.#player.click(pageTime);
+  }
+
   setVolume(volume: number, muted: boolean): void {
     this.#player.setVolume(volume, muted);
   }
 
   async close(): Promise<void> {
     clearInterval(this.#checking);
+    this.#unwatch();
+    this.#probes.close();
     this.#ended.abort();
     this.#stream.close();
     await this.#player.close();
@@ -337,6 +403,7 @@ export class SessionView {
     switch (message.type) {
       case "hello":
         this.#queue = new FrameQueue(message, message.transport.epoch);
+        this.#lead.begin(message.transport.server_time_s);
         this.hello = message;
         this.duration = message.duration_s;
         this.#setTransport(message.transport, true);
@@ -375,6 +442,8 @@ export class SessionView {
   #takeFrames(bytes: ArrayBuffer): void {
     try {
       this.#queue?.push(bytes);
+      this.#followNetwork();
+      if (this.transport.playing && this.#pictured) this.#player.pictureCame();
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
       this.#surroundings.tell(
@@ -391,14 +460,35 @@ export class SessionView {
 
   #setTransport(transport: TransportState, anew = false): void {
     if (!anew && transport.epoch < this.transport.epoch) return;
+    // An edit of the show does not move the music: until its first frame is here those before it fit.
+    const moved = anew || !sameMotion(this.transport, transport);
     this.transport = transport;
-    this.#queue?.enterEpoch(transport.epoch);
+    if (moved) this.#queue?.enterEpoch(transport.epoch);
+    this.#lead.begin(transport.server_time_s);
     this.#check();
+  }
+
+  /** Ask for frames as long before they are due as the network needs. */
+  #followNetwork(): void {
+    const { clock } = this.#stream;
+    if (!clock.ready) return;
+    const now = this.#stream.serverNow();
+    const due = this.#queue?.firstDue ?? Infinity;
+    if (Number.isFinite(due) && this.transport.playing) this.#lead.arrived(due, now);
+  }
+
+  #askForLead(): void {
+    const { clock } = this.#stream;
+    const lead = this.#lead.wanted(this.#stream.serverNow(), clock.roundTrip);
+    if (lead !== null) this.#stream.send({ type: "lead", lead_s: lead });
   }
 
   #connected(state: StreamState): void {
     this.connection = state;
-    if (state === "open") this.#surroundings.answered();
+    if (state === "open") {
+      this.#surroundings.answered();
+      this.#lead.forgetAsked();
+    }
     if (state === "lost") void this.#lookWhetherGone();
   }
 
@@ -424,6 +514,7 @@ export class SessionView {
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
   #check(): void {
     if (!this.#stream.clock.ready) return;
+    if (this.connection === "open") this.#askForLead();
     if (this.#followed !== this.transport) {
       this.#followed = this.transport;
       this.#player.follow(this.transport);
@@ -433,6 +524,13 @@ export class SessionView {
 
   #songTimeAt(pageTime: number): number {
     return songTimeAt(this.transport, this.#stream.clock.serverTime(pageTime), this.duration);
+  }
+
+  /** Whether a frame of the present epoch is here that is not past. */
+  get #pictured(): boolean {
+    const queue = this.#queue;
+    const current = queue?.epoch === this.transport.epoch % EPOCHS;
+    return current && queue.lastDue >= this.#stream.serverNow();
   }
 
   get #soundComes(): boolean {

@@ -21,6 +21,8 @@ export interface Remembered {
   readonly home: string | null;
   readonly volume: number;
   readonly muted: boolean;
+  /** By how much sound comes late on a device beyond what the browser knows, milliseconds; "" for any device. */
+  readonly latencies: Readonly<Record<string, number>>;
   /** Panels that are open. */
   readonly panels: readonly string[];
   /** Height of the show's editor, pixels; 0 for what suits the window. */
@@ -58,6 +60,7 @@ const NOTHING: Remembered = {
   home: null,
   volume: 0.9,
   muted: false,
+  latencies: {},
   panels: [],
   editorHeight: 0,
   editorDock: "foot",

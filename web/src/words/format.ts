@@ -21,3 +21,12 @@ export function list(items: readonly string[]): string {
 export function row(items: readonly string[]): string {
   return items.join(language() === "ja" ? "、" : ", ");
 }
+
+/** Milliseconds with their sign, as +20 ms. */
+export function milliseconds(value: number): string {
+  return new Intl.NumberFormat(language(), {
+    style: "unit",
+    unit: "millisecond",
+    signDisplay: "exceptZero",
+  }).format(value);
+}
