@@ -17,11 +17,17 @@ describe("PlaybackPath", () => {
   });
 
   it("goes round its loop, and measures the error the shorter way round", () => {
-    const path = new PlaybackPath(0, 8, 1, { start_s: 4, end_s: 10 });
+    const path = new PlaybackPath(0, 8, 1, { start_s: 4, end_s: 10, count_in_s: 0 });
     expect(path.positionAt(1)).toBe(9);
     expect(path.positionAt(3)).toBe(5);
     expect(path.positionAt(9)).toBe(5);
     expect(path.errorAt(1.9, 4.05)).toBeCloseTo(-0.15, 9);
     expect(path.errorAt(2.1, 9.95)).toBeCloseTo(0.15, 9);
+  });
+
+  it("stands where it begins until then, and at the loop's begin while that is counted in", () => {
+    const path = new PlaybackPath(2, 8, 1, { start_s: 4, end_s: 10, count_in_s: 3 });
+    expect([1, 2, 3, 4, 5, 7, 8].map((at) => path.positionAt(at))).toEqual([8, 8, 9, 4, 4, 4, 5]);
+    expect([1, 2, 3, 4, 5, 7, 8].map((at) => path.countInAt(at))).toEqual([1, 0, 0, 3, 2, 0, 0]);
   });
 });

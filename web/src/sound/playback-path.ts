@@ -10,18 +10,21 @@ interface Leg {
 
 /** Where in the song what was scheduled is at any context time, through every change of its rate. */
 export class PlaybackPath {
+  readonly loop: Loop | null;
+  /** The place in the song at which it begins, seconds; what is counted in counts as song before it. */
+  readonly begin: number;
   readonly #legs: Leg[];
-  readonly #loop: Loop | null;
 
   /** @param loop the loop it goes round in; null where it plays on to the song's end */
   constructor(from: number, position: number, rate: number, loop: Loop | null) {
     this.#legs = [{ from, position, rate }];
-    this.#loop = loop;
+    this.begin = position;
+    this.loop = loop;
   }
 
   /** Go on at another rate from a context time on. Times must come in order. */
   changeRate(from: number, rate: number): void {
-    this.#legs.push({ from, position: this.#unfolded(from), rate });
+    this.#legs.push({ from, position: this.unfoldedAt(from), rate });
     if (this.#legs.length > 4) this.#legs.shift();
   }
 
@@ -43,18 +46,25 @@ export class PlaybackPath {
 
   /** Place in the song at a context time, seconds. */
   positionAt(contextTime: number): number {
-    return foldIntoLoop(this.#unfolded(contextTime), this.#loop);
+    return foldIntoLoop(Math.max(this.unfoldedAt(contextTime), this.begin), this.loop);
   }
 
   /** How far the place at a context time is ahead of `expected`, seconds; the shorter way round a loop. */
   errorAt(contextTime: number, expected: number): number {
     const error = this.positionAt(contextTime) - expected;
-    if (this.#loop === null) return error;
-    const length = this.#loop.end_s - this.#loop.start_s;
+    if (this.loop === null) return error;
+    const length = this.loop.end_s - this.loop.start_s;
     return error - length * Math.round(error / length);
   }
 
-  #unfolded(contextTime: number): number {
+  /** Song seconds that are still counted in at a context time. */
+  countInAt(contextTime: number): number {
+    const unfolded = this.unfoldedAt(contextTime);
+    return Math.max(this.begin - unfolded, countInWithin(unfolded, this.loop));
+  }
+
+  /** How much of the song has passed at a context time, seconds, counted on over the loop's end. */
+  unfoldedAt(contextTime: number): number {
     const leg = this.#legAt(contextTime);
     return leg.position + (contextTime - leg.from) * leg.rate;
   }
@@ -72,8 +82,19 @@ export class PlaybackPath {
   }
 }
 
-/** A place in the song that has run over the loop's end, taken back into the loop. */
+/** A place in the song that has run over the loop's end, taken back into the loop; its begin while that is counted in. */
 export function foldIntoLoop(position: number, loop: Loop | null): number {
   if (loop === null || position < loop.end_s) return position;
-  return loop.start_s + ((position - loop.start_s) % (loop.end_s - loop.start_s));
+  return loop.start_s + Math.max(((position - loop.end_s) % roundOf(loop)) - loop.count_in_s, 0);
+}
+
+/** Song seconds that are still counted in, of the round that begins, at a place that has run over the loop's end. */
+export function countInWithin(position: number, loop: Loop | null): number {
+  if (loop === null || position < loop.end_s) return 0;
+  return Math.max(loop.count_in_s - ((position - loop.end_s) % roundOf(loop)), 0);
+}
+
+/** Song seconds from one round's beginning to the next one's: what is counted in, and the loop. */
+export function roundOf(loop: Loop): number {
+  return loop.count_in_s + loop.end_s - loop.start_s;
 }

@@ -1,6 +1,7 @@
 import {
   FrameQueue,
   ProblemError,
+  countInAt,
   songTimeAt,
   Stream,
   streamAddress,
@@ -149,7 +150,11 @@ export class SessionView {
     this.songTime = transport.song_time_s;
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
-      { pageNow: () => performance.now() / 1000, songTimeAt: (pageTime) => this.#songTimeAt(pageTime) },
+      {
+        pageNow: () => performance.now() / 1000,
+        songTimeAt: (pageTime) => this.#songTimeAt(pageTime),
+        countInAt: (pageTime) => countInAt(this.transport, this.#stream.clock.serverTime(pageTime)),
+      },
       (state) => {
         this.sound = state;
         this.#startWithSound();
