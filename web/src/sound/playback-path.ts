@@ -8,6 +8,17 @@ interface Leg {
   readonly rate: number;
 }
 
+/** A piece of a path on which the song runs on without a jump, or is counted in. */
+export interface Piece {
+  /** Places in the song, seconds; what is counted in counts as song before the place that follows. */
+  readonly from: number;
+  readonly to: number;
+  /** What a place of it is further on in the path, seconds: `timeAt(place + shift)` is when it is heard. */
+  readonly shift: number;
+  /** The place that is counted in to; null where the song runs. */
+  readonly countsTo: number | null;
+}
+
 /** Where in the song what was scheduled is at any context time, through every change of its rate. */
 export class PlaybackPath {
   readonly loop: Loop | null;
@@ -47,6 +58,30 @@ export class PlaybackPath {
   /** Place in the song at a context time, seconds. */
   positionAt(contextTime: number): number {
     return foldIntoLoop(Math.max(this.unfoldedAt(contextTime), this.begin), this.loop);
+  }
+
+  /** The pieces between two places of the path, seconds, counted on over the loop's end. */
+  piecesBetween(from: number, to: number): readonly Piece[] {
+    const pieces: Piece[] = [];
+    let at = from;
+    const add = (until: number, shift: number, countsTo: number | null): void => {
+      const end = Math.min(until, to);
+      if (end > at) pieces.push({ from: at - shift, to: end - shift, shift, countsTo });
+      at = Math.max(at, until);
+    };
+    add(this.begin, 0, this.begin);
+    const { loop } = this;
+    if (loop === null) add(Infinity, 0, null);
+    else {
+      add(loop.end_s, 0, null);
+      const round = roundOf(loop);
+      for (let turn = Math.floor((at - loop.end_s) / round); at < to; turn += 1) {
+        const begins = loop.end_s + turn * round + loop.count_in_s;
+        add(begins, begins - loop.start_s, loop.start_s);
+        add(loop.end_s + (turn + 1) * round, begins - loop.start_s, null);
+      }
+    }
+    return pieces;
   }
 
   /** How far the place at a context time is ahead of `expected`, seconds; the shorter way round a loop. */

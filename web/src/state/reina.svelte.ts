@@ -5,6 +5,7 @@ import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
 import { arrivalOf } from "./findings";
 import { Notices, type NoticeOptions } from "./notices.svelte";
+import { PracticeChoices } from "./practice-choices.svelte";
 import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
@@ -28,6 +29,7 @@ export class Reina {
   /** What the page is busy with, in a few words; null when with nothing. */
   busy = $state<string | null>(null);
   readonly notices = new Notices();
+  readonly practice = new PracticeChoices();
   /** Called with the session of a score that was just uploaded. */
   arrived: ((view: SessionView) => void) | null = null;
   /** What a show can move, with the open session's own stances among the choices. */
@@ -87,6 +89,7 @@ export class Reina {
       const token = remembered().tokens[id] ?? null;
       const view = await SessionView.open(id, token, {
         api: this.api,
+        practice: this.practice,
         tell: (error) => this.tell(error),
         answered: () => this.notices.answered(),
         gone: () => this.#lose("unknown"),
@@ -343,6 +346,7 @@ export class Reina {
     this.view = view;
     this.phase = "open";
     view.setVolume(this.volume, this.muted);
+    view.setClickVolume(this.practice.clickVolume);
     document.title = `${view.session.title} · Reina`;
     const { pieces } = remembered();
     if (view.canControl) {

@@ -21,6 +21,8 @@ export interface Remembered {
   readonly home: string | null;
   readonly volume: number;
   readonly muted: boolean;
+  /** How loud the metronome and the tones of notes are, 0…1. */
+  readonly clickVolume: number;
   /** Panels that are open. */
   readonly panels: readonly string[];
   /** Height of the show's editor, pixels; 0 for what suits the window. */
@@ -58,6 +60,7 @@ const NOTHING: Remembered = {
   home: null,
   volume: 0.9,
   muted: false,
+  clickVolume: 0.8,
   panels: [],
   editorHeight: 0,
   editorDock: "foot",
