@@ -8,9 +8,9 @@ let clicked: { when: number; hertz: number; stopped: boolean }[];
 let now: number;
 
 class HeldParam {
-  setValueAtTime(): void {}
-  linearRampToValueAtTime(): void {}
-  setTargetAtTime(): void {}
+  readonly setValueAtTime = vi.fn();
+  readonly linearRampToValueAtTime = vi.fn();
+  readonly setTargetAtTime = vi.fn();
 }
 
 class HeldNode {
@@ -19,7 +19,7 @@ class HeldNode {
   connect<T>(next: T): T {
     return next;
   }
-  disconnect(): void {}
+  readonly disconnect = vi.fn();
 }
 
 class HeldOscillator extends HeldNode {
