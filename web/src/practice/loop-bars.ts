@@ -1,5 +1,5 @@
 import type { Score } from "../generated/protocol";
-import { barIndexAt, barLength, beatsAt, firstBarNumber, metreAt, songTimeOf } from "../state/score-time";
+import { barIndexAt, endOfLastBar, firstBarNumber } from "../state/score-time";
 import type { LoopSpan } from "../timeline/loop-span";
 
 type ScoreGrid = Pick<Score, "tempi" | "metres" | "bar_lines_s">;
@@ -28,9 +28,7 @@ export function spanOfBars(score: ScoreGrid, { from, to }: Bars, duration: numbe
   const lines = score.bar_lines_s;
   const first = from - firstBarNumber(score);
   const last = to - firstBarNumber(score);
-  const line = lines[last] ?? 0;
-  const whole = songTimeOf(score.tempi, beatsAt(score.tempi, line) + barLength(metreAt(score.metres, line)));
-  return { start: lines[first] ?? 0, end: Math.min(lines[last + 1] ?? whole, duration) };
+  return { start: lines[first] ?? 0, end: Math.min(lines[last + 1] ?? endOfLastBar(score), duration) };
 }
 
 /** The bars that a span of song time, seconds, lies in: whole ones, and at least one. */

@@ -81,7 +81,6 @@ beforeEach(() => {
   now = 100;
   vi.stubGlobal("OscillatorNode", HeldOscillator);
   vi.stubGlobal("GainNode", HeldNode);
-  vi.stubGlobal("document", { hidden: false });
 });
 
 describe("Metronome", () => {
@@ -123,18 +122,17 @@ describe("Metronome", () => {
     path = new PlaybackPath(100, 1.8, 1, null);
     const metronome = metronomeOn(() => path);
     metronome.check(1);
-    expect(times()).toEqual([100.2]);
+    expect(times()).toEqual([100.2, 100.7, 101.2]);
     now = 100.1;
     path = new PlaybackPath(100.1, 5.95, 1, null);
     metronome.check(2);
-    expect(times()).toEqual([100.15]);
+    expect(times()).toEqual([100.15, 100.65, 101.15, 101.65]);
     path = null;
     metronome.check(2);
     expect(times()).toEqual([]);
   });
 
-  it("schedules further ahead where nobody sees the page", () => {
-    vi.stubGlobal("document", { hidden: true });
+  it("schedules as far ahead as timers may come late", () => {
     path = new PlaybackPath(100, 1.8, 1, null);
     metronomeOn(() => path).check(1);
     expect(times()).toEqual([100.2, 100.7, 101.2]);

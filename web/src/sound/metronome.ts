@@ -9,9 +9,8 @@ export interface MetronomeSong {
   clicksIn(piece: Piece): readonly Click[];
 }
 
-/** So far ahead clicks are scheduled; timers of a page that is not seen come once a second. */
-const AHEAD_S = 0.25;
-const AHEAD_UNSEEN_S = 1.6;
+/** So far ahead clicks are scheduled: timers of a page that is not seen, or draws with effort, come once a second. */
+const AHEAD_S = 1.6;
 /** What would click sooner than this clicks too late. */
 const MIN_LEAD_S = 0.004;
 /** No two clicks of a song are closer. */
@@ -71,10 +70,9 @@ export class Metronome {
       this.#takeBack(now);
       return;
     }
-    const ahead = document.hidden ? AHEAD_UNSEEN_S : AHEAD_S;
     const from = Math.max(now + MIN_LEAD_S, this.#last + SHORTEST_GAP_S);
-    if (from >= now + ahead) return;
-    for (const piece of path.piecesBetween(path.unfoldedAt(from), path.unfoldedAt(now + ahead))) {
+    if (from >= now + AHEAD_S) return;
+    for (const piece of path.piecesBetween(path.unfoldedAt(from), path.unfoldedAt(now + AHEAD_S))) {
       for (const { songTime, kind } of this.#song.clicksIn(piece)) {
         const when = path.timeAt(songTime + piece.shift);
         if (when >= from) this.#click(when, kind);

@@ -58,6 +58,7 @@ export class SongPlayer {
   #voice: Voice | null = null;
   #scrubbed: GainNode | null = null;
   #checkFrom = 0;
+  #motions = 0;
   #state: SoundState = "silent";
   #volume = 1;
   #muted = false;
@@ -183,6 +184,11 @@ export class SongPlayer {
     return this.#context;
   }
 
+  /** How often what is heard has begun, ended or been brought back: what was reckoned from `pathNow` before is old. */
+  get motions(): number {
+    return this.#motions;
+  }
+
   /** Where the song is at context times, as it is heard or would be; null while it stands. */
   pathNow(): PlaybackPath | null {
     if (this.#voice !== null && !this.#voice.isOver) return this.#voice.path;
@@ -229,6 +235,7 @@ export class SongPlayer {
       const begin = this.#onGrid(this.#context.currentTime + LEAD_S, QUANTUM);
       const end = this.#onGrid(begin + correction.seconds, QUANTUM);
       voice.changeRate(begin, end, voice.rate * correction.rate);
+      this.#motions += 1;
       this.#checkFrom = pageTime + LEAD_S + correction.seconds + SETTLE_S;
     }
   }
@@ -273,10 +280,12 @@ export class SongPlayer {
     const path = new PlaybackPath(when, position, rate, loop);
     this.#voice = new Voice(this.#context, song, this.#master, { path, position, rate, loop }, FADE_S);
     this.#drift.reset();
+    this.#motions += 1;
     this.#checkFrom = pageTime + counted + SETTLE_S;
   }
 
   #stopVoice(): void {
+    if (this.#voice !== null) this.#motions += 1;
     this.#voice?.stop(FADE_S);
     this.#voice = null;
   }

@@ -55,6 +55,12 @@ export function barBeatAt(score: ScoreGrid, songTime: number): BarBeat {
   return { bar: index + firstBarNumber(score) + before, beat: beats - before * numerator + 1 };
 }
 
+/** Where the last bar ends, song time, seconds: a score has no bar line there. */
+export function endOfLastBar(score: ScoreGrid): number {
+  const last = score.bar_lines_s.at(-1) ?? 0;
+  return songTimeOf(score.tempi, beatsAt(score.tempi, last) + barLength(metreAt(score.metres, last)));
+}
+
 /**
  * The bar line to go to from a song time: the next one, or the one before (from within a bar first its own).
  *

@@ -172,7 +172,11 @@ export class SessionView {
     );
     this.#metronome = new Metronome(this.#player.context, {
       pathNow: () => this.#player.pathNow(),
-      clicksIn: (piece) => surroundings.practice.clicksIn(this.score, piece, this.#heard),
+      clicksIn: (piece) => {
+        const { rate, loop, count_in_s } = this.transport;
+        const counted = piece.shift > 0 ? (loop?.count_in_s ?? 0) : count_in_s;
+        return surroundings.practice.clicksIn(this.score, piece, { counted, rate, heard: this.#heard });
+      },
     });
     this.#stream = new Stream(streamAddress(session.links.stream), {
       message: (message) => this.#receive(message),
@@ -477,14 +481,14 @@ export class SessionView {
     }
     this.#player.check();
     const { metronome, division } = this.#surroundings.practice;
-    this.#metronome.check(`${this.transport.epoch} ${metronome} ${division} ${this.#heard}`);
+    this.#metronome.check(`${this.transport.epoch} ${this.#player.motions} ${metronome} ${division} ${this.#heard}`);
   }
 
   /** Play, counted in as the page does. */
   #playCommand(): TransportCommand {
     const { practice } = this.#surroundings;
     const place = this.here < this.duration - END_TOLERANCE_S ? this.here : 0;
-    return { action: "play", count_in_s: practice.countInTo(this.score, place) };
+    return { action: "play", count_in_s: practice.countInTo(this.score, place, this.rate) };
   }
 
   #songTimeAt(pageTime: number): number {
