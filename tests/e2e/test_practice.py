@@ -33,14 +33,15 @@ WHEN = """() => {
       return start.call(this, when, ...rest);
     };
     kind.prototype.stop = function (when) {
-      if (when === undefined && this.begins > this.context.currentTime) times.splice(times.indexOf(this.begins), 1);
+      const early = when === undefined && this.begins > this.context.currentTime;
+      if (early) times.splice(times.indexOf(this.begins), 1);
       return stop.call(this, when);
     };
   };
   kept(OscillatorNode, window.clicks);
   kept(AudioBufferSourceNode, window.begun);
 }"""
-"""When clicks, and parts of the song, are told to begin, on the clock of the sound; without what was taken back."""
+"""When clicks, and parts of the song, are to begin, on the sound's clock; without what was taken back."""
 
 
 def practice(opened: Opened, tab: str) -> Locator:
