@@ -212,6 +212,8 @@ def test_transport_commands_that_do_not_fit_are_refused(owned: Owned) -> None:
         ({"action": "rate", "rate": 0}, "0.1"),
         ({"action": "seek", "song_time_s": -1}, "song_time_s"),
         ({"action": "loop", "start_s": 2.0, "end_s": 1.0}, "begins before it ends"),
+        ({"action": "loop", "start_s": 1.0, "end_s": 2.0, "count_in_s": -1}, "count_in_s"),
+        ({"action": "play", "count_in_s": 1000}, "count_in_s"),
         ({"action": "loop", "start_s": 2.0, "end_s": None}, "null both"),
         ({"action": "rewind"}, "action"),
         ({"action": "seek", "song_time_s": "soon"}, "song_time_s"),

@@ -8,6 +8,7 @@ from reina.protocol.model import WireModel
 
 MINIMUM_RATE = 0.1
 MAXIMUM_RATE = 4.0
+MAXIMUM_COUNT_IN_S = 120.0
 
 
 class Loop(WireModel):
@@ -15,10 +16,15 @@ class Loop(WireModel):
 
     start_s: float
     end_s: float
+    count_in_s: float = 0.0
+    """Song seconds that are counted in before each further round, at the rate, at start_s."""
 
 
 class TransportState(WireModel):
-    """Song time as a function of server time: song_time_s + (t - server_time_s) · rate while playing."""
+    """Song time as a function of server time: song_time_s + (t - server_time_s) · rate while playing.
+
+    A count-in comes before: so many song seconds pass, at the rate, while song time stands.
+    """
 
     playing: bool
     song_time_s: float
@@ -28,14 +34,21 @@ class TransportState(WireModel):
     rate: float
     """Song seconds a second."""
     loop: Loop | None
+    count_in_s: float = 0.0
+    """Song seconds that are still counted in at `server_time_s`, before song time runs."""
     epoch: int
     """Raised by every play, pause, seek, rate, loop and edit; frames carry it modulo 256."""
+
+
+CountIn = Annotated[float, Field(ge=0, le=MAXIMUM_COUNT_IN_S)]
 
 
 class Play(WireModel):
     """Play from where the clock stands (from the start, where it stands at the end)."""
 
     action: Literal["play"]
+    count_in_s: CountIn = 0.0
+    """Song seconds that are counted in before: so long song time stands, at the rate."""
 
 
 class Pause(WireModel):
@@ -64,6 +77,8 @@ class SetLoop(WireModel):
     action: Literal["loop"]
     start_s: Annotated[float, Field(ge=0)] | None = None
     end_s: Annotated[float, Field(gt=0)] | None = None
+    count_in_s: CountIn = 0.0
+    """Song seconds that are counted in before each further round."""
 
     @model_validator(mode="after")
     def _both_or_neither(self) -> Self:

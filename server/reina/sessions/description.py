@@ -40,9 +40,18 @@ def transport_state(state: ClockState) -> TransportState:
         song_time_s=state.song_time_s,
         server_time_s=state.server_time_s,
         rate=state.rate,
-        loop=Loop(start_s=state.loop[0], end_s=state.loop[1]) if state.loop else None,
+        loop=loop_of(state),
+        count_in_s=state.count_in_s,
         epoch=state.epoch,
     )
+
+
+def loop_of(state: ClockState) -> Loop | None:
+    """The clock's loop."""
+    if state.loop is None:
+        return None
+    start_s, end_s = state.loop
+    return Loop(start_s=start_s, end_s=end_s, count_in_s=state.loop_count_in_s)
 
 
 def transport_message(state: ClockState) -> Transport:

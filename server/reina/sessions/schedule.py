@@ -34,7 +34,8 @@ class FrameSchedule:
     Frame k stands at song time k / fps. The first is the one that is on screen at the state's own time. While
     playing at rate r every max(1, round(r))-th frame follows, each due when its song time is heard; at a
     loop's end playback goes on at its start. The last is the last frame before the end. While paused there is
-    one alone.
+    one alone. While a count-in is on, the frame at which song time stands comes when it begins and again when
+    it ends, so that nothing is blended over it.
 
     Args:
         state: The clock at the begin of the epoch, or at any time within it.
@@ -49,10 +50,11 @@ class FrameSchedule:
         self._stride = max(1, round(state.rate))
         # Song time `_song_s` is heard at server time `_server_s`; a loop moves both.
         self._song_s = state.song_time_s
-        self._server_s = state.server_time_s
+        self._server_s = state.server_time_s + state.count_in_s / state.rate
+        self._held = state.playing and state.count_in_s > 0
         self._loop = state.loop if state.loop and state.song_time_s < state.loop[1] else None
         index = math.floor(state.song_time_s * fps + GRID_TOLERANCE)
-        due = self._due(index) if state.playing else state.server_time_s
+        due = self._due(index) if state.playing and not self._held else state.server_time_s
         self._next: DueFrame | None = DueFrame(index, due, first=not resumed)
 
     @property
@@ -74,14 +76,20 @@ class FrameSchedule:
     def _after(self, index: int) -> DueFrame | None:
         if not self.state.playing:
             return None
+        if self._held:
+            self._held = False
+            return DueFrame(index, self._due(index))
         following = index + self._stride
         if self._loop:
             start_s, end_s = self._loop
             if following >= end_s * self._fps - GRID_TOLERANCE:
-                self._server_s += (end_s - self._song_s) / self.state.rate
+                ended_s = self._server_s + (end_s - self._song_s) / self.state.rate
+                counted_s = self.state.loop_count_in_s / self.state.rate
+                self._server_s = ended_s + counted_s
                 self._song_s = start_s
+                self._held = counted_s > 0
                 start = math.ceil(start_s * self._fps - GRID_TOLERANCE)
-                return DueFrame(start, self._due(start), cut=True)
+                return DueFrame(start, self._due(start) - counted_s, cut=True)
         following = min(following, self._last)
         if following <= index:
             return None

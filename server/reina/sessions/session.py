@@ -240,18 +240,18 @@ class Session:
             ClockError: The command does not fit the song.
         """
         match command:
-            case Play():
-                self.clock.play()
+            case Play(count_in_s=count_in_s):
+                self.clock.play(count_in_s)
             case Pause():
                 self.clock.pause()
             case Seek(song_time_s=song_time_s):
                 self.clock.seek(song_time_s)
             case SetRate(rate=rate):
                 self.clock.set_rate(rate)
-            case SetLoop(start_s=start_s, end_s=end_s):
+            case SetLoop(start_s=start_s, end_s=end_s, count_in_s=count_in_s):
                 if (start_s is None) != (end_s is None):
                     raise ClockError("a loop has a start and an end; null both to end it", location="loop")
-                self.clock.set_loop(start_s, end_s)
+                self.clock.set_loop(start_s, end_s, count_in_s)
         self.audience.restart()
         return self.transport()
 

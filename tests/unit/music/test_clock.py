@@ -1,5 +1,7 @@
+import itertools
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -252,3 +254,79 @@ def test_a_seek_to_a_frame_begins_with_it_and_the_song_ends_with_its_last():
         assert due[0] == pytest.approx(hand.time, abs=1e-7)
     music.pause()
     assert len(music.state().frames_due(hand.time, hand.time + 1, 60)[0]) == 0
+
+
+def test_a_count_in_passes_at_the_rate_before_song_time_runs():
+    music, hand = clock()
+    music.seek(4)
+    music.set_rate(0.5)
+    assert music.play(2).count_in_s == 2
+    hand.time += 3
+    state = music.state()
+    assert (state.playing, state.song_time_s, state.count_in_s) == (True, 4, 0.5)
+    assert state.server_time_of(4.5) == pytest.approx(hand.time + 2)
+    hand.time += 2
+    assert (music.state().song_time_s, music.state().count_in_s) == (4.5, 0)
+
+
+def test_another_rate_within_a_count_in_goes_for_what_is_left_of_it():
+    music, hand = clock()
+    music.play(2)
+    hand.time += 1
+    assert music.set_rate(2).count_in_s == 1
+    assert music.state(hand.time + 0.75).song_time_s == 0.5
+
+
+@pytest.mark.parametrize("action", ["pause", "seek"])
+def test_whoever_pauses_or_seeks_ends_the_count_in(action: str):
+    music, hand = clock()
+    music.play(2)
+    hand.time += 1
+    state = music.pause() if action == "pause" else music.seek(3)
+    assert state.count_in_s == 0
+    assert music.play().count_in_s == 0
+
+
+def test_each_further_round_of_a_loop_is_counted_in():
+    music, hand = clock()
+    music.set_loop(2, 5, 1)
+    music.seek(4)
+    music.play(1)
+    times = [0.5, 1.5, 2.0, 2.5, 3.0, 4.0, 5.9, 6.5, 7.5]
+    states = [music.state(hand.time + time) for time in times]
+    assert [state.song_time_s for state in states] == [4, 4.5, 2, 2, 2, 3, pytest.approx(4.9), 2, 2.5]
+    assert [state.count_in_s for state in states] == [0.5, 0, 1, 0.5, 0, 0, 0, 0.5, 0]
+    assert states[5].server_time_of(2.5) == pytest.approx(hand.time + 7.5)
+
+
+@pytest.mark.parametrize("count_in_s", [-0.1, 121, math.nan])
+def test_a_count_in_that_is_no_count_in_is_refused(count_in_s: float):
+    music, _ = clock()
+    before = music.state()
+    for action in (lambda: music.play(count_in_s), lambda: music.set_loop(1, 2, count_in_s)):
+        with pytest.raises(ClockError, match="count-in"):
+            action()
+    assert music.state() == before
+
+
+@given(states, st.floats(0, 8), st.floats(0, 8), st.floats(0.5, 60))
+def test_spans_and_states_agree_through_count_ins(
+    state: ClockState, first_s: float, round_s: float, until: float
+):
+    state = replace(state, count_in_s=first_s, loop_count_in_s=round_s if state.loop else 0.0)
+    spans = state.spans(100, 100 + until)
+    for span in spans:
+        middle = span.server_time_s + (span.end_s - span.start_s) / 2 / state.rate
+        assert state.song_times_at(middle) == pytest.approx((span.start_s + span.end_s) / 2, abs=1e-6)
+        assert state.at(middle).count_in_s == 0
+    for one, next_one in itertools.pairwise(spans):
+        ended = one.server_time_s + (one.end_s - one.start_s) / state.rate
+        assert next_one.server_time_s - ended == pytest.approx(round_s / state.rate, abs=1e-6)
+    heard = sum(span.end_s - span.start_s for span in spans)
+    counted = first_s + round_s * max(len(spans) - 1, 0)
+    run = max(until * state.rate - counted, 0.0)
+    if state.loop is None or state.song_time_s >= state.loop[1]:
+        run = min(run, state.duration_s - state.song_time_s)
+        assert heard == pytest.approx(run, abs=1e-6)
+    else:
+        assert heard <= run + 1e-6

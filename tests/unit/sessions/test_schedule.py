@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -104,3 +105,18 @@ def test_it_follows_the_music_clock() -> None:
     frames = FrameSchedule(clock.state(), fps=FPS).take(1000)
     assert [frame.index for frame in frames] == list(range(60, 181))
     assert frames[-1].due_time_s == pytest.approx(7.0)
+
+
+def test_a_count_in_holds_its_frame_and_shows_it_again_when_it_is_over() -> None:
+    frames = FrameSchedule(replace(state(2.0, rate=0.5), count_in_s=1.0), fps=FPS).take(4)
+    assert [frame.index for frame in frames] == [120, 120, 121, 122]
+    assert [frame.due_time_s for frame in frames] == pytest.approx([1000, 1002, 1002 + 1 / 30, 1002 + 2 / 30])
+    assert [frame.first for frame in frames] == [True, False, False, False]
+
+
+def test_each_further_round_of_a_loop_is_held_while_it_is_counted_in() -> None:
+    looping = replace(state(1.0, loop=(1.0, 1.05)), loop_count_in_s=2.0)
+    frames = FrameSchedule(looping, fps=FPS).take(7)
+    assert [frame.index for frame in frames] == [60, 61, 62, 60, 60, 61, 62]
+    assert [frame.cut for frame in frames] == [False, False, False, True, False, False, False]
+    assert [frame.due_time_s for frame in frames[3:6]] == pytest.approx([1000.05, 1002.05, 1002.05 + 1 / 60])

@@ -4,5 +4,5 @@ export { LeadControl } from "./lead-control";
 export { ProblemError } from "./problem";
 export { QuietProbes } from "./quiet-probes";
 export { ReinaApi, type SessionFiles } from "./rest";
-export { songTimeAt } from "./song-time";
+export { countInAt, songTimeAt } from "./song-time";
 export { Stream, streamAddress, type StreamListener, type StreamState } from "./stream";

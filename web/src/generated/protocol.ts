@@ -142,7 +142,11 @@ export interface Manifest {
   parameters: ParameterManifest[]
 }
 
-/** Song time as a function of server time: song_time_s + (t - server_time_s) · rate while playing. */
+/**
+ * Song time as a function of server time: song_time_s + (t - server_time_s) · rate while playing.
+ *
+ * A count-in comes before: so many song seconds pass, at the rate, while song time stands.
+ */
 export interface TransportState {
   playing: boolean
   /** Song time at server_time_s. */
@@ -152,6 +156,8 @@ export interface TransportState {
   /** Song seconds a second. */
   rate: number
   loop: Loop | null
+  /** Song seconds that are still counted in at server_time_s, before song time runs. */
+  count_in_s: number
   /** Raised by every play, pause, seek, rate, loop and edit; frames carry it modulo 256. */
   epoch: number
 }
@@ -604,6 +610,8 @@ export interface Lead {
 /** Play from where the clock stands (from the start, where it stands at the end). */
 export interface Play {
   action: "play"
+  /** Song seconds that are counted in before: so long song time stands, at the rate. */
+  count_in_s?: number
 }
 
 /** Stop, and stay. */
@@ -628,6 +636,8 @@ export interface SetLoop {
   action: "loop"
   start_s?: number | null
   end_s?: number | null
+  /** Song seconds that are counted in before each further round. */
+  count_in_s?: number
 }
 
 /**
@@ -918,6 +928,8 @@ export interface LightMood {
 export interface Loop {
   start_s: number
   end_s: number
+  /** Song seconds that are counted in before each further round, at the rate, at start_s. */
+  count_in_s: number
 }
 
 /** A line of lyrics. */

@@ -12,6 +12,9 @@ export interface ScoreNote {
   readonly player: number;
 }
 
+/** Valves of a note that is played, but whose block does not say how. */
+export const UNTOLD: readonly number[] = [7];
+
 export interface ScoreView {
   /** Of the played parts alone. */
   readonly notes: readonly ScoreNote[];

@@ -66,6 +66,8 @@ let now: number;
 let transport: TransportState;
 let states: SoundState[];
 let pictured: boolean;
+/** Song seconds that are still counted in at any time. */
+let countedIn: number;
 
 /** A context whose clock is the page's, heard LATENCY later. */
 const context = {
@@ -91,7 +93,7 @@ function songTimeAt(pageTime: number): number {
 const whole = new WholeSong({ duration: 20 } as AudioBuffer);
 
 function playing(change: Partial<TransportState> = {}, song: SongSource = whole): SongPlayer {
-  const time = { pageNow: () => now, songTimeAt, pictured: () => pictured };
+  const time = { pageNow: () => now, songTimeAt, pictured: () => pictured, countInAt: () => countedIn };
   const player = new SongPlayer(
     time,
     (state) => states.push(state),
@@ -124,10 +126,19 @@ beforeEach(() => {
   sources = [];
   states = [];
   pictured = true;
+  countedIn = 0;
   now = 5;
   context.state = "running";
   context.resume.mockClear();
-  transport = { playing: false, song_time_s: 3, server_time_s: SERVER_AHEAD + 5, rate: 1, loop: null, epoch: 1 };
+  transport = {
+    playing: false,
+    song_time_s: 3,
+    server_time_s: SERVER_AHEAD + 5,
+    rate: 1,
+    loop: null,
+    count_in_s: 0,
+    epoch: 1,
+  };
   vi.stubGlobal("AudioBufferSourceNode", HeldSource);
   vi.stubGlobal("GainNode", HeldNode);
 });
@@ -190,7 +201,7 @@ describe("SongPlayer", () => {
   });
 
   it("goes round a loop without a gap", () => {
-    playing({ loop: { start_s: 2, end_s: 4 } });
+    playing({ loop: { start_s: 2, end_s: 4, count_in_s: 0 } });
     const [first, second, third] = [start(0), start(1), start(2)];
     expect(second[0]).toBeCloseTo(first[0] + first[2], 9);
     expect(third[0]).toBeCloseTo(second[0] + 2, 9);
@@ -198,11 +209,29 @@ describe("SongPlayer", () => {
   });
 
   it("comes back after the silence between a short song's end and its loop's", () => {
-    const player = playing({ loop: { start_s: 2, end_s: 25 } });
+    const player = playing({ loop: { start_s: 2, end_s: 25, count_in_s: 0 } });
     for (; now < 26; now += 0.1) player.check();
     const [when, offset] = start(0);
     expect(start(1)[0]).toBeCloseTo(when + 25 - offset, 9);
     expect(start(1)[1]).toBe(2);
+  });
+
+  it("begins where song time stands when the count-in is over", () => {
+    countedIn = 3;
+    const player = playing({ rate: 2, count_in_s: 3 });
+    const [when, offset] = start(0);
+    expect(offset).toBeCloseTo(songTimeAt(now + 0.06 + LATENCY), GRID);
+    expect(when).toBeCloseTo(now + 0.06 + 1.5, GRID);
+    expect(player.heardSongTime()).toBeNull();
+    expect(player.soundAhead()).toBeNull();
+  });
+
+  it("leaves a loop's rounds apart by what is counted in", () => {
+    playing({ loop: { start_s: 2, end_s: 4, count_in_s: 1 } });
+    const [first, second] = starts();
+    if (first === undefined || second === undefined) throw new Error("no second round was scheduled");
+    expect(second[0] - first[0]).toBeCloseTo(first[2] + 1, GRID);
+    expect(second.slice(1)).toEqual([2, 2]);
   });
 
   it("levels sound that has drifted with one burst, and restarts what is far off", () => {

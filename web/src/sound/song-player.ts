@@ -15,6 +15,8 @@ export interface SongTime {
   songTimeAt(pageTime: number): number;
   /** Whether the picture of what is to be heard now is there. */
   pictured(): boolean;
+  /** Song seconds that are still counted in then, at the transport's rate, before song time runs. */
+  countInAt(pageTime: number): number;
 }
 
 export type SoundState =
@@ -63,6 +65,7 @@ export class SongPlayer {
   #checkFrom = 0;
   #impatientUntil = 0;
   #soundsWithoutFrom = 0;
+  #motions = 0;
   #state: SoundState = "silent";
   #volume = 1;
   #muted = false;
@@ -207,7 +210,30 @@ export class SongPlayer {
     const voice = this.#voice;
     if (voice === null || !this.#output.running) return null;
     const heard = this.#heard();
-    return heard < voice.until ? voice.path.positionAt(heard) : null;
+    return heard < voice.until && voice.path.countInAt(heard) === 0 ? voice.path.positionAt(heard) : null;
+  }
+
+  /** The clock that sound is scheduled on; what is not the song has a way out of its own. */
+  get context(): AudioContext {
+    return this.#context;
+  }
+
+  /** How often what is heard has begun, ended or been brought back: what was reckoned from `pathNow` before is old. */
+  get motions(): number {
+    return this.#motions;
+  }
+
+  /** Where the song is at context times, as it is heard or would be; null while it stands. */
+  pathNow(): PlaybackPath | null {
+    if (this.#voice !== null && !this.#voice.isOver) return this.#voice.path;
+    const transport = this.#transport;
+    if (transport?.playing !== true || !this.#output.running) return null;
+    const heardAt = this.#context.currentTime;
+    const pageTime = this.#time.pageNow() + (heardAt - this.#heard());
+    const position = this.#time.songTimeAt(pageTime);
+    const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
+    const begins = heardAt + this.#time.countInAt(pageTime) / transport.rate;
+    return new PlaybackPath(begins, position, transport.rate, loop);
   }
 
   /**
@@ -225,7 +251,9 @@ export class SongPlayer {
   soundAhead(): number | null {
     const voice = this.#voice;
     if (voice === null || !this.#output.running) return null;
-    return voice.path.errorAt(this.#heard(), this.#time.songTimeAt(this.#time.pageNow()));
+    const heard = this.#heard();
+    if (voice.path.countInAt(heard) > 0) return null;
+    return voice.path.errorAt(heard, this.#time.songTimeAt(this.#time.pageNow()));
   }
 
   /** Measure, and correct when the sound is not where it should be, or is silent where the song has sound. */
@@ -254,6 +282,7 @@ export class SongPlayer {
       const begin = this.#onGrid(this.#context.currentTime + LEAD_S, QUANTUM);
       const end = this.#onGrid(begin + correction.seconds, QUANTUM);
       voice.changeRate(begin, end, voice.rate * correction.rate);
+      this.#motions += 1;
       this.#checkFrom = pageTime + LEAD_S + correction.seconds + SETTLE_S;
     }
   }
@@ -302,19 +331,24 @@ export class SongPlayer {
   #startVoice(song: SongSource, transport: TransportState): void {
     if (!this.#time.pictured() && this.#time.pageNow() < this.#soundsWithoutFrom) return;
     // On the samples' grid, so that nothing is interpolated at the written tempo.
-    const when = this.#onGrid(this.#context.currentTime + LEAD_S);
     const pageTime = this.#time.pageNow();
-    const position = this.#onGrid(this.#time.songTimeAt(pageTime + (when - this.#heard())));
+    const soonest = this.#onGrid(this.#context.currentTime + LEAD_S);
+    const heardThen = pageTime + (soonest - this.#heard());
+    const position = this.#onGrid(this.#time.songTimeAt(heardThen));
     if (position >= song.duration || song.at(segmentAt(position, song)) === null) return;
     const { rate } = transport;
+    const counted = this.#time.countInAt(heardThen) / rate;
+    const when = this.#onGrid(soonest + counted);
     const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
     const path = new PlaybackPath(when, position, rate, loop);
     this.#voice = new Voice(this.#context, song, this.#output.into, { path, position, rate, loop }, FADE_S);
     this.#drift.reset();
-    this.#checkFrom = pageTime + SETTLE_S;
+    this.#motions += 1;
+    this.#checkFrom = pageTime + counted + SETTLE_S;
   }
 
   #stopVoice(): void {
+    if (this.#voice !== null) this.#motions += 1;
     this.#voice?.stop(FADE_S);
     this.#voice = null;
   }
@@ -360,6 +394,7 @@ export class SongPlayer {
 export function sameMotion(a: TransportState, b: TransportState): boolean {
   if (a.playing !== b.playing || a.rate !== b.rate) return false;
   if (a.loop?.start_s !== b.loop?.start_s || a.loop?.end_s !== b.loop?.end_s) return false;
+  if (a.loop?.count_in_s !== b.loop?.count_in_s || a.count_in_s > 0 || b.count_in_s > 0) return false;
   const moved = b.song_time_s - a.song_time_s - (b.server_time_s - a.server_time_s) * a.rate;
   return a.playing && Math.abs(moved) < 0.001;
 }

@@ -1,5 +1,5 @@
 import type { Loop } from "../generated/protocol";
-import { foldIntoLoop, type PlaybackPath } from "./playback-path";
+import { countInWithin, foldIntoLoop, type PlaybackPath } from "./playback-path";
 import { partFrom } from "./song-parts";
 import type { SongSource } from "./song-source";
 
@@ -76,6 +76,11 @@ export class Voice {
   extend(): void {
     const now = this.#context.currentTime;
     while (!this.#finished && this.until < now + SCHEDULED_AHEAD_S) {
+      const counted = countInWithin(this.#next, this.#loop);
+      if (counted > 0) {
+        this.#next += counted;
+        this.#joins = false;
+      }
       const position = foldIntoLoop(this.#next, this.#loop);
       const part = partFrom(position, this.#loop, this.#song);
       if (part === null) {

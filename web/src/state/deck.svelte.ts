@@ -53,6 +53,10 @@ export interface DeckHands {
   pictureDrawn(): void;
   /** Take a key press while the show is open; returns whether it was the editor's. */
   pressInShow(event: KeyboardEvent): boolean;
+  /** Take a key press while a quiz goes on; returns whether it was an answer. */
+  pressInQuiz(event: KeyboardEvent): boolean;
+  /** The stretch of the song that the transport's timeline shows, seconds. */
+  seenTimeline(): { readonly start: number; readonly end: number };
 }
 
 /** What lies over the stage: which panels are open, and what each action does. */
@@ -68,6 +72,10 @@ export class Deck {
   dropping = $state(false);
   /** The camera was taken to the player whom the strips follow, and goes along to whoever is followed next. */
   cameraFollows = $state(false);
+  /** From this song time on fingerings are hidden, while a quiz asks for them; null without one. */
+  hiddenFrom = $state<number | null>(null);
+  /** What the paper shows first when it is opened. */
+  paperShows = $state<"part" | "chart">("part");
   /** Filled by the components that can do these things. */
   readonly hands: Partial<DeckHands> = {};
   #loopStart: number | null = null;
@@ -114,6 +122,10 @@ export class Deck {
     film: () => this.panels.toggle("film"),
     paper: () => this.panels.toggle("paper"),
     inTime: (view) => this.#openInTime(view),
+    practice: () => this.panels.toggle("practice"),
+    metronome: () => (this.reina.practice.metronome = !this.reina.practice.metronome),
+    noteBack: (view) => this.step(view, -1),
+    noteForward: (view) => this.step(view, 1),
     names: () => this.nameNotes(this.noteNames === "written" ? "sounding" : "written"),
     open: () => this.hands.openFilePicker?.(),
     help: () => (this.helpOpen = !this.helpOpen),
@@ -137,7 +149,7 @@ export class Deck {
   press(event: KeyboardEvent): boolean {
     const target = keyTargetOf(event.target);
     if (event.defaultPrevented || (target !== null && ownsKey(target, event.key, focusOrigin.byPointer))) return false;
-    if (this.hands.pressInShow?.(event) === true) return true;
+    if (this.hands.pressInShow?.(event) === true || this.hands.pressInQuiz?.(event) === true) return true;
     if (event.key === "Escape") return this.#escape();
     const shortcut = shortcutOf(event, event.target instanceof HTMLCanvasElement);
     if (shortcut === null) return false;
@@ -148,6 +160,23 @@ export class Deck {
     }
     this.run(shortcut.action);
     return true;
+  }
+
+  /** Stop at the followed player's next note (1) or the one before (-1), and let it be heard where that is wanted. */
+  step(view: SessionView, direction: 1 | -1): void {
+    const note = view.step(direction);
+    if (note !== null && this.reina.practice.tones) view.soundNote(note.sounding_pitch);
+  }
+
+  /** Whether a note's fingering is not to be seen now. */
+  hides(note: { readonly onset_s: number }): boolean {
+    return this.hiddenFrom !== null && note.onset_s >= this.hiddenFrom;
+  }
+
+  /** Open the fingering chart. */
+  openChart(): void {
+    this.paperShows = "chart";
+    this.panels.toggle("paper", true);
   }
 
   /** Let the strips follow a player, a place in the cast, and the camera where it looks at one. */
@@ -308,7 +337,7 @@ function moveLabel({ player: place, octaves }: OctaveOffer, several: boolean): s
 }
 
 /** The phrase that is played, or the next one; the whole piece without any. */
-function phraseAt(view: SessionView): { start: number; end: number } {
+export function phraseAt(view: SessionView): { start: number; end: number } {
   const phrase = phrasesOf(view.line).find(({ end }) => end > view.here + 0.02);
   const { start, end } = phrase ?? { start: 0, end: view.duration };
   return { start, end: Math.min(Math.max(end, start + SHORTEST_LOOP_S), view.duration) };

@@ -7,6 +7,7 @@ const PLACES = {
   paper: "left",
   views: "right",
   film: "right",
+  practice: "right",
   show: "foot",
   inTime: "foot",
 } as const;
@@ -53,6 +54,6 @@ export class Panels {
   #set(open: readonly Panel[]): void {
     this.#open = open;
     // The lists of pieces and views and a film are asked for each time; what one works in stays.
-    remember({ panels: open.filter((panel) => panel === "piece" || panel === "show") });
+    remember({ panels: open.filter((panel) => ["piece", "show", "practice"].includes(panel)) });
   }
 }

@@ -1,5 +1,5 @@
-/** The rates that a musician practises at, as shares of the written tempo. */
-export const RATES: readonly number[] = [0.25, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1, 1.1, 1.25, 1.5, 2];
+/** The rates that a musician practises at, as shares of the written tempo: from a quarter to twice, by 5 %. */
+export const RATES: readonly number[] = Array.from({ length: 36 }, (_, step) => (25 + 5 * step) / 100);
 
 /** The next rate above (1) or below (-1) the one given; at the ends, the last one. */
 export function nextRate(rate: number, direction: 1 | -1): number {

@@ -5,6 +5,7 @@ import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
 import { arrivalOf } from "./findings";
 import { Notices, type NoticeOptions } from "./notices.svelte";
+import { PracticeChoices } from "./practice-choices.svelte";
 import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
 import { SessionView } from "./session-view.svelte";
@@ -31,6 +32,7 @@ export class Reina {
   /** What the page is busy with, in a few words; null when with nothing. */
   busy = $state<string | null>(null);
   readonly notices = new Notices();
+  readonly practice = new PracticeChoices();
   /** Called with the session of a score that was just uploaded. */
   arrived: ((view: SessionView) => void) | null = null;
   /** What a show can move, with the open session's own stances among the choices. */
@@ -92,6 +94,7 @@ export class Reina {
       const token = remembered().tokens[id] ?? null;
       const view = await SessionView.open(id, token, {
         api: this.api,
+        practice: this.practice,
         tell: (error) => this.tell(error),
         answered: () => this.notices.answered(),
         gone: () => this.#lose("unknown"),
@@ -363,6 +366,7 @@ export class Reina {
     this.phase = "open";
     view.setVolume(this.volume, this.muted);
     view.setSoundTrim(this.latency.seconds);
+    view.setClickVolume(this.practice.clickVolume);
     document.title = `${view.session.title} · Reina`;
     const { pieces } = remembered();
     if (view.canControl) {

@@ -14,6 +14,12 @@ export function beatsAt(tempi: readonly Tempo[], songTime: number): number {
   return tempo === undefined ? songTime * 2 : tempo.onset_beats + ((songTime - tempo.onset_s) * tempo.bpm) / 60;
 }
 
+/** Song time, seconds, of a place that lies so many quarter notes from the score's beginning. */
+export function songTimeOf(tempi: readonly Tempo[], beats: number): number {
+  const tempo = tempi.findLast(({ onset_beats }) => onset_beats <= beats + 1e-9) ?? tempi[0];
+  return tempo === undefined ? beats / 2 : tempo.onset_s + ((beats - tempo.onset_beats) * 60) / tempo.bpm;
+}
+
 /** The index of the bar that a song time, seconds, falls in; behind the last bar line it is the last bar. */
 export function barIndexAt(barLines: readonly number[], songTime: number): number {
   let low = 0;
@@ -49,6 +55,12 @@ export function barBeatAt(score: ScoreGrid, songTime: number): BarBeat {
   return { bar: index + firstBarNumber(score) + before, beat: beats - before * numerator + 1 };
 }
 
+/** Where the last bar ends, song time, seconds: a score has no bar line there. */
+export function endOfLastBar(score: ScoreGrid): number {
+  const last = score.bar_lines_s.at(-1) ?? 0;
+  return songTimeOf(score.tempi, beatsAt(score.tempi, last) + barLength(metreAt(score.metres, last)));
+}
+
 /**
  * The bar line to go to from a song time: the next one, or the one before (from within a bar first its own).
  *
@@ -61,11 +73,13 @@ export function neighbouringBarLine(score: ScoreGrid, songTime: number, directio
   return lines.findLast((line) => line < songTime - 0.25) ?? 0;
 }
 
-function metreAt(metres: readonly Metre[], songTime: number): Metre {
+/** The metre at a song time, seconds. */
+export function metreAt(metres: readonly Metre[], songTime: number): Metre {
   return lastBegun(metres, songTime) ?? { onset_beats: 0, onset_s: 0, numerator: 4, denominator: 4 };
 }
 
-function barLength(metre: Metre): number {
+/** How long a metre's bar is, quarter notes. */
+export function barLength(metre: Metre): number {
   return (metre.numerator * 4) / metre.denominator;
 }
 

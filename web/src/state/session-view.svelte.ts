@@ -4,6 +4,7 @@ import {
   LeadControl,
   ProblemError,
   QuietProbes,
+  countInAt,
   songTimeAt,
   Stream,
   streamAddress,
@@ -28,6 +29,7 @@ import type {
 } from "../generated/protocol";
 import {
   loadSegment,
+  Metronome,
   loadWhole,
   monoWav,
   plannedSong,
@@ -35,6 +37,7 @@ import {
   SegmentedSong,
   SongPlayer,
   songState,
+  soundTone,
   WholeSong,
   type SoundState,
 } from "../sound";
@@ -42,6 +45,8 @@ import { isListenedTo } from "./alignment-words";
 import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
 import { Refresh } from "./refresh";
+import { heldAt, stepFrom } from "./note-steps";
+import type { PracticeChoices } from "./practice-choices.svelte";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
 import { watchWakes } from "./wakes";
@@ -57,6 +62,8 @@ const END_TOLERANCE_S = 0.025;
 /** What a session view needs of the page around it. */
 export interface Surroundings {
   readonly api: ReinaApi;
+  /** How the page practises. */
+  readonly practice: PracticeChoices;
   /** Show what went wrong. */
   tell(error: unknown): void;
   /** The server has answered. */
@@ -116,6 +123,10 @@ export class SessionView {
   #changes: Promise<void> = Promise.resolve();
   readonly #stream: Stream;
   readonly #player: SongPlayer;
+  readonly #metronome: Metronome;
+  /** The page's sound is on. */
+  #heard = true;
+  #endTone: () => void = () => undefined;
   readonly #checking: ReturnType<typeof setInterval>;
   readonly #unwatch: () => void;
   readonly #probes: QuietProbes;
@@ -169,12 +180,21 @@ export class SessionView {
         pageNow: () => performance.now() / 1000,
         songTimeAt: (pageTime) => this.#songTimeAt(pageTime),
         pictured: () => this.#pictured,
+        countInAt: (pageTime) => countInAt(this.transport, this.#stream.clock.serverTime(pageTime)),
       },
       (state) => {
         this.sound = state;
         this.#startWithSound();
       },
     );
+    this.#metronome = new Metronome(() => this.#player.context, {
+      pathNow: () => this.#player.pathNow(),
+      clicksIn: (piece) => {
+        const { rate, loop, count_in_s } = this.transport;
+        const counted = piece.shift > 0 ? (loop?.count_in_s ?? 0) : count_in_s;
+        return surroundings.practice.clicksIn(this.score, piece, { counted, rate, heard: this.#heard });
+      },
+    });
     this.#stream = new Stream(streamAddress(session.links.stream), {
       message: (message) => this.#receive(message),
       frames: (bytes) => this.#takeFrames(bytes),
@@ -278,7 +298,7 @@ export class SessionView {
   async play(): Promise<void> {
     void this.unlockSound();
     if (this.#soundComes) this.starting = this.canControl;
-    else await this.#control({ action: "play" });
+    else await this.#control(this.#playCommand());
   }
 
   async pause(): Promise<void> {
@@ -302,7 +322,33 @@ export class SessionView {
 
   /** Loop over a span of song time, seconds; null ends the loop. */
   async setLoop(loop: { start: number; end: number } | null): Promise<void> {
-    await this.#control({ action: "loop", start_s: loop?.start ?? null, end_s: loop?.end ?? null });
+    const count_in_s = loop === null ? 0 : this.#surroundings.practice.countInOfRounds(this.score, loop.start);
+    await this.#control({ action: "loop", start_s: loop?.start ?? null, end_s: loop?.end ?? null, count_in_s });
+  }
+
+  /** Stop at the followed player's next note (1) or the one before (-1), held; null where there is none. */
+  step(direction: 1 | -1): WireNote | null {
+    const note = stepFrom(this.line, this.here, direction, this.fps);
+    if (note !== null) this.hold(note);
+    return note;
+  }
+
+  /** Stop at a note, where its fingering is held. */
+  hold(note: WireNote): void {
+    if (this.starting || (this.#commands.asked.playing ?? this.playing)) void this.pause();
+    void this.seek(heldAt(note, this.fps));
+  }
+
+  /** Frames a second of song time. */
+  get fps(): number {
+    return this.hello?.fps ?? 60;
+  }
+
+  /** Let a pitch be heard as a plain tone, as loud as the metronome; the one before ends. */
+  soundNote(pitch: number): void {
+    void this.unlockSound();
+    this.#endTone();
+    this.#endTone = soundTone(this.#player.context, this.#metronome.out, pitch);
   }
 
   /** Change the session, after the changes that are still on their way. */
@@ -357,6 +403,12 @@ export class SessionView {
 
   setVolume(volume: number, muted: boolean): void {
     this.#player.setVolume(volume, muted);
+    this.#heard = volume > 0 && !muted;
+  }
+
+  /** Of the metronome and of tones, 0…1. */
+  setClickVolume(volume: number): void {
+    this.#metronome.setVolume(volume);
   }
 
   async close(): Promise<void> {
@@ -520,6 +572,15 @@ export class SessionView {
       this.#player.follow(this.transport);
     }
     this.#player.check();
+    const { metronome, division } = this.#surroundings.practice;
+    this.#metronome.check(`${this.transport.epoch} ${this.#player.motions} ${metronome} ${division} ${this.#heard}`);
+  }
+
+  /** Play, counted in as the page does. */
+  #playCommand(): TransportCommand {
+    const { practice } = this.#surroundings;
+    const place = this.here < this.duration - END_TOLERANCE_S ? this.here : 0;
+    return { action: "play", count_in_s: practice.countInTo(this.score, place, this.rate) };
   }
 
   #songTimeAt(pageTime: number): number {
@@ -541,7 +602,7 @@ export class SessionView {
   #startWithSound(): void {
     if (!this.starting || this.#soundComes) return;
     this.starting = false;
-    void this.#control({ action: "play" });
+    void this.#control(this.#playCommand());
   }
 
   #loadSong(song: SongState): void {

@@ -44,6 +44,10 @@ export type Action =
   | "film"
   | "paper"
   | "inTime"
+  | "practice"
+  | "metronome"
+  | "noteBack"
+  | "noteForward"
   | "names"
   | "open"
   | "help";
@@ -111,6 +115,10 @@ const ROWS: readonly Row[] = [
   { action: "film", keys: ["r"], shown: "R" },
   { action: "paper", keys: ["t"], shown: "T" },
   { action: "inTime", keys: ["h"], shown: "H" },
+  { action: "practice", keys: ["x"], shown: "X" },
+  { action: "metronome", keys: ["b"], shown: "B" },
+  { action: "noteBack", keys: [","], shown: ",", controls: true, repeats: true },
+  { action: "noteForward", keys: ["."], shown: ".", controls: true, repeats: true },
   { action: "names", keys: ["n"], shown: "N" },
   { action: "open", keys: ["o"], shown: "O" },
   { action: "help", keys: ["?"], shown: "?" },

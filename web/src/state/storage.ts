@@ -23,6 +23,8 @@ export interface Remembered {
   readonly muted: boolean;
   /** By how much sound comes late on a device beyond what the browser knows, milliseconds; "" for any device. */
   readonly latencies: Readonly<Record<string, number>>;
+  /** How loud the metronome and the tones of notes are, 0…1. */
+  readonly clickVolume: number;
   /** Panels that are open. */
   readonly panels: readonly string[];
   /** Height of the show's editor, pixels; 0 for what suits the window. */
@@ -61,6 +63,7 @@ const NOTHING: Remembered = {
   volume: 0.9,
   muted: false,
   latencies: {},
+  clickVolume: 0.8,
   panels: [],
   editorHeight: 0,
   editorDock: "foot",

@@ -8,6 +8,7 @@ const STATE: TransportState = {
   server_time_s: 0,
   rate: 1,
   loop: null,
+  count_in_s: 0,
   epoch: 0,
 };
 

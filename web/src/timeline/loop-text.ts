@@ -1,4 +1,4 @@
-import { barBeatAt, type BarBeat } from "../state/score-time";
+import { barBeatAt, endOfLastBar, type BarBeat } from "../state/score-time";
 import type { LoopSpan } from "./loop-span";
 import { transport } from "../words/transport/en";
 
@@ -9,7 +9,8 @@ const ON_LINE_S = 2e-3;
 
 /** A loop as a musician says it: its bars, or where it begins and ends within them. */
 export function loopText(score: ScoreGrid, { start, end }: LoopSpan, duration: number): string {
-  const onLine = (time: number) => score.bar_lines_s.some((line) => Math.abs(line - time) < ON_LINE_S);
+  const lines = [...score.bar_lines_s, endOfLastBar(score)];
+  const onLine = (time: number) => lines.some((line) => Math.abs(line - time) < ON_LINE_S);
   const first = barBeatAt(score, start + ON_LINE_S);
   if (!onLine(start) || !(onLine(end) || end > duration - ON_LINE_S)) {
     return transport.fromTo({ from: placeText(first), to: placeText(barBeatAt(score, end)) });

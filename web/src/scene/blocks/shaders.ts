@@ -105,6 +105,7 @@ void main() {
   vec3 normal = normalize(vNormalWorld);
   vec3 eye = normalize(vToEye);
   bool playable = vMask > -0.5;
+  bool marked = playable && vMask < 63.5;
   vec3 color = vColor;
   vec3 soundingColor = vSoundingColor;
   vec3 body = playable ? color : mix(color, vec3(dot(color, vec3(0.3333))), 0.7) * 0.5;
@@ -144,7 +145,7 @@ void main() {
   vec2 fromColumn = vInside - vec2(min(0.0185, 0.5 * vLength), 0.0);
   vec2 overColumn = vec2(fromColumn.x, fromColumn.y - clamp(fromColumn.y, -0.0202, 0.0202));
   float plate = 1.0 - smoothstep(-pixel, pixel, length(overColumn) - radius - 0.0028);
-  if (playable) surface = mix(surface, INK, 0.94 * plate * facing);
+  if (marked) surface = mix(surface, INK, 0.94 * plate * facing);
   for (int valve = 0; valve < 3; valve++) {
     float away = length(fromColumn - vec2(0.0, (1.0 - float(valve)) * 0.0202));
     bool down = mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
@@ -153,7 +154,7 @@ void main() {
     vec3 mark = down ? valveColor(valve) * (valve == 1 ? 2.2 : 1.35) : PAPER;
     // The rings of an open note are whole paper; beside a pressed valve they step back.
     float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.45);
-    if (playable) surface = mix(surface, mark, share * facing);
+    if (marked) surface = mix(surface, mark, share * facing);
   }
   // A line along the block for the second player, two for the third: hue does not speak alone.
   float grooves = floor(vLane + 0.5);

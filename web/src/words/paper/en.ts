@@ -24,6 +24,9 @@ export const paper = words("paper", {
   legend:
     "The usual fingering is large; those below it are alternates, the more usual first. " +
     "A filled circle is a valve that is down, valve 1 on the left.",
+  legendPlayed: "A diamond marks the notes of this part.",
+  inPart: "in this part",
+  hidden: "hidden while the quiz asks for it",
   usual: filled("usual: {fingering}"),
   alternate: filled("alternate: {fingering}"),
   putAway: "Put the explanation away",

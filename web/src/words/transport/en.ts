@@ -44,6 +44,7 @@ export const transport = words("transport", {
   nextSounding: "The next notes and their fingerings, as they sound",
   nextOfWritten: filled("The next notes of player {player} and their fingerings, as written for the {instrument}"),
   nextOfSounding: filled("The next notes of player {player} and their fingerings, as they sound"),
+  hidden: "Hidden while the quiz asks for it",
   notUsual: ", not the usual fingering",
   end: "The end",
   nonePlayable: "None of this part's notes can be played",

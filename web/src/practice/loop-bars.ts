@@ -1,0 +1,46 @@
+import type { Score } from "../generated/protocol";
+import { barIndexAt, endOfLastBar, firstBarNumber } from "../state/score-time";
+import type { LoopSpan } from "../timeline/loop-span";
+
+type ScoreGrid = Pick<Score, "tempi" | "metres" | "bar_lines_s">;
+
+/** Bars by their numbers, both included. */
+export interface Bars {
+  readonly from: number;
+  readonly to: number;
+}
+
+/** Nearer than this to a bar line, a time is on it, seconds. */
+const ON_LINE_S = 0.02;
+
+/** All the bars that there are. */
+export function allBars(score: ScoreGrid): Bars {
+  const from = firstBarNumber(score);
+  return { from, to: from + Math.max(score.bar_lines_s.length - 1, 0) };
+}
+
+/**
+ * The song time of bars, from the first one's bar line to the one behind the last.
+ *
+ * @param duration where the song ends, seconds.
+ */
+export function spanOfBars(score: ScoreGrid, { from, to }: Bars, duration: number): LoopSpan {
+  const lines = score.bar_lines_s;
+  const first = from - firstBarNumber(score);
+  const last = to - firstBarNumber(score);
+  return { start: lines[first] ?? 0, end: Math.min(lines[last + 1] ?? endOfLastBar(score), duration) };
+}
+
+/** The bars that a span of song time, seconds, lies in: whole ones, and at least one. */
+export function barsAround(score: ScoreGrid, { start, end }: LoopSpan): Bars {
+  const lines = score.bar_lines_s;
+  const first = barIndexAt(lines, start + ON_LINE_S);
+  const last = Math.max(barIndexAt(lines, end - ON_LINE_S), first);
+  return { from: first + firstBarNumber(score), to: last + firstBarNumber(score) };
+}
+
+/** Bars with one end moved: within those that there are, and the other end goes along where it must. */
+export function withEnd(bars: Bars, end: "from" | "to", number: number, all: Bars): Bars {
+  const held = Math.min(Math.max(Math.round(number), all.from), all.to);
+  return end === "from" ? { from: held, to: Math.max(bars.to, held) } : { from: Math.min(bars.from, held), to: held };
+}
