@@ -1,9 +1,12 @@
 import type { TransportState } from "../generated/protocol";
 import { DriftWatch } from "./drift";
 import { heardContextTime } from "./heard-time";
+import { PitchKeeper } from "./pitch-keeper";
 import { PlaybackPath } from "./playback-path";
 import { segmentAt, segmentsAhead } from "./song-parts";
 import type { SongSource } from "./song-source";
+import { STRETCH_LEAD_S, StretchedVoice } from "./stretched-voice";
+import type { Stretcher } from "./stretcher";
 import { Voice } from "./voice";
 
 /** What the player needs to know of time. */
@@ -51,9 +54,10 @@ export class SongPlayer {
   readonly #time: SongTime;
   readonly #onState: (state: SoundState) => void;
   readonly #drift = new DriftWatch();
+  readonly #pitch: PitchKeeper;
   #song: SongSource | null = null;
   #transport: TransportState | null = null;
-  #voice: Voice | null = null;
+  #voice: Voice | StretchedVoice | null = null;
   #scrubbed: GainNode | null = null;
   #checkFrom = 0;
   #state: SoundState = "silent";
@@ -68,6 +72,7 @@ export class SongPlayer {
     this.#master.connect(context.destination);
     this.#meter = context.createAnalyser();
     this.#master.connect(this.#meter);
+    this.#pitch = new PitchKeeper(context, () => this.#startWhereSilent());
     context.onstatechange = () => {
       this.#tellState();
       this.#restart();
@@ -79,6 +84,11 @@ export class SongPlayer {
     const samples = new Float32Array(this.#meter.fftSize);
     this.#meter.getFloatTimeDomainData(samples);
     return samples.reduce((highest, sample) => Math.max(highest, Math.abs(sample)), 0);
+  }
+
+  /** Whether the song keeps its pitch at every rate; where the browser computes no sound, it goes with the rate. */
+  get keepsPitch(): boolean {
+    return this.#pitch.keepsPitch;
   }
 
   /** Seconds of sound that are decoded. */
@@ -238,17 +248,29 @@ export class SongPlayer {
   }
 
   #startVoice(song: SongSource, transport: TransportState): void {
+    const { rate } = transport;
+    // At the written tempo the song is played as it is.
+    const stretcher = rate === 1 ? undefined : this.#stretcherFor(song);
+    if (stretcher === null) return;
     // On the samples' grid, so that nothing is interpolated at the written tempo.
-    const when = this.#onGrid(this.#context.currentTime + LEAD_S);
+    const when = this.#onGrid(this.#context.currentTime + (stretcher === undefined ? LEAD_S : STRETCH_LEAD_S));
     const pageTime = this.#time.pageNow();
     const position = this.#onGrid(this.#time.songTimeAt(pageTime + (when - this.#heard())));
     if (position >= song.duration || song.at(segmentAt(position, song)) === null) return;
-    const { rate } = transport;
     const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
-    const path = new PlaybackPath(when, position, rate, loop);
-    this.#voice = new Voice(this.#context, song, this.#master, { path, position, rate, loop }, FADE_S);
+    const plan = { path: new PlaybackPath(when, position, rate, loop), position, rate, loop };
+    this.#voice =
+      stretcher === undefined
+        ? new Voice(this.#context, song, this.#master, plan, FADE_S)
+        : new StretchedVoice(this.#context, song, stretcher, this.#master, plan, FADE_S);
     this.#drift.reset();
     this.#checkFrom = pageTime + SETTLE_S;
+  }
+
+  /** What keeps the song's pitch; null while it is loaded or the song is not there, undefined where there is none. */
+  #stretcherFor(song: SongSource): Stretcher | null | undefined {
+    const buffer = song.at(segmentAt(this.#position(), song));
+    return buffer === null ? null : this.#pitch.stretcher(buffer.numberOfChannels);
   }
 
   #stopVoice(): void {
