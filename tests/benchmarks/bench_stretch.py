@@ -115,7 +115,9 @@ def tones() -> NDArray[np.float32]:
         on = round((FIRST_S + number * (TONE_S + GAP_S)) * SAMPLE_RATE)
         events += [(on, bytes((0x90, key, 100))), (on + round(TONE_S * SAMPLE_RATE), bytes((0x80, key, 0)))]
     end = events[-1][0] + SAMPLE_RATE
-    wav = midirenderer.render_wave_from(find_soundfont(ROOT / "data").read_bytes(), write_midi(events, end_tick=end))
+    wav = midirenderer.render_wave_from(
+        find_soundfont(ROOT / "data").read_bytes(), write_midi(events, end_tick=end)
+    )
     samples, _ = soundfile.read(io.BytesIO(wav), dtype="float32", always_2d=True)
     return np.ascontiguousarray(samples.mean(axis=1))
 
@@ -127,7 +129,9 @@ def pitch(samples: NDArray[np.float32], near_hz: float) -> float:
     spectrum = np.abs(np.fft.rfft(windowed, size))
     found: list[tuple[float, float]] = []
     for harmonic in range(1, 7):
-        low, high = (round(near_hz * harmonic * 2 ** (cents / 1200) * size / SAMPLE_RATE) for cents in (-60, 60))
+        low, high = (
+            round(near_hz * harmonic * 2 ** (cents / 1200) * size / SAMPLE_RATE) for cents in (-60, 60)
+        )
         peak = low + int(np.argmax(spectrum[low:high]))
         a, b, c = np.log(spectrum[peak - 1 : peak + 2] + 1e-12)
         place = peak + 0.5 * (a - c) / (a - 2 * b + c)
@@ -167,12 +171,18 @@ def compare(before: NDArray[np.float32], after: NDArray[np.float32], rate: float
         onsets = (onset(before, on, reach) / rate, onset(after, round(on / rate), round(reach / rate)))
         clean = [noise(span, hertz) for span, hertz in zip(spans, pitches, strict=True)]
         rows.append(
-            (1200 * np.log2(pitches[1] / pitches[0]), (onsets[1] - onsets[0]) / SAMPLE_RATE * 1000, clean[1] - clean[0])
+            (
+                1200 * np.log2(pitches[1] / pitches[0]),
+                (onsets[1] - onsets[0]) / SAMPLE_RATE * 1000,
+                clean[1] - clean[0],
+            )
         )
     return np.array(rows)
 
 
-def through(page: Page, samples: NDArray[np.float32], rate: float, way: Way) -> tuple[NDArray[np.float32], dict[str, Any]]:
+def through(
+    page: Page, samples: NDArray[np.float32], rate: float, way: Way
+) -> tuple[NDArray[np.float32], dict[str, Any]]:
     """What comes out, its latency taken off, and what else is known of it."""
     said: dict[str, Any] = page.evaluate(
         "([samples, rate, how]) => through(samples, rate, how)",
@@ -225,7 +235,10 @@ def main() -> int:
     arguments = parser.parse_args()
     print(heading(__file__))
     samples = tones()
-    ways = [Way("Signalsmith, stretches what it is given", "stretch"), Way("Signalsmith, shifts what is played faster", "shift")]
+    ways = [
+        Way("Signalsmith, stretches what it is given", "stretch"),
+        Way("Signalsmith, shifts what is played faster", "shift"),
+    ]
     ways += [Way(f"stretches, blocks of {block:g} ms", "stretch", block) for block in arguments.blocks]
     ways += [Way(f"shifts, blocks of {block:g} ms", "shift", block) for block in arguments.blocks]
     if arguments.soundtouch is not None:
