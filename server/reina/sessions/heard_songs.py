@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from reina.sound.hearing import Hearing
     from reina.sound.renderer import SongRequest
 
-MOST = 12
-"""So many are kept at hand for each session: six viewers with a part and the rest each. One that is asked for
-again after that is found in the cache, or rendered anew."""
+MOST = 24
+"""So many are kept at hand for each session: twelve parts that are practised, each with its rest. One that is
+asked for again after that is found in the cache, or rendered anew."""
 
 
 class HeardSongs:
@@ -44,8 +44,11 @@ class HeardSongs:
 
     def request(self, rendering_id: str) -> SongRequest | None:
         """The rendering of that name, if it is one of them."""
-        requests = (song.request for song in self._songs.values())
-        return next((one for one in requests if one is not None and one.rendering_id == rendering_id), None)
+        for hearing, song in self._songs.items():
+            if song.request is not None and song.request.rendering_id == rendering_id:
+                self._songs.move_to_end(hearing)
+                return song.request
+        return None
 
     @property
     def paths(self) -> set[Path]:

@@ -309,9 +309,9 @@ def test_only_so_many_are_kept_at_hand(tmp_path: Path, stage: Stage) -> None:
         session = await desk.create(scale(8))
         await ready(session)
         desk.renderer.let.clear()
-        songs = [session.heard.song(Hearing(transposition=semitones)) for semitones in range(-12, 0)]
+        songs = [session.heard.song(Hearing(transposition=semitones)) for semitones in range(-12, 12)]
         assert session.heard.song(Hearing(transposition=-12)) is songs[0]
-        session.heard.song(Hearing(transposition=1))
+        session.heard.song(Hearing(transposition=12))
         assert session.heard.song(Hearing(transposition=-12)) is songs[0], "it was asked for since"
         assert session.heard.song(Hearing(transposition=-11)) is not songs[1]
         desk.renderer.let.set()

@@ -1,6 +1,7 @@
 import type { TransportState } from "../generated/protocol";
 import { DriftWatch } from "./drift";
 import { heardContextTime } from "./heard-time";
+import { PartBalance } from "./part-balance";
 import { PitchKeeper } from "./pitch-keeper";
 import { PlaybackPath } from "./playback-path";
 import { segmentAt, segmentsAhead } from "./song-parts";
@@ -56,6 +57,10 @@ export class SongPlayer {
   readonly #drift = new DriftWatch();
   readonly #pitch: PitchKeeper;
   #song: SongSource | null = null;
+  /** What is gone over to as soon as it can be heard here. */
+  #following: SongSource | null = null;
+  #balance: PartBalance | null = null;
+  #balanced = 0;
   #transport: TransportState | null = null;
   #voice: Voice | StretchedVoice | null = null;
   #scrubbed: GainNode | null = null;
@@ -108,14 +113,31 @@ export class SongPlayer {
   /** Take a song; null takes it away. What plays goes over to it. */
   setSong(song: SongSource | null): void {
     this.#song?.close();
+    if (this.#following !== song) this.#following?.close();
+    this.#following = null;
     this.#song = song;
     this.#want();
     this.#tellState();
     this.#restart();
   }
 
+  /** Take another song of the same music as soon as it can be heard here; until then what plays goes on. */
+  goOverTo(song: SongSource): void {
+    this.#following?.close();
+    this.#following = song;
+    this.#goOver();
+  }
+
+  /** Weigh the part against the rest of a song that has them apart: -1 is without it, 0 as written, 1 alone. */
+  setBalance(balance: number): void {
+    if (balance === this.#balanced) return;
+    this.#balanced = balance;
+    this.#balance?.set(balance);
+  }
+
   /** A segment of the song has been decoded. */
   segmentCame(): void {
+    this.#goOver();
     this.#tellState();
     if (this.#voice === null) this.#startWhereSilent();
     else this.#voice.extend();
@@ -155,7 +177,7 @@ export class SongPlayer {
     gain.gain.linearRampToValueAtTime(1, now + FADE_S);
     gain.gain.setValueAtTime(1, now + SCRUB_S - FADE_S);
     gain.gain.linearRampToValueAtTime(0, now + SCRUB_S);
-    source.connect(gain).connect(this.#master);
+    source.connect(gain).connect(this.#inputOf(song));
     source.start(now, Math.max(position, 0) - segment * song.segmentLength + song.overlap, SCRUB_S);
     this.#scrubbed = gain;
     source.onended = () => {
@@ -195,6 +217,7 @@ export class SongPlayer {
 
   /** Measure, and correct when the sound is not where it should be, or is silent where the song has sound. */
   check(): void {
+    this.#goOver();
     this.#want();
     this.#tellState();
     const voice = this.#voice;
@@ -261,8 +284,8 @@ export class SongPlayer {
     const plan = { path: new PlaybackPath(when, position, rate, loop), position, rate, loop };
     this.#voice =
       stretcher === undefined
-        ? new Voice(this.#context, song, this.#master, plan, FADE_S)
-        : new StretchedVoice(this.#context, song, stretcher, this.#master, plan, FADE_S);
+        ? new Voice(this.#context, song, this.#inputOf(song), plan, FADE_S)
+        : new StretchedVoice(this.#context, song, stretcher, this.#inputOf(song), plan, FADE_S);
     this.#drift.reset();
     this.#checkFrom = pageTime + SETTLE_S;
   }
@@ -271,6 +294,22 @@ export class SongPlayer {
   #stretcherFor(song: SongSource): Stretcher | null | undefined {
     const buffer = song.at(segmentAt(this.#position(), song));
     return buffer === null ? null : this.#pitch.stretcher(buffer.numberOfChannels);
+  }
+
+  /** Where a song's sound goes: through the balance where it has the part apart, else out as it is. */
+  #inputOf(song: SongSource): AudioNode {
+    if (!song.apart) return this.#master;
+    this.#balance ??= new PartBalance(this.#context, this.#master, this.#balanced);
+    return this.#balance.input;
+  }
+
+  #goOver(): void {
+    const song = this.#following;
+    if (song === null) return;
+    const position = this.#position();
+    song.want(segmentsAhead(position, this.#transport?.loop ?? null, song, SEGMENTS_AHEAD));
+    const isThere = position >= song.duration || song.at(segmentAt(position, song)) !== null;
+    if (this.#song === null || isThere) this.setSong(song);
   }
 
   #stopVoice(): void {
