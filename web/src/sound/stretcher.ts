@@ -47,7 +47,7 @@ export async function makeStretcher(context: BaseAudioContext, channels: number)
   const call = (method: string, values: readonly unknown[], given: Transferable[] = []): void =>
     port.postMessage([0, method, ...values], given);
   await new Promise<void>((resolve, reject) => {
-    node.onprocessorerror = () => reject(new Error("the stretcher failed"));
+    node.onprocessorerror = () => reject(new RangeError("the stretcher failed"));
     port.onmessage = ({ data }: MessageEvent<[string]>) => {
       if (data[0] === "ready") resolve();
     };

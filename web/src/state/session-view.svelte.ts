@@ -459,7 +459,7 @@ export class SessionView {
 
   /** What names it. */
   get #queries(): string {
-    return queriesOf(this.#hearing).join(" ") || "as written";
+    return `${queriesOf(this.#hearing).join()}?`;
   }
 
   #songTimeAt(pageTime: number): number {

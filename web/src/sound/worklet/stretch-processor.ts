@@ -5,7 +5,7 @@ import "signalsmith-stretch";
 /** Of what has been played so much stays, seconds: what is sounding reaches back a block. */
 const KEPT_S = 1;
 
-if (caught.processor === null) throw new Error("signalsmith-stretch has registered no processor");
+if (caught.processor === null) throw new RangeError("signalsmith-stretch has registered no processor");
 const Signalsmith: SignalsmithClass = caught.processor;
 
 /**
