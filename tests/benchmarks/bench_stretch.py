@@ -126,7 +126,9 @@ class Way:
 
 
 CHOSEN = Way("stretch")
-"""What the page does (`BLOCKS` in web/src/sound/stretcher.ts)."""
+"""What the page does (`blocksFor` in web/src/sound/stretcher.ts), but below SLOW of the tempo."""
+SLOW = 0.3
+CHOSEN_SLOW = Way("stretch", interval=5.0)
 
 
 def tones() -> NDArray[np.float32]:
@@ -256,7 +258,8 @@ def main() -> int:
         for way in ways:
             print(f"\n{way.name}")
             for rate in RATES:
-                out, said = through(page, samples, rate, way)
+                does = CHOSEN_SLOW if way == CHOSEN and rate < SLOW else way
+                out, said = through(page, samples, rate, does)
                 cents, late = np.abs(compare(samples, out, rate)).max(axis=0)
                 speed = said["length"] / said["took"] * 1000
                 print(

@@ -29,7 +29,7 @@ class Row implements Stretcher {
   add([first]: readonly Float32Array<ArrayBuffer>[]): void {
     this.samples.push(...(first ?? []));
   }
-  clear(): void {
+  begin(): void {
     this.samples = [];
   }
   /** The place in the song that is heard at a context time, by what it was told. */

@@ -57,7 +57,7 @@ export class StretchedVoice {
     this.#gain.gain.setValueAtTime(0, when);
     this.#gain.gain.linearRampToValueAtTime(1, when + fade);
     stretcher.node.connect(this.#gain).connect(into);
-    stretcher.clear();
+    stretcher.begin(rate);
     stretcher.schedule({ output: when - RUN_UP_S, active: true, input: runUp - RUN_UP_S * rate, rate });
     this.extend();
   }

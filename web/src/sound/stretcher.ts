@@ -17,12 +17,17 @@ export interface Stretcher {
   schedule(change: StretchChange): void;
   /** Add samples to the row, one array a channel; they are given away. */
   add(channels: readonly Float32Array<ArrayBuffer>[]): void;
-  /** Begin another row, at 0. */
-  clear(): void;
+  /** Begin another row, at 0, that will be played at a rate. */
+  begin(rate: number): void;
 }
 
-/** Chosen by measure (docs/sound.md): longer blocks blur onsets, wider intervals put tones out of tune. */
-export const BLOCKS = { blockMs: 100, intervalMs: 10 };
+/**
+ * Blocks and how far apart they are, chosen by measure (docs/sound.md): longer ones blur onsets, wider intervals put tones
+ * out of tune, and at a quarter of the tempo move onsets about.
+ */
+function blocksFor(rate: number): { readonly blockMs: number; readonly intervalMs: number } {
+  return { blockMs: 100, intervalMs: rate < 0.3 ? 5 : 10 };
+}
 
 /** Whether the browser lets a page compute sound at all: only at https and on the machine itself. */
 export function canStretch(context: BaseAudioContext): boolean {
@@ -53,7 +58,7 @@ export async function makeStretcher(context: BaseAudioContext, channels: number)
     };
   });
   port.onmessage = null;
-  call("configure", [BLOCKS]);
+  let interval = 0;
   return {
     node,
     schedule: (change) => call("schedule", [change]),
@@ -63,6 +68,12 @@ export async function makeStretcher(context: BaseAudioContext, channels: number)
         [samples],
         samples.map(({ buffer }) => buffer),
       ),
-    clear: () => call("dropBuffers", []),
+    begin: (rate) => {
+      const blocks = blocksFor(rate);
+      // To configure it forgets what is sounding, and takes a while.
+      if (blocks.intervalMs !== interval) call("configure", [blocks]);
+      interval = blocks.intervalMs;
+      call("dropBuffers", []);
+    },
   };
 }
