@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from reina.music import Score, read_score
 from reina.sound import passages as sound_passages
 from reina.sound.font import REPOSITORY
+from reina.sound.hearing import AS_WRITTEN, Hearing
 from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.render import Wanted, render_plan
 from reina.sound.rendered import SONG
@@ -51,13 +52,15 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("sound")
 
 
-def listen(data_dir: Path, score: Score, played: Sequence[PlayedParts] = ()) -> Samples:
+def listen(
+    data_dir: Path, score: Score, played: Sequence[PlayedParts] = (), hearing: Hearing = AS_WRITTEN
+) -> Samples:
     """Return the song of a score, (F, 2) with full scale 1."""
 
     async def render() -> Path:
         renderer = SongRenderer(data_dir, soundfont=find_soundfont(REPOSITORY / "data"))
         try:
-            return await (await renderer.request(score, played)).wait()
+            return await (await renderer.request(score, played, hearing)).wait()
         finally:
             await renderer.aclose()
 
@@ -117,6 +120,37 @@ def test_passages_add_up_to_the_whole(data_dir: Path, monkeypatch: pytest.Monkey
     length = min(len(sound) for sound in sounds)
     difference = sounds[0][:length] - sounds[1][:length]
     assert np.sqrt((difference**2).mean() / (sounds[1] ** 2).mean()) < 0.002
+
+
+def test_a_part_and_the_rest_add_up_to_the_whole(data_dir: Path) -> None:
+    score = score_of(
+        track("Trumpet", [67, 69, 71, 72] * 4, 0.5, 0.45, program=56),
+        track("Piano", [48, 52, 55, 60] * 8, 0.25, 0.9, program=0),
+        track("Tacet", [], 1.0, 1.0, program=71),
+    )
+    played = [PlayedParts((0,)), PlayedParts((2,))]
+    whole = listen(data_dir, score, played)
+    part, rest = (listen(data_dir, score, played, Hearing(stem)) for stem in ("part", "rest"))
+    assert part.shape == rest.shape == whole.shape
+    assert np.sqrt(((part + rest - whole) ** 2).mean() / (whole**2).mean()) < 0.002
+    # 784 Hz is the trumpet's, 130 Hz the piano's.
+    assert band_db(part, 100, 240) < band_db(whole, 100, 240) - 30
+    assert rms(part, 0.5, 6.0) > 0.01
+    assert rms(rest, 0.5, 6.0) > 0.01
+    nothing = listen(data_dir, score, played, Hearing("part", player=1))
+    assert nothing.shape == whole.shape
+    assert not np.any(nothing)
+    assert np.array_equal(listen(data_dir, score, played, Hearing("rest", player=1)), whole)
+
+
+def test_what_sounds_higher_is_played_higher_but_for_the_drums(data_dir: Path) -> None:
+    trumpet = track("Trumpet", [69] * 4, 1.0, 0.9, program=56)
+    drums = track("Drums", [42] * 16, 0.25, 0.1, channel=9)
+    written = listen(data_dir, score_of(trumpet, drums))
+    higher = listen(data_dir, score_of(trumpet, drums), hearing=Hearing(transposition=7))
+    assert band_db(written, 430, 450) - band_db(higher, 430, 450) > 20
+    assert band_db(higher, 645, 675) - band_db(written, 645, 675) > 20
+    assert band_db(higher, 12000, 16000) == pytest.approx(band_db(written, 12000, 16000), abs=3)
 
 
 def test_every_part_is_heard(data_dir: Path) -> None:

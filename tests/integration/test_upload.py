@@ -251,8 +251,36 @@ def test_a_song_is_heard_in_segments_while_it_is_rendered(client: httpx.Client) 
     session.change("DELETE").raise_for_status()
 
 
+def test_each_viewer_may_hear_a_part_alone_without_it_or_higher(client: httpx.Client) -> None:
+    session = upload(client, duet())
+    own = session.body["song"]["href"]
+    asked = [{"stem": "part"}, {"stem": "rest"}, {"semitones": -2}, {"stem": "part", "semitones": -2}]
+    states = [client.get(f"{session.path}/song/state", params=query).json() for query in asked]
+    assert len({own, *(state["href"] for state in states)}) == 5
+    sounds = [rendered(client, state["href"]) for state in states]
+    assert {sound.headers["content-type"] for sound in sounds} == {"audio/flac"}
+    assert len({sound.content for sound in (*sounds, rendered(client, own))}) == 5
+    for query in asked:
+        segments = client.get(f"{session.path}/song/state", params=query).json()["segments"]
+        assert rendered(client, f"{segments['href']}/0").content[:4] == b"OggS"
+    # Nothing of the session has changed for anybody else.
+    assert client.get(f"{session.path}/song/state").json()["href"] == own
+    for query, word in (
+        ({"stem": "part", "player": 7}, "`player` is 0 to"),
+        ({"semitones": 13}, "less than or equal to 12"),
+        ({"stem": "solo"}, "'all', 'part' or 'rest'"),
+    ):
+        refused = client.get(f"{session.path}/song/state", params=query)
+        assert refused.status_code == 422
+        assert word in refused.text
+    session.change("DELETE").raise_for_status()
+
+
 def test_an_uploaded_song_has_no_segments_and_is_not_converted(client: httpx.Client) -> None:
     session = upload(client, scale(2), song=("s.wav", song()))
+    refused = client.get(f"{session.path}/song", params={"stem": "rest"})
+    assert refused.status_code == 422
+    assert refused.json()["title"] == "A recording is heard as it is"
     assert session.body["song"]["segments"] is None
     assert client.get(f"{session.path}/song/state").json() == session.body["song"]
     assert client.get(f"{session.path}/song/segments/0123456789abcdef/0").status_code == 410

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from fastapi import APIRouter, Query, Response
+from fastapi import APIRouter, Depends, Query, Response
 from fastapi.responses import FileResponse, JSONResponse, StreamingResponse
 from starlette.concurrency import run_in_threadpool
 
@@ -14,7 +14,9 @@ from reina.api.http.problems import ProblemError
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
+from reina.sessions.song import Song
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, WAV_MEDIA_TYPE, wav_of
+from reina.sound.hearing import AS_WRITTEN, MOST_SEMITONES, Hearing, Stem
 from reina.sound.recording.probe import media_type_of
 
 router = APIRouter(tags=["song"])
@@ -28,6 +30,44 @@ NOSNIFF = {"X-Content-Type-Options": "nosniff"}
 HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
 
 
+def _hearing(
+    session: Watched,
+    stem: Annotated[
+        Stem,
+        Query(
+            description="Of a rendered song everything, one player's part alone, or everything else; the two "
+            "together are the whole, as loud as it is."
+        ),
+    ] = "all",
+    player: Annotated[int, Query(ge=0, description="Whose part, a place in the cast.")] = 0,
+    semitones: Annotated[
+        int,
+        Query(
+            ge=-MOST_SEMITONES,
+            le=MOST_SEMITONES,
+            description="How much higher all but the drums of a rendered song sounds.",
+        ),
+    ] = 0,
+) -> Hearing:
+    if stem != "all" and player >= len(session.production.performers):
+        last = len(session.production.performers) - 1
+        raise ProblemError(
+            422, "unknown-player", "There is no such player", f"`player` is 0 to {last}, not {player}"
+        )
+    hearing = Hearing(stem, player if stem != "all" else 0, semitones)
+    if session.record.song is not None and not hearing.is_whole:
+        raise ProblemError(
+            422,
+            "recording-is-whole",
+            "A recording is heard as it is",
+            "its parts cannot be told apart, nor moved: leave `stem` and `semitones` out",
+        )
+    return hearing
+
+
+Heard = Annotated[Hearing, Depends(_hearing)]
+
+
 @router.get(
     "/sessions/{session_id}/song",
     response_class=FileResponse,
@@ -39,6 +79,7 @@ HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
 async def get_song(
     session: Watched,
     store: Store,
+    hearing: Heard,
     format: Annotated[  # noqa: A002
         Literal["wav", "original"] | None,
         Query(
@@ -49,28 +90,28 @@ async def get_song(
     ] = None,
 ) -> Response:
     """The audio; while the server still makes it from the score, how far it is."""
-    path = _song_path(session)
+    song, path = _song_and_path(session, hearing)
     if path is None:
-        return _under_way(session)
-    if format == "wav" and session.song.media_type != WAV_MEDIA_TYPE:
-        if session.song.source == "uploaded":
+        return _under_way(session, hearing)
+    if format == "wav" and song.media_type != WAV_MEDIA_TYPE:
+        if song.source == "uploaded":
             raise ProblemError(
                 422,
                 "not-converted",
                 "The song is no WAV",
-                f"it was uploaded as {session.song.media_type} and is sent as it came: leave `format` out",
+                f"it was uploaded as {song.media_type} and is sent as it came: leave `format` out",
             )
         return await run_in_threadpool(_as_wav, path)
     if format == "original" and (original := store.original_song(session)) is not None:
         return ServedFile(original, media_type=media_type_of(original.suffix), headers=HEADERS)
-    return ServedFile(path, media_type=session.song.media_type, headers=HEADERS)
+    return ServedFile(path, media_type=song.media_type, headers=HEADERS)
 
 
 @router.get("/sessions/{session_id}/song/state")
-async def get_song_state(session: Watched) -> SongState:
-    """How far the sound is, and where its segments are."""
-    _song_path(session)
-    return session.song_state()
+async def get_song_state(session: Watched, hearing: Heard) -> SongState:
+    """How far the sound is, and where its segments are; what was not asked for before is begun."""
+    _song_and_path(session, hearing)
+    return session.song_state(hearing)
 
 
 @router.get(
@@ -87,10 +128,12 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
 
     One that is not there yet is rendered next, and the rest after it; the answer waits for it for a second.
     """
-    _song_path(session)
-    request = session.song.request
-    if request is None and session.song.source == "rendered":
-        return _under_way(session)
+    request = session.heard.request(rendering)
+    if request is None:
+        _song_and_path(session)
+        request = session.song.request
+        if request is None and session.song.source == "rendered":
+            return _under_way(session)
     if request is None or request.rendering_id != rendering:
         state = session.song_state()
         present = "none" if state.segments is None else state.segments.href
@@ -101,7 +144,8 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
         )
     path = await request.segment(number, within_s=SEGMENT_PATIENCE_S)
     if path is None:
-        _song_path(session)
+        if request.error is not None:
+            raise _no_song(str(request.error))
         return _under_way(session)
     return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=NOSNIFF)
 
@@ -120,7 +164,7 @@ async def get_peaks(
     points: Annotated[int, Query(ge=1, le=MAX_PEAKS, description="How many stretches.")] = 1000,
 ) -> Response:
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
-    path = _song_path(session)
+    _, path = _song_and_path(session)
     if path is not None:
         peaks = await store.decoder.peaks(path)
         if peaks is None:
@@ -140,20 +184,24 @@ async def get_peaks(
     return Response(answer.model_dump_json(), media_type="application/json", headers=HEADERS)
 
 
-def _song_path(session: Session) -> Path | None:
-    """The song's file; None while it is being made.
+def _song_and_path(session: Session, hearing: Hearing = AS_WRITTEN) -> tuple[Song, Path | None]:
+    """A song and its file; None while it is being made.
 
     Raises:
         ProblemError: There will be none.
     """
-    song = session.song
-    if song.source == "rendered" and song.path is not None and not song.path.is_file():
+    song = session.song if hearing.is_whole else session.heard.song(hearing)
+    if hearing.is_whole and song.source == "rendered" and song.path is not None and not song.path.is_file():
         # Removed to make room, or by hand.
         session.renew_song()
         song = session.song
     if song.error is not None:
-        raise ProblemError(502, "no-song", "There is no sound", f"no song could be made: {song.error}")
-    return song.path
+        raise _no_song(song.error)
+    return song, song.path
+
+
+def _no_song(why: str) -> ProblemError:
+    return ProblemError(502, "no-song", "There is no sound", f"no song could be made: {why}")
 
 
 def _as_wav(path: Path) -> Response:
@@ -168,7 +216,9 @@ def _as_wav(path: Path) -> Response:
     return StreamingResponse(content, media_type=WAV_MEDIA_TYPE, headers=headers)
 
 
-def _under_way(session: Session) -> Response:
+def _under_way(session: Session, hearing: Hearing = AS_WRITTEN) -> Response:
     return JSONResponse(
-        session.song_state().model_dump(), 202, headers={"Retry-After": "1", "Cache-Control": "no-store"}
+        session.song_state(hearing).model_dump(),
+        202,
+        headers={"Retry-After": "1", "Cache-Control": "no-store"},
     )

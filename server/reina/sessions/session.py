@@ -27,11 +27,13 @@ from reina.sessions.description import (
     wire_note,
 )
 from reina.sessions.frames import EncodedFrames
+from reina.sessions.heard_songs import HeardSongs
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.show_fit import show_warnings
 from reina.sessions.show_revision import changed_paths
 from reina.sessions.song import Song, song_state
 from reina.sessions.song_alignment import SongAlignment
+from reina.sound.hearing import AS_WRITTEN
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,8 +43,10 @@ if TYPE_CHECKING:
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
     from reina.sessions.show_revision import ShowRevision
+    from reina.sessions.song import RenderedSong
     from reina.sessions.viewer import Viewer
     from reina.sound.alignment.alignment import Alignment
+    from reina.sound.hearing import Hearing
 
 FIRST_S = 0.3
 """Seconds of frames that are evaluated before a change: what is sent at once, and a margin."""
@@ -61,6 +65,7 @@ class Session:
         show_revision: The show that it plays, with its history.
         notes: `note_messages` of the production.
         song: Makes its sound; called when the rest is ready, and whenever the sound is another.
+        heard: Makes what somebody wants to hear instead of a song that is made from the score.
         now: Server time, seconds; never goes back.
         alignment: What is known of where the score is heard in the song.
     """
@@ -72,6 +77,7 @@ class Session:
         show_revision: ShowRevision,
         notes: NoteMessages,
         song: Callable[[Session], Song],
+        heard: Callable[[Session, Hearing], RenderedSong],
         *,
         now: Callable[[], float],
         alignment: Alignment | None = None,
@@ -90,6 +96,7 @@ class Session:
         self.audience = Audience(frames, self.clock, notes, now=now)
         self._make_song = song
         self.song = song(self)
+        self.heard = HeardSongs(lambda hearing: heard(self, hearing))
 
     @property
     def id(self) -> str:
@@ -109,18 +116,27 @@ class Session:
         self.audience.dismiss()
         self.alignment.close()
         self.song.close()
+        self.heard.close()
 
     # What is said of it
 
-    def song_state(self) -> SongState:
-        """The song, ready or on its way."""
+    def song_state(self, hearing: Hearing = AS_WRITTEN) -> SongState:
+        """The song, ready or on its way.
+
+        Args:
+            hearing: What of it is to be heard; anything but all of it as it is only of a rendered one.
+        """
         production = self.production
         if self.record.song is not None:
             href = session_links(self.id).song
         else:
             played = ((one.parts, one.transposition) for one in production.sounding)
             href = rendering_href(self.id, production.score.sequence, played)
-        return song_state(self.song, href, f"{session_links(self.id).song}/segments")
+        song = self.song
+        if not hearing.is_whole:
+            song = self.heard.song(hearing)
+            href = f"{href}&stem={hearing.stem}&player={hearing.player}&semitones={hearing.transposition}"
+        return song_state(song, href, f"{session_links(self.id).song}/segments")
 
     def hello(self, state: ClockState | None = None) -> Hello:
         """What a viewer hears first.
@@ -324,6 +340,7 @@ class Session:
     def renew_song(self) -> None:
         """Make the sound anew, for what is played now."""
         self.song.close()
+        self.heard.close()
         self.song = self._make_song(self)
 
     def tell_song(self) -> None:

@@ -10,6 +10,7 @@ from reina.errors import InputError
 from reina.protocol.messages import SongSegments, SongState
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, SONG_MEDIA_TYPE
 from reina.sound.events import SAMPLE_RATE
+from reina.sound.hearing import AS_WRITTEN
 from reina.sound.renderer import SongRenderer, SongRequest, SoundError
 from reina.sound.segments import OVERLAP, SEGMENT
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from reina.music import Score
     from reina.sessions.record import SongRecord
+    from reina.sound.hearing import Hearing
     from reina.sound.plan import PlayedParts
 
 _log = logging.getLogger(__name__)
@@ -48,6 +50,7 @@ class RenderedSong:
         renderer: Makes it.
         score: From this.
         played: What the players play.
+        hearing: What of it is to be heard.
         ready: Called when it can be fetched, or has failed.
     """
 
@@ -61,13 +64,14 @@ class RenderedSong:
         score: Score,
         played: Sequence[PlayedParts],
         *,
+        hearing: Hearing = AS_WRITTEN,
         ready: Callable[[], None],
     ) -> None:
         self.path: Path | None = None
         self.error: str | None = None
         self.request: SongRequest | None = None
         """What is there of it; None until it is planned."""
-        self._making = asyncio.create_task(self._make(renderer, score, played, ready))
+        self._making = asyncio.create_task(self._make(renderer, score, played, hearing, ready))
 
     @property
     def progress(self) -> float:
@@ -79,10 +83,15 @@ class RenderedSong:
         self._making.cancel()
 
     async def _make(
-        self, renderer: SongRenderer, score: Score, played: Sequence[PlayedParts], ready: Callable[[], None]
+        self,
+        renderer: SongRenderer,
+        score: Score,
+        played: Sequence[PlayedParts],
+        hearing: Hearing,
+        ready: Callable[[], None],
     ) -> None:
         try:
-            self.request = await renderer.request(score, played)
+            self.request = await renderer.request(score, played, hearing)
             self.path = await self.request.wait()
         except (SoundError, InputError) as error:
             self.error = str(error)

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from reina.sessions.session_index import Entry
     from reina.sessions.stage import Stage
     from reina.show import ShowHistory
+    from reina.sound.hearing import Hearing
     from reina.sound.recording.probe import AudioInfo
     from reina.sound.renderer import SongRenderer
 
@@ -394,11 +395,14 @@ class SessionStore:
         """
         async with self._edit(session):
             del self._sessions[session.id]
+            songs = session.heard.paths
             session.close()
             doomed = await asyncio.to_thread(self._folders.take_out, session.id)
         await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
-        if session.record.song is None and session.song.path not in self._songs_in_use():
-            await asyncio.to_thread(self._renderer.discard, session.song.path)
+        if session.record.song is None and session.song.path is not None:
+            songs.add(session.song.path)
+        for path in songs - self._songs_in_use():
+            await asyncio.to_thread(self._renderer.discard, path)
 
     async def prune_songs(self) -> None:
         """Remove the rendered songs that were not asked for the longest until the rest is small enough."""
@@ -551,7 +555,9 @@ class SessionStore:
         notes: NoteMessages,
         alignment: Alignment | None = None,
     ) -> Session:
-        session = Session(record, production, kept, notes, self._song, now=self._now, alignment=alignment)
+        session = Session(
+            record, production, kept, notes, self._song, self._heard, now=self._now, alignment=alignment
+        )
         self._sessions[session.id] = session
         self._make_room()
         return session
@@ -564,14 +570,25 @@ class SessionStore:
             self._renderer, production.score, production.sounding, ready=lambda: self._song_made(session)
         )
 
+    def _heard(self, session: Session, hearing: Hearing) -> RenderedSong:
+        production = session.production
+        return RenderedSong(
+            self._renderer, production.score, production.sounding, hearing=hearing, ready=self._prune_soon
+        )
+
     def _song_made(self, session: Session) -> None:
         session.tell_song()
+        self._prune_soon()
+
+    def _prune_soon(self) -> None:
         pruning = asyncio.create_task(self.prune_songs())
         self._pruning.add(pruning)
         pruning.add_done_callback(self._pruning.discard)
 
     def _songs_in_use(self) -> set[Path]:
-        return {session.song.path for session in self._sessions.values() if session.song.path is not None}
+        sessions = self._sessions.values()
+        own = {session.song.path for session in sessions if session.song.path is not None}
+        return own.union(*(session.heard.paths for session in sessions))
 
     def _make_room(self) -> None:
         *others, _ = self._sessions.values()

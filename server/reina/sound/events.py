@@ -28,10 +28,12 @@ class SoundPlan:
             channel and key notes never overlap.
         controls: (C,) of CONTROL_DTYPE, sorted by `tick`, in the order in which they take effect; `status` is
             the MIDI status byte with the channel.
+        parts: (N,) which part of the score each note is of; the sound does not depend on it.
     """
 
     notes: NDArray[np.void]
     controls: NDArray[np.void]
+    parts: NDArray[np.int32]
 
     @property
     def duration_s(self) -> float:

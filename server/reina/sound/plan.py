@@ -84,7 +84,7 @@ class _Voice:
     seat: int = 0
 
 
-def plan_sound(score: Score, played: Sequence[PlayedParts] = ()) -> SoundPlan:
+def plan_sound(score: Score, played: Sequence[PlayedParts] = (), *, transposition: int = 0) -> SoundPlan:
     """Plan how a score sounds.
 
     Every part gets a channel of its own for each channel that the file has it on (drums of one channel and
@@ -94,6 +94,7 @@ def plan_sound(score: Score, played: Sequence[PlayedParts] = ()) -> SoundPlan:
     Args:
         score: The score.
         played: What the players play.
+        transposition: Semitones by which everything but the drums sounds higher.
 
     Raises:
         InputError: The score is longer than an hour, or nothing of it is a pitch.
@@ -108,13 +109,15 @@ def plan_sound(score: Score, played: Sequence[PlayedParts] = ()) -> SoundPlan:
     keys = score.notes.sounding_pitch.astype(np.int64)
     for one in played:
         keys += np.where(np.isin(score.notes.part, one.parts), one.transposition, 0)
+    if transposition:
+        drums = [part.index for part in score.parts if part.is_drums]
+        keys += np.where(np.isin(score.notes.part, drums), 0, transposition)
     if not np.any(_is_key(keys)):
-        moved = ", ".join(str(one.transposition) for one in played)
+        moved = ", ".join(str(one.transposition + transposition) for one in played)
         raise InputError(f"moved by {moved} semitones, no note of the score is a pitch: move it less")
     seats = np.array([(voice.port, voice.seat) for voice in voices], dtype=np.uint16)
-    return SoundPlan(
-        notes=_plan_notes(score, seats[voice_of_note], keys), controls=_plan_controls(score, voices)
-    )
+    notes, parts = _plan_notes(score, seats[voice_of_note], keys)
+    return SoundPlan(notes=notes, controls=_plan_controls(score, voices), parts=parts)
 
 
 def _is_key(keys: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -177,8 +180,10 @@ def _seat(voices: list[_Voice]) -> list[_Voice]:
     return seated
 
 
-def _plan_notes(score: Score, seats: NDArray[np.uint16], keys: NDArray[np.int64]) -> NDArray[np.void]:
-    """Return the notes; (N, 2) seats are the port and the channel of each, (N,) keys its pitch."""
+def _plan_notes(
+    score: Score, seats: NDArray[np.uint16], keys: NDArray[np.int64]
+) -> tuple[NDArray[np.void], NDArray[np.int32]]:
+    """Return the notes, and which part each is of; (N, 2) seats are port and channel, (N,) keys the pitch."""
     notes = np.zeros(len(score.notes), dtype=NOTE_DTYPE)
     on = np.rint(score.notes.onset_s * SAMPLE_RATE).astype(np.int64)
     end = np.rint(score.notes.end_s * SAMPLE_RATE).astype(np.int64)
@@ -187,14 +192,17 @@ def _plan_notes(score: Score, seats: NDArray[np.uint16], keys: NDArray[np.int64]
     notes["port"], notes["channel"] = seats.T
     notes["key"] = np.clip(keys, 0, KEYS - 1)
     notes["velocity"] = np.clip(np.rint(score.notes.velocity * 127), 1, 127)
-    return _without_overlaps(notes[_is_key(keys)])
+    is_key = _is_key(keys)
+    return _without_overlaps(notes[is_key], score.notes.part[is_key])
 
 
-def _without_overlaps(notes: NDArray[np.void]) -> NDArray[np.void]:
+def _without_overlaps(
+    notes: NDArray[np.void], parts: NDArray[np.int32]
+) -> tuple[NDArray[np.void], NDArray[np.int32]]:
     """Let each new stroke of a sounding key end the one before, and last as long as that would have."""
     strings = (notes["port"].astype(np.int64) * CHANNELS_OF_PORT + notes["channel"]) * KEYS + notes["key"]
     order = np.lexsort((-notes["velocity"].astype(np.int64), notes["on"], strings))
-    notes, strings = notes[order], strings[order]
+    notes, parts, strings = notes[order], parts[order], strings[order]
     same_string = np.diff(strings, prepend=-1) == 0
     twice = same_string & (np.diff(notes["on"].astype(np.int64), prepend=-1) == 0)
     group = np.cumsum(~same_string) - 1
@@ -204,11 +212,12 @@ def _without_overlaps(notes: NDArray[np.void]) -> NDArray[np.void]:
     # Where a note stands twice, the last of its copies carries the running maximum.
     last_copy = ~np.append(twice[1:], False)
     off = off[last_copy]
-    notes, strings = notes[~twice], strings[~twice]
+    notes, parts, strings = notes[~twice], parts[~twice], strings[~twice]
     following = np.append(notes["on"][1:].astype(np.int64), 0)
     struck_again = np.append(np.diff(strings) == 0, False)
     notes["off"] = np.where(struck_again, np.minimum(off, following), off)
-    return notes[np.lexsort((notes["key"], notes["channel"], notes["port"], notes["on"]))]
+    in_time = np.lexsort((notes["key"], notes["channel"], notes["port"], notes["on"]))
+    return notes[in_time], parts[in_time]
 
 
 def _plan_controls(score: Score, voices: list[_Voice]) -> NDArray[np.void]:

@@ -2,11 +2,11 @@
 
     python -m reina.sound.render SOUNDFONT FOLDER NOTES CONTROLS
 
-The plan's arrays (NOTES and CONTROLS rows) come on standard input. After them come numbers of segments, one a
-line, each of which is to be made next, with what follows it. When standard input is closed, the one who asked
-is gone, and the process ends. On standard output it tells, one JSON object a line, ``{"progress": 0.25}``,
-``{"segment": 3, "peaks": "..."}`` when that segment lies in FOLDER, and at the end ``{"done": true}`` or
-``{"error": "..."}``.
+The plan's arrays (NOTES and CONTROLS rows) come on standard input, and a byte a note, 0 where it is not to be
+heard. After them come numbers of segments, one a line, each of which is to be made next, with what follows
+it. When standard input is closed, the one who asked is gone, and the process ends. On standard output it
+tells, one JSON object a line, ``{"progress": 0.25}``, ``{"segment": 3, "peaks": "..."}`` when that segment
+lies in FOLDER, and at the end ``{"done": true}`` or ``{"error": "..."}``.
 """
 
 import json
@@ -18,10 +18,12 @@ from pathlib import Path
 
 import midirenderer
 import numpy as np
+from numpy.typing import NDArray
 
 from reina.sound.encode import opus, write_flac
 from reina.sound.events import CONTROL_DTYPE, NOTE_DTYPE, SoundPlan
 from reina.sound.growing_peaks import GrowingPeaks
+from reina.sound.hearing import only_heard
 from reina.sound.level import EXCERPT, FULL_SCALE, choose_excerpts, levelled, song_gain
 from reina.sound.mix import CHANNELS, Mix, Samples
 from reina.sound.passages import BLOCK, Passage, cut_into_passages, write_passage
@@ -61,7 +63,14 @@ class Wanted:
         return min(following or missing)
 
 
-def render_plan(plan: SoundPlan, soundfont: bytes, song: Path, tell: Tell, wanted: Wanted) -> None:
+def render_plan(
+    plan: SoundPlan,
+    soundfont: bytes,
+    song: Path,
+    tell: Tell,
+    wanted: Wanted,
+    heard: NDArray[np.bool_] | None = None,
+) -> None:
     """Render a plan; sample 0 of the song is the score's time 0.
 
     Args:
@@ -71,6 +80,7 @@ def render_plan(plan: SoundPlan, soundfont: bytes, song: Path, tell: Tell, wante
             peaks lie beside it.
         tell: Is told `progress`, 0..1, rising, and each `segment` with its `peaks` when it is there.
         wanted: Which segment is to be made next.
+        heard: Which notes are, (N,); all when None. The song is as long and as loud as with all of them.
 
     Raises:
         RenderError: The soundfont is none.
@@ -78,6 +88,8 @@ def render_plan(plan: SoundPlan, soundfont: bytes, song: Path, tell: Tell, wante
     gain = song_gain([_render_excerpt(plan, passages, soundfont) for passages in choose_excerpts(plan)])
     passages = cut_into_passages(plan)
     segments = cut_into_segments(passages)
+    if heard is not None:
+        passages = only_heard(passages, heard)
     peaks = GrowingPeaks(segments.frames)
     needed = {number: segments.needed(number, passages) for number in range(segments.count)}
     unrendered = set(range(len(passages)))
@@ -161,11 +173,13 @@ def main() -> int:
     plan = SoundPlan(
         notes=np.frombuffer(read_from_parent(note_count * NOTE_DTYPE.itemsize), dtype=NOTE_DTYPE),
         controls=np.frombuffer(read_from_parent(control_count * CONTROL_DTYPE.itemsize), dtype=CONTROL_DTYPE),
+        parts=np.zeros(note_count, dtype=np.int32),
     )
+    heard = np.frombuffer(read_from_parent(note_count), dtype=np.bool_)
     wanted = Wanted()
     threading.Thread(target=follow_parent, args=(wanted.choose,), daemon=True).start()
     try:
-        render_plan(plan, soundfont.read_bytes(), folder / SONG, _tell, wanted)
+        render_plan(plan, soundfont.read_bytes(), folder / SONG, _tell, wanted, heard)
     except (RenderError, OSError) as error:
         _tell({"error": str(error)})
         return 1

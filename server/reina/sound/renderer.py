@@ -7,6 +7,7 @@ memory is the server's. Segments can be had while the rest is rendered. docs/sou
 import asyncio
 import contextlib
 import functools
+import hashlib
 import json
 import logging
 import os
@@ -16,10 +17,14 @@ from asyncio.subprocess import PIPE, Process
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from reina.music.score import Score
 from reina.sound.events import SoundPlan
 from reina.sound.font import MissingSoundfontError, SoundError, find_soundfont, soundfont_id
 from reina.sound.growing_peaks import GrowingPeaks
+from reina.sound.hearing import AS_WRITTEN, Hearing, heard_notes
 from reina.sound.passages import cut_into_passages
 from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.recording.peaks import Peaks
@@ -206,21 +211,25 @@ class SongRenderer:
         self._renderings: dict[Path, _Rendering] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    async def request(self, score: Score, played: Sequence[PlayedParts] = ()) -> SongRequest:
+    async def request(
+        self, score: Score, played: Sequence[PlayedParts] = (), hearing: Hearing = AS_WRITTEN
+    ) -> SongRequest:
         """Ask for a score's song, which is then made in the background unless it is there already.
 
         Args:
             score: The score; time 0 of the song is its time 0.
             played: What the players play.
+            hearing: What of it is to be heard.
 
         Raises:
-            InputError: The score is longer than an hour.
+            InputError: The score is longer than an hour, or nothing of it is a pitch.
             MissingSoundfontError: There is nothing to render with.
         """
-        plan, segments = await asyncio.to_thread(_plan, score, played)
+        plan, segments, heard = await asyncio.to_thread(_plan, score, played, hearing)
         soundfont = self._soundfont or find_soundfont(self._data_dir)
         identity = await asyncio.to_thread(soundfont_id, soundfont)
-        path = self._songs / plan.digest(RENDERING_VERSION, identity) / SONG
+        about = () if hearing.stem == "all" else (hashlib.sha256(heard.tobytes()).hexdigest(),)
+        path = self._songs / plan.digest(RENDERING_VERSION, identity, *about) / SONG
         if await asyncio.to_thread(path.is_file):
             # The time of the last use is what `prune` goes by.
             os.utime(path)
@@ -229,7 +238,9 @@ class SongRenderer:
         if rendering is None or rendering.task.cancelling():
             before = rendering.task if rendering else None
             rendering = self._renderings[path] = _Rendering(segments)
-            rendering.task = asyncio.create_task(self._render(rendering, plan, soundfont, path, before))
+            rendering.task = asyncio.create_task(
+                self._render(rendering, plan, heard, soundfont, path, before)
+            )
             self._tasks.add(rendering.task)
             rendering.task.add_done_callback(functools.partial(self._ended, path, rendering))
         rendering.askers += 1
@@ -289,6 +300,7 @@ class SongRenderer:
         self,
         rendering: _Rendering,
         plan: SoundPlan,
+        heard: NDArray[np.bool_],
         soundfont: Path,
         path: Path,
         before: asyncio.Task[None] | None,
@@ -300,7 +312,7 @@ class SongRenderer:
             path.parent.mkdir(parents=True, exist_ok=True)
             try:
                 async with asyncio.timeout(self._timeout_s):
-                    await self._run(rendering, plan, soundfont, path)
+                    await self._run(rendering, plan, heard, soundfont, path)
             except TimeoutError as error:
                 took = f"took over {self._timeout_s:.0f} s"
                 raise SoundError(
@@ -309,7 +321,9 @@ class SongRenderer:
             finally:
                 _remove_unfinished(path)
 
-    async def _run(self, rendering: _Rendering, plan: SoundPlan, soundfont: Path, path: Path) -> None:
+    async def _run(
+        self, rendering: _Rendering, plan: SoundPlan, heard: NDArray[np.bool_], soundfont: Path, path: Path
+    ) -> None:
         counts = (str(len(plan.notes)), str(len(plan.controls)))
         process = await asyncio.create_subprocess_exec(
             sys.executable,
@@ -322,9 +336,10 @@ class SongRenderer:
             stdout=PIPE,
             stderr=PIPE,
         )
+        data = plan.notes.tobytes() + plan.controls.tobytes() + heard.tobytes()
         try:
             _, complaint, error = await asyncio.gather(
-                _send(process, rendering, plan.notes.tobytes() + plan.controls.tobytes()),
+                _send(process, rendering, data),
                 _read(process),
                 _follow(process, rendering),
             )
@@ -343,9 +358,13 @@ class SongRenderer:
             raise SoundError(f"the renderer ended with status {status}: {complaint[-STDERR_TOLD:].strip()}")
 
 
-def _plan(score: Score, played: Sequence[PlayedParts]) -> tuple[SoundPlan, Segments]:
-    plan = plan_sound(score, played)
-    return plan, cut_into_segments(cut_into_passages(plan))
+def _plan(
+    score: Score, played: Sequence[PlayedParts], hearing: Hearing
+) -> tuple[SoundPlan, Segments, NDArray[np.bool_]]:
+    """Return the plan of a score, its segments, and (N,) which of its notes are heard."""
+    plan = plan_sound(score, played, transposition=hearing.transposition)
+    parts = () if hearing.stem == "all" else played[hearing.player].parts
+    return plan, cut_into_segments(cut_into_passages(plan)), heard_notes(plan, parts, hearing.stem)
 
 
 def _size(entry: Path) -> int:

@@ -14,6 +14,7 @@ from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
 from reina.show import Show
+from reina.sound.hearing import AS_WRITTEN, Hearing
 from reina.sound.renderer import SongRenderer, SongRequest
 
 if TYPE_CHECKING:
@@ -40,14 +41,18 @@ class HandRenderer(SongRenderer):
         soundfont.write_bytes(b"a soundfont")
         super().__init__(data_dir, soundfont=soundfont)
         self.asked: list[tuple[int, int]] = []
+        self.hearings: list[Hearing] = []
         self.let = asyncio.Event()
         self.let.set()
 
-    async def request(self, score: Score, played: Sequence[PlayedParts] = ()) -> SongRequest:
+    async def request(
+        self, score: Score, played: Sequence[PlayedParts] = (), hearing: Hearing = AS_WRITTEN
+    ) -> SongRequest:
         self.asked.append((played[0].parts[0], played[0].transposition))
-        return await super().request(score, played)
+        self.hearings.append(hearing)
+        return await super().request(score, played, hearing)
 
-    async def _run(self, rendering: object, plan: object, soundfont: Path, path: Path) -> None:
+    async def _run(self, rendering: object, plan: object, heard: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
         await asyncio.to_thread(path.write_bytes, bytes(SONG_BYTES))
 
@@ -265,5 +270,53 @@ def test_a_session_without_a_show_gets_one_written_for_its_music(tmp_path: Path,
         assert found is not None
         assert found.production.show == written.production.show
         assert found.show_revision.text.etag == written.show_revision.text.etag
+
+    run(scenario)
+
+
+def test_what_a_viewer_hears_instead_of_the_song_is_their_own(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(duet())
+        own = await ready(session)
+        state_of_all = session.song_state()
+        part, rest, higher = Hearing("part"), Hearing("rest"), Hearing(transposition=3)
+        paths: set[Path] = set()
+        for hearing in (part, rest, higher):
+            state = session.song_state(hearing)
+            assert state.href != session.song_state().href
+            await until(lambda hearing=hearing: session.song_state(hearing).status == "ready")
+            path = session.heard.song(hearing).path
+            assert path is not None
+            paths.add(path)
+        assert desk.renderer.hearings == [AS_WRITTEN, part, rest, higher]
+        assert len(paths | {own}) == 4
+        assert session.song_state() == state_of_all, "for everybody else nothing has changed"
+        # What is heard is in use; once another part is played, it is not.
+        await asyncio.to_thread(desk.renderer.prune, 0, in_use=desk.store._songs_in_use())
+        assert all(path.is_file() for path in paths)
+        await choose(desk.store, session, transposition=2)
+        assert session.heard.paths == set()
+        await desk.store.delete(session)
+        await desk.store.aclose()
+
+    run(scenario)
+
+
+def test_only_so_many_are_kept_at_hand(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(scale(8))
+        await ready(session)
+        desk.renderer.let.clear()
+        songs = [session.heard.song(Hearing(transposition=semitones)) for semitones in range(-12, 12)]
+        assert session.heard.song(Hearing(transposition=-12)) is songs[0]
+        session.heard.song(Hearing(transposition=12))
+        assert session.heard.song(Hearing(transposition=-12)) is songs[0], "it was asked for since"
+        assert session.heard.song(Hearing(transposition=-11)) is not songs[1]
+        desk.renderer.let.set()
+        await desk.store.delete(session)
+        assert session.heard.paths == set()
+        await desk.store.aclose()
 
     run(scenario)

@@ -10,11 +10,12 @@ export async function plannedSong(
   session: string,
   known: SongState,
   signal: AbortSignal,
+  query = "",
 ): Promise<SongState> {
   let song = known;
   while (song.status === "rendering" && song.segments === null) {
     await pause(PAUSE_S, signal);
-    song = await songState(api, session, signal);
+    song = await songState(api, session, signal, query);
   }
   return song;
 }
@@ -22,10 +23,11 @@ export async function plannedSong(
 /**
  * How far the server is with a song.
  *
+ * @param query asks for something else than what everybody hears (`queriesOf`)
  * @throws ProblemError when it has none, or failed to make one
  */
-export async function songState(api: ReinaApi, session: string, signal: AbortSignal): Promise<SongState> {
-  const response = await api.request("GET", api.sessionPath(session, "song/state"), { signal });
+export async function songState(api: ReinaApi, session: string, signal: AbortSignal, query = ""): Promise<SongState> {
+  const response = await api.request("GET", `${api.sessionPath(session, "song/state")}${query}`, { signal });
   return (await response.json()) as SongState;
 }
 

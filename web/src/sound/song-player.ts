@@ -2,9 +2,13 @@ import type { TransportState } from "../generated/protocol";
 import { AudioOutput } from "./audio-output";
 import { playClick } from "./click";
 import { DriftWatch } from "./drift";
+import { PartBalance } from "./part-balance";
+import { PitchKeeper } from "./pitch-keeper";
 import { PlaybackPath } from "./playback-path";
 import { segmentAt, segmentsAhead } from "./song-parts";
 import type { SongSource } from "./song-source";
+import { STRETCH_LEAD_S, StretchedVoice } from "./stretched-voice";
+import type { Stretcher } from "./stretcher";
 import { Voice } from "./voice";
 
 /** What the player needs to know of time. */
@@ -58,9 +62,14 @@ export class SongPlayer {
   readonly #time: SongTime;
   readonly #onState: (state: SoundState) => void;
   readonly #drift = new DriftWatch();
+  #pitch: PitchKeeper;
   #song: SongSource | null = null;
+  /** What is gone over to as soon as it can be heard here. */
+  #following: SongSource | null = null;
+  #balance: PartBalance | null = null;
+  #balanced = 0;
   #transport: TransportState | null = null;
-  #voice: Voice | null = null;
+  #voice: Voice | StretchedVoice | null = null;
   #scrubbed: GainNode | null = null;
   #checkFrom = 0;
   #impatientUntil = 0;
@@ -82,11 +91,17 @@ export class SongPlayer {
       () => time.pageNow(),
       (renewed) => this.#outputChanged(renewed),
     );
+    this.#pitch = this.#newPitch();
   }
 
   /** The highest sample that left the page in the last moments, 0…1. */
   get level(): number {
     return this.#output.level;
+  }
+
+  /** Whether the song keeps its pitch at every rate; where the browser computes no sound, it goes with the rate. */
+  get keepsPitch(): boolean {
+    return this.#pitch.keepsPitch;
   }
 
   /** Seconds of sound that are decoded. */
@@ -106,14 +121,31 @@ export class SongPlayer {
   /** Take a song; null takes it away. What plays goes over to it. */
   setSong(song: SongSource | null): void {
     this.#song?.close();
+    if (this.#following !== song) this.#following?.close();
+    this.#following = null;
     this.#song = song;
     this.#want();
     this.#tellState();
     this.#restart();
   }
 
+  /** Take another song of the same music as soon as it can be heard here; until then what plays goes on. */
+  goOverTo(song: SongSource): void {
+    this.#following?.close();
+    this.#following = song;
+    this.#goOver();
+  }
+
+  /** Weigh the part against the rest of a song that has them apart: -1 is without it, 0 as written, 1 alone. */
+  setBalance(balance: number): void {
+    if (balance === this.#balanced) return;
+    this.#balanced = balance;
+    this.#balance?.set(balance);
+  }
+
   /** A segment of the song has been decoded. */
   segmentCame(): void {
+    this.#goOver();
     this.#tellState();
     if (this.#voice === null) this.#startWhereSilent();
     else this.#voice.extend();
@@ -158,7 +190,7 @@ export class SongPlayer {
     gain.gain.linearRampToValueAtTime(1, now + FADE_S);
     gain.gain.setValueAtTime(1, now + SCRUB_S - FADE_S);
     gain.gain.linearRampToValueAtTime(0, now + SCRUB_S);
-    source.connect(gain).connect(this.#output.into);
+    source.connect(gain).connect(this.#inputOf(song));
     source.start(now, Math.max(position, 0) - segment * song.segmentLength + song.overlap, SCRUB_S);
     this.#scrubbed = gain;
     source.onended = () => {
@@ -258,6 +290,7 @@ export class SongPlayer {
 
   /** Measure, and correct when the sound is not where it should be, or is silent where the song has sound. */
   check(): void {
+    this.#goOver();
     this.#want();
     if (this.#transport?.playing === true && this.#song !== null) this.#output.look();
     this.#tellState();
@@ -302,10 +335,16 @@ export class SongPlayer {
       // What was scheduled is lost with its context.
       this.#voice = null;
       this.#scrubbed = null;
+      this.#balance = null;
+      this.#pitch = this.#newPitch();
       this.#impatientUntil = this.#time.pageNow() + IMPATIENT_S;
     }
     this.#tellState();
     this.#restart();
+  }
+
+  #newPitch(): PitchKeeper {
+    return new PitchKeeper(this.#context, () => this.#startWhereSilent());
   }
 
   /** What was not there in time has come, or a loop has come back from behind the song's end. */
@@ -330,21 +369,50 @@ export class SongPlayer {
 
   #startVoice(song: SongSource, transport: TransportState): void {
     if (!this.#time.pictured() && this.#time.pageNow() < this.#soundsWithoutFrom) return;
+    const { rate } = transport;
+    // At the written tempo the song is played as it is.
+    const stretcher = rate === 1 ? undefined : this.#stretcherFor(song);
+    if (stretcher === null) return;
     // On the samples' grid, so that nothing is interpolated at the written tempo.
     const pageTime = this.#time.pageNow();
-    const soonest = this.#onGrid(this.#context.currentTime + LEAD_S);
+    const lead = stretcher === undefined ? LEAD_S : STRETCH_LEAD_S;
+    const soonest = this.#onGrid(this.#context.currentTime + lead);
     const heardThen = pageTime + (soonest - this.#heard());
     const position = this.#onGrid(this.#time.songTimeAt(heardThen));
     if (position >= song.duration || song.at(segmentAt(position, song)) === null) return;
-    const { rate } = transport;
     const counted = this.#time.countInAt(heardThen) / rate;
     const when = this.#onGrid(soonest + counted);
     const loop = transport.loop !== null && position < transport.loop.end_s ? transport.loop : null;
-    const path = new PlaybackPath(when, position, rate, loop);
-    this.#voice = new Voice(this.#context, song, this.#output.into, { path, position, rate, loop }, FADE_S);
+    const plan = { path: new PlaybackPath(when, position, rate, loop), position, rate, loop };
+    this.#voice =
+      stretcher === undefined
+        ? new Voice(this.#context, song, this.#inputOf(song), plan, FADE_S)
+        : new StretchedVoice(this.#context, song, stretcher, this.#inputOf(song), plan, FADE_S);
     this.#drift.reset();
     this.#motions += 1;
     this.#checkFrom = pageTime + counted + SETTLE_S;
+  }
+
+  /** What keeps the song's pitch; null while it is loaded or the song is not there, undefined where there is none. */
+  #stretcherFor(song: SongSource): Stretcher | null | undefined {
+    const buffer = song.at(segmentAt(this.#position(), song));
+    return buffer === null ? null : this.#pitch.stretcher(buffer.numberOfChannels);
+  }
+
+  /** Where a song's sound goes: through the balance where it has the part apart, else out as it is. */
+  #inputOf(song: SongSource): AudioNode {
+    if (!song.apart) return this.#output.into;
+    this.#balance ??= new PartBalance(this.#context, this.#output.into, this.#balanced);
+    return this.#balance.input;
+  }
+
+  #goOver(): void {
+    const song = this.#following;
+    if (song === null) return;
+    const position = this.#position();
+    song.want(segmentsAhead(position, this.#transport?.loop ?? null, song, SEGMENTS_AHEAD));
+    const isThere = position >= song.duration || song.at(segmentAt(position, song)) !== null;
+    if (this.#song === null || isThere) this.setSong(song);
   }
 
   #stopVoice(): void {

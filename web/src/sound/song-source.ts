@@ -6,6 +6,8 @@ export interface SongSource extends SongShape {
   readonly overlap: number;
   /** Seconds of sound that are decoded. */
   readonly heldSeconds: number;
+  /** Its channels are a part's two and the rest's two. */
+  readonly apart: boolean;
   /** A segment that is decoded; null while it is not. */
   at(segment: number): AudioBuffer | null;
   /** Have these decoded, the first most urgently, and others forgotten as room is needed. */
@@ -18,10 +20,12 @@ export interface SongSource extends SongShape {
 /** A song that was decoded as a whole. */
 export class WholeSong implements SongSource {
   readonly overlap = 0;
+  readonly apart: boolean;
   readonly #buffer: AudioBuffer;
 
-  constructor(buffer: AudioBuffer) {
+  constructor(buffer: AudioBuffer, apart = false) {
     this.#buffer = buffer;
+    this.apart = apart;
   }
 
   get duration(): number {
@@ -56,6 +60,7 @@ export class WholeSong implements SongSource {
 /** What a segmented song is made of. */
 export interface SegmentedSongParts extends SongShape {
   readonly overlap: number;
+  readonly apart?: boolean;
   /** Get and decode a segment; rejects where that cannot be. */
   load(segment: number, signal: AbortSignal): Promise<AudioBuffer>;
   /** A segment is there. */
@@ -72,6 +77,7 @@ export class SegmentedSong implements SongSource {
   readonly duration: number;
   readonly segmentLength: number;
   readonly overlap: number;
+  readonly apart: boolean;
   readonly #parts: SegmentedSongParts;
   /** In the order in which they were wanted last. */
   readonly #held = new Map<number, AudioBuffer>();
@@ -84,6 +90,7 @@ export class SegmentedSong implements SongSource {
     this.duration = parts.duration;
     this.segmentLength = parts.segmentLength;
     this.overlap = parts.overlap;
+    this.apart = parts.apart ?? false;
   }
 
   get heldSeconds(): number {

@@ -6,9 +6,9 @@ import type { SongSource } from "./song-source";
 /** Segments are faded into each other over this much of the song, seconds; both hold the same sound there. */
 export const CROSSFADE_S = 0.02;
 /** So far ahead of its time sound is scheduled: timers of a page in the background come once a second. */
-const SCHEDULED_AHEAD_S = 4;
+export const SCHEDULED_AHEAD_S = 4;
 /** What would begin sooner than this begins too late. */
-const MIN_LEAD_S = 0.01;
+export const MIN_LEAD_S = 0.01;
 
 interface Scheduled {
   readonly source: AudioBufferSourceNode;

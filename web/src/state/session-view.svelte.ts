@@ -21,24 +21,28 @@ import type {
   Session,
   SessionChange,
   ShowChanged,
-  SongSegments,
   SongState,
   TransportCommand,
   TransportState,
   WireNote,
 } from "../generated/protocol";
 import {
+  AS_WRITTEN,
+  besideEachOther,
+  isAsWritten,
   loadSegment,
   Metronome,
   loadWhole,
   monoWav,
   plannedSong,
   sameMotion,
+  queriesOf,
   SegmentedSong,
   SongPlayer,
   songState,
   soundTone,
   WholeSong,
+  type Hearing,
   type SoundState,
 } from "../sound";
 import { isListenedTo } from "./alignment-words";
@@ -47,6 +51,7 @@ import { lineNotes } from "./line-notes";
 import { Refresh } from "./refresh";
 import { heldAt, stepFrom } from "./note-steps";
 import type { PracticeChoices } from "./practice-choices.svelte";
+import { PartSound } from "./part-sound.svelte";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
 import { watchWakes } from "./wakes";
@@ -80,6 +85,8 @@ export class SessionView {
   readonly sync = new SyncMeasure();
   /** Who plays what, and whom the strips follow here. */
   readonly cast: CastState;
+  /** How the part and everything are heard here. */
+  readonly partSound: PartSound;
 
   session: Session;
   score: Score;
@@ -92,6 +99,8 @@ export class SessionView {
   /** The share of the song's making that is done, while it is being made; null once it is there. */
   soundShare = $state<number | null>(0);
   soundError = $state<string | null>(null);
+  /** Whether the song keeps its pitch where it is slower or faster; some browsers and addresses do not let it. */
+  keepsPitch = $state(true);
   /** Play was asked for, and waits for the sound of this place. */
   starting = $state(false);
   /** How far the score is in time with the recording. */
@@ -125,7 +134,7 @@ export class SessionView {
   readonly #player: SongPlayer;
   readonly #metronome: Metronome;
   /** The page's sound is on. */
-  #heard = true;
+  #audible = true;
   #endTone: () => void = () => undefined;
   readonly #checking: ReturnType<typeof setInterval>;
   readonly #unwatch: () => void;
@@ -138,6 +147,8 @@ export class SessionView {
   #queue: FrameQueue | null = null;
   #followed: TransportState | null = null;
   #songHref: string | null = null;
+  #song: SongState | null = null;
+  #heardAs = "";
   #songWanted = new AbortController();
   #readings = 0;
 
@@ -170,6 +181,7 @@ export class SessionView {
       (fields) => surroundings.api.changeCast(session.id, fields, token ?? ""),
       (error) => this.#fail(error),
     );
+    this.partSound = new PartSound(session.id);
     this.transport = $state.raw(transport);
     this.alignment = $state.raw(session.alignment);
     this.duration = session.duration_s;
@@ -192,7 +204,7 @@ export class SessionView {
       clicksIn: (piece) => {
         const { rate, loop, count_in_s } = this.transport;
         const counted = piece.shift > 0 ? (loop?.count_in_s ?? 0) : count_in_s;
-        return surroundings.practice.clicksIn(this.score, piece, { counted, rate, heard: this.#heard });
+        return surroundings.practice.clicksIn(this.score, piece, { counted, rate, heard: this.#audible });
       },
     });
     this.#stream = new Stream(streamAddress(session.links.stream), {
@@ -401,9 +413,15 @@ export class SessionView {
     this.#player.click(pageTime);
   }
 
+  /** Hear the part or everything otherwise; nobody else does. */
+  hear(change: { balance?: number; semitones?: number }): void {
+    this.partSound.choose(change);
+    this.#hear();
+  }
+
   setVolume(volume: number, muted: boolean): void {
     this.#player.setVolume(volume, muted);
-    this.#heard = volume > 0 && !muted;
+    this.#audible = volume > 0 && !muted;
   }
 
   /** Of the metronome and of tones, 0…1. */
@@ -571,9 +589,11 @@ export class SessionView {
       this.#followed = this.transport;
       this.#player.follow(this.transport);
     }
+    this.#hear();
     this.#player.check();
     const { metronome, division } = this.#surroundings.practice;
-    this.#metronome.check(`${this.transport.epoch} ${this.#player.motions} ${metronome} ${division} ${this.#heard}`);
+    this.#metronome.check(`${this.transport.epoch} ${this.#player.motions} ${metronome} ${division} ${this.#audible}`);
+    this.keepsPitch = this.#player.keepsPitch;
   }
 
   /** Play, counted in as the page does. */
@@ -581,6 +601,21 @@ export class SessionView {
     const { practice } = this.#surroundings;
     const place = this.here < this.duration - END_TOLERANCE_S ? this.here : 0;
     return { action: "play", count_in_s: practice.countInTo(this.score, place, this.rate) };
+  }
+
+  /** Have what the person wants to hear of the song: another part where another player is followed. */
+  #hear(): void {
+    this.#player.setBalance(this.partSound.balance);
+    if (this.#song !== null && this.#heardAs !== "" && this.#heardAs !== this.#queries) this.#loadSong(this.#song);
+  }
+
+  get #hearing(): Hearing {
+    return this.isRecording ? AS_WRITTEN : this.partSound.hearing(this.cast.followed);
+  }
+
+  /** What names it. */
+  get #queries(): string {
+    return `${queriesOf(this.#hearing).join()}?`;
   }
 
   #songTimeAt(pageTime: number): number {
@@ -606,37 +641,34 @@ export class SessionView {
   }
 
   #loadSong(song: SongState): void {
-    if (this.#songHref === song.href) return;
+    const isSameMusic = this.#song?.href === song.href && this.#songHref !== null;
+    this.#song = song;
+    if (this.#songHref === song.href && this.#heardAs === this.#queries) return;
     this.#songHref = song.href;
+    this.#heardAs = this.#queries;
     this.#songWanted.abort();
     this.#songWanted = new AbortController();
-    void this.#takeSong(song, AbortSignal.any([this.#ended.signal, this.#songWanted.signal]));
+    void this.#takeSong(song, isSameMusic, AbortSignal.any([this.#ended.signal, this.#songWanted.signal]));
   }
 
-  async #takeSong(known: SongState, signal: AbortSignal): Promise<void> {
+  async #takeSong(known: SongState, isSameMusic: boolean, signal: AbortSignal): Promise<void> {
+    const hearing = this.#hearing;
     this.soundShare = 0;
     this.soundError = null;
-    // What sounded before belongs to other fingers.
-    this.#player.setSong(null);
+    // What sounded before belongs to other fingers, unless it is only heard otherwise.
+    if (!isSameMusic) this.#player.setSong(null);
     try {
-      const song = await plannedSong(this.#surroundings.api, this.id, known, signal);
-      if (song.segments === null) await this.#takeWhole(song.href, signal);
-      else {
-        this.#player.setSong(this.#segmented(song.segments, song.href, signal));
-        await this.#followMaking(song, signal);
+      const songs = await this.#planned(known, hearing, signal);
+      const [first] = songs;
+      if (first?.segments === null) await this.#takeWhole(songs, signal);
+      else if (!signal.aborted) {
+        this.#player.goOverTo(this.#segmented(songs, signal));
+        await this.#followMaking(songs, hearing, signal);
       }
     } catch (error) {
-      this.#noSound(error, signal);
+      this.#notHeard(error, hearing, signal);
     }
     if (!signal.aborted) this.soundShare = null;
-  }
-
-  async #takeWhole(href: string, signal: AbortSignal): Promise<void> {
-    const bytes = await loadWhole(this.#surroundings.api, href, signal);
-    const decoded = await this.#player.decode(bytes);
-    if (signal.aborted) return;
-    this.#player.setSong(new WholeSong(decoded));
-    if (this.canControl && !isListenedTo(this)) void this.#send(decoded);
   }
 
   /** Send what this page decoded to the server, which does not decode it, to have the score looked for in it. */
@@ -651,32 +683,76 @@ export class SessionView {
     this.sending = false;
   }
 
-  #segmented(segments: SongSegments, href: string, signal: AbortSignal): SegmentedSong {
+  /** The songs that a hearing takes, as soon as their segments can be had. */
+  #planned(known: SongState, hearing: Hearing, signal: AbortSignal): Promise<SongState[]> {
     const { api } = this.#surroundings;
+    return Promise.all(
+      queriesOf(hearing).map(async (query) => {
+        const song = query === "" ? known : await songState(api, this.id, signal, query);
+        return plannedSong(api, this.id, song, signal, query);
+      }),
+    );
+  }
+
+  async #takeWhole(songs: readonly SongState[], signal: AbortSignal): Promise<void> {
+    const { api } = this.#surroundings;
+    const whole = await this.#decoded(songs.map(({ href }) => loadWhole(api, href, signal)));
+    if (signal.aborted) return;
+    this.#player.goOverTo(new WholeSong(whole, songs.length > 1));
+    if (this.isRecording && this.canControl && !isListenedTo(this)) void this.#send(whole);
+  }
+
+  /** A song from its bytes, or a part and the rest side by side. */
+  async #decoded(files: readonly Promise<ArrayBuffer>[]): Promise<AudioBuffer> {
+    const [first, second] = await Promise.all(files.map(async (file) => this.#player.decode(await file)));
+    if (first === undefined) throw new RangeError("there is nothing to decode");
+    return second === undefined ? first : besideEachOther([first, second]);
+  }
+
+  #segmented(songs: readonly SongState[], signal: AbortSignal): SegmentedSong {
+    const { api } = this.#surroundings;
+    const segments = songs.flatMap((song) => song.segments ?? []);
+    const [first] = segments;
+    if (first === undefined) throw new RangeError("the song has no segments");
     return new SegmentedSong({
-      duration: segments.song_s,
-      segmentLength: segments.segment_s,
-      overlap: segments.overlap_s,
-      load: async (segment, wanted) =>
-        this.#player.decode(await loadSegment(api, segments, segment, AbortSignal.any([signal, wanted]))),
+      duration: first.song_s,
+      segmentLength: first.segment_s,
+      overlap: first.overlap_s,
+      apart: songs.length > 1,
+      load: async (segment, wanted) => {
+        const either = AbortSignal.any([signal, wanted]);
+        return this.#decoded(segments.map((each) => loadSegment(api, each, segment, either)));
+      },
       came: () => this.#player.segmentCame(),
       failed: (error) => {
         if (error instanceof DOMException) {
           // Safari before 18.4 does not decode Ogg Opus; the whole is FLAC.
-          this.#takeWhole(href, signal).catch((reason: unknown) => this.#noSound(reason, signal));
-        } else this.#noSound(error, signal);
+          this.#takeWhole(songs, signal).catch((reason: unknown) => this.#notHeard(reason, this.#hearing, signal));
+        } else this.#notHeard(error, this.#hearing, signal);
       },
     });
   }
 
   /** Tell how far the server is until the song is there. */
-  async #followMaking(known: SongState, signal: AbortSignal): Promise<void> {
-    let song = known;
-    while (song.status === "rendering") {
-      this.soundShare = song.progress;
+  async #followMaking(known: readonly SongState[], hearing: Hearing, signal: AbortSignal): Promise<void> {
+    let songs = known;
+    while (songs.some(({ status }) => status === "rendering")) {
+      this.soundShare = Math.min(...songs.map(({ progress }) => progress));
       await new Promise((resolve) => setTimeout(resolve, SHARE_INTERVAL_MS));
       if (signal.aborted) return;
-      song = await songState(this.#surroundings.api, this.id, signal);
+      songs = await Promise.all(
+        queriesOf(hearing).map((query) => songState(this.#surroundings.api, this.id, signal, query)),
+      );
+    }
+  }
+
+  /** What was wanted cannot be heard: what everybody hears is heard again, or nothing where it is that. */
+  #notHeard(error: unknown, hearing: Hearing, signal: AbortSignal): void {
+    if (signal.aborted || isAsWritten(hearing)) this.#noSound(error, signal);
+    else {
+      this.#fail(error);
+      this.partSound.giveUp();
+      this.#hear();
     }
   }
 
