@@ -60,7 +60,7 @@ def why_hand(neighbours: Neighbours, index: int, side: int) -> str:
         return f"{hand}: double, one motion with two strokes"
     if beat.is_cross_stick:
         return f"{hand}: the cross-stick lies in the left hand" if side == LEFT else f"{hand}: cross-stick"
-    if setting.place[index] == "fast hat":
+    if setting.place[index] == "fast hat" and before == 1 - side:
         rate = f" at {1.0 / gap:.0f} a second" if gap < 1.0 else ""
         return f"{hand}: the hands share the hi-hat{rate}"
     if piece in TIMEKEEPERS and side == RIGHT:

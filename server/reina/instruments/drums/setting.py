@@ -175,9 +175,10 @@ def _in_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
         if first < 0 and second >= count:
             inside.append(False)
         elif first < 0 or second >= count:
+            # At the beginning and at the end of the time-keeping a stroke or two belong to it.
             near = second if first < 0 else first
-            alone = abs(near - index) <= 1
-            inside.append(alone and abs(beats[near].onset_s - beats[index].onset_s) <= GROOVE_SPAN_S / 2)
+            few = near <= 1 if first < 0 else count - 1 - first <= GROOVE_BETWEEN
+            inside.append(few and abs(beats[near].onset_s - beats[index].onset_s) <= GROOVE_SPAN_S / 2)
         else:
             span = beats[second].onset_s - beats[first].onset_s
             inside.append(second - first - 1 <= GROOVE_BETWEEN and span <= GROOVE_SPAN_S)

@@ -33,22 +33,22 @@ if TYPE_CHECKING:
     from reina.instruments.drums.setting import Beat, Setting
     from reina.rotations.arrays import FloatArray, IntArray
 
-LONGEST_RUN: Final = 6
+LONGEST_RUN: Final = 4
 """Strokes of one hand in a row are counted up to this."""
 
-TOGETHER_S: Final = 0.3
-"""Hands that strike within this time are there together, and may cross."""
+TOGETHER_S: Final = 0.2
+"""Hands that strike within this time are there together, and may cross; the more so the shorter it is."""
 
 STATIC_LEFT_HAT: Final = 1.6
 """The left hand on the hi-hat where the right one strikes something else with it."""
 
-IN_PASSING: Final = 0.4
-"""Arms that cross one after the other disturb each other by this part of what they do at once."""
+IN_PASSING: Final = 0.6
+"""Arms that cross one after the other disturb each other by this part of what they do at once, at most."""
 
 SKIP: Final = 1.6
 """A stroke that follows another of its hand after a rest so many times longer is the second of a pair."""
 
-SKIP_COST: Final = 0.3
+SKIP_COST: Final = 0.2
 MIN_GAP_S: Final = 0.07
 
 FORCED: Final = 40.0
@@ -176,8 +176,7 @@ def _costs(
     same = pieces[before, RIGHT] == pieces[:, RIGHT]
     is_triple = np.array([rudiment is TRIPLES for rudiment in setting.rudiment], dtype=np.bool_)
     # A cymbal's skip beat is one motion of the fingers.
-    eases = same & _KEEPS[pieces[:, RIGHT]] & (gap > MIN_GAP_S)
-    after_rest = np.where(index > 1, gap[before] >= SKIP * gap, True)
+    skips = same & _KEEPS[pieces[:, RIGHT]] & (gap > MIN_GAP_S) & ((index < 2) | (gap[before] >= SKIP * gap))
     bounces = (
         same & _DRUMS[pieces[:, RIGHT]] & (gap >= BOUNCE_S[0]) & (gap <= BOUNCE_S[1]) & (loud <= 1.25 * loud[before])
     )
@@ -188,15 +187,13 @@ def _costs(
         other_gap = np.where(known, at - at[other], np.inf)
         for h in (RIGHT, LEFT):
             # The other hand is where it struck last, if that is not long ago.
-            there = known & (other_gap < TOGETHER_S) & (run < LONGEST_RUN - 1)
-            skips = eases & ((run == 0) | after_rest)
-            crossed = np.where(there, _crossing(h, pieces[:, h], pieces[other, 1 - h]), 0.0)
+            there = np.where(known & (run < LONGEST_RUN - 1), other_gap, np.inf)
+            crossed = _crossing(h, pieces[:, h], pieces[other, 1 - h], there)
             stay[:, h, run] = np.where(skips, SKIP_COST, 1.0) * again[h] + crossed
             came = np.where(known, in_turn_cost(other_gap), 0.0)
             if run < LONGEST_RUN - 1:
                 came = came + np.where(known, travel_cost(pieces[other, h], pieces[:, h], other_gap), 0.0)
-            near = gap < TOGETHER_S
-            switch[:, h, run] = came + np.where(near, _crossing(h, pieces[:, h], pieces[before, 1 - h]), 0.0)
+            switch[:, h, run] = came + _crossing(h, pieces[:, h], pieces[before, 1 - h], gap)
             in_turn = np.where(known, in_turn_cost(other_gap), 0.0)
             into_both[:, h, run] = again[h] + in_turn
         if run <= 1:
@@ -206,13 +203,11 @@ def _costs(
     stay += np.where(setting.turn > 0, FORCED, 0.0)[:, None, None]
     switch += np.where(setting.turn < 0, FORCED, 0.0)[:, None, None]
     for h in (RIGHT, LEFT):
-        from_both[:, h] = again[h] + np.where(
-            gap < TOGETHER_S, _crossing(h, pieces[:, h], pieces[before, 1 - h]), 0.0
-        )
+        from_both[:, h] = again[h] + _crossing(h, pieces[:, h], pieces[before, 1 - h], gap)
     return stay, switch, from_both, into_both, again[RIGHT] + again[LEFT]
 
 
-def _crossing(hand: int, piece: IntArray, other_piece: IntArray) -> FloatArray:
-    """What it costs that a hand is on one piece while the other is on another."""
+def _crossing(hand: int, piece: IntArray, other_piece: IntArray, gap_s: FloatArray) -> FloatArray:
+    """What it costs that a hand is on one piece so soon after the other was on another."""
     crossing = CROSSING[piece, other_piece] if hand == RIGHT else CROSSING[other_piece, piece]
-    return IN_PASSING * crossing
+    return IN_PASSING * np.maximum(1.0 - gap_s / TOGETHER_S, 0.0) * crossing
