@@ -40,6 +40,9 @@ GROOVE_SPAN_S: Final = 1.45
 GROOVE_BETWEEN: Final = 2
 """More strokes than these between two of the timekeeper are a fill."""
 
+LEAVES_OUT: Final = 2.2
+"""Where the timekeeper leaves out so many of its strokes, several others are a fill."""
+
 FAST_S: Final = 0.2
 """Strokes of a timekeeper at this gap or less may be shared by both hands."""
 
@@ -60,6 +63,20 @@ ROLLS_APART_S: Final = 1.5
 
 FORCED: Final = 40.0
 """What it costs to leave a rudiment's sticking, or one that is written."""
+
+LEAD_UNEVEN: Final = 0.75
+"""The same where the bar is not divided evenly, as in triplets: the right hand begins, and they alternate."""
+
+ALTERNATE: Final = 0.15
+"""What it costs that a hand strikes twice within a run, at a gap of less than `ALTERNATE_S`."""
+
+ALTERNATE_S: Final = 0.3
+
+LOCAL: Final = 1
+"""Gaps on either side that say how the bar is divided at a place."""
+
+SHORTEST_S: Final = 0.045
+"""Gaps of less divide no bar."""
 
 EVEN_GRIDS: Final = (2.0, 1.0, 0.5, 0.25, 0.125, 1.0 / 6.0, 1.0 / 12.0)
 """Divisions in quarter notes that put the leading hand on each beat or each second one."""
@@ -98,12 +115,14 @@ class Setting:
         cost: (G, 2) of the right and of the left hand.
         place: Of each what goes on there: ``groove``, ``run``, ``fast hat`` or ``rudiment``.
         rudiment: Of each the rudiment that it belongs to.
+        again: (G,) what it costs that the hand strikes that struck last.
         turn: (G,) 1 where the hands should change, -1 where the same should go on, 0 where neither matters.
     """
 
     cost: FloatArray
     place: list[str]
     rudiment: list[Rudiment | None]
+    again: FloatArray
     turn: IntArray
 
 
@@ -118,7 +137,7 @@ def setting_of(beats: Sequence[Beat], named: Sequence[Rudiment | None]) -> Setti
     keeps = _timekeeping(beats)
     in_groove = _in_groove(beats, keeps)
     setting = Setting(
-        np.zeros((count, 2)), ["groove"] * count, [None] * count, np.zeros(count, dtype=np.int64)
+        np.zeros((count, 2)), ["groove"] * count, [None] * count, np.zeros(count), np.zeros(count, dtype=np.int64)
     )
     for index, beat in enumerate(beats):
         if len(beat.pieces) > 1:
@@ -163,6 +182,8 @@ def _in_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
     """Whether a beat stands between two of the timekeeper, or at one."""
     count = len(beats)
     before, after = [-1] * count, [count] * count
+    kept = [beat.onset_s for beat, is_kept in zip(beats, keeps, strict=True) if is_kept]
+    place = (np.cumsum(keeps) - 1).tolist()
     last = -1
     for index in range(count):
         before[index] = last = index if keeps[index] else last
@@ -181,8 +202,16 @@ def _in_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
             inside.append(few and abs(beats[near].onset_s - beats[index].onset_s) <= GROOVE_SPAN_S / 2)
         else:
             span = beats[second].onset_s - beats[first].onset_s
-            inside.append(second - first - 1 <= GROOVE_BETWEEN and span <= GROOVE_SPAN_S)
+            between = second - first - 1
+            leaves = between > 1 and span > LEAVES_OUT * _period(kept, place[first])
+            inside.append(between <= GROOVE_BETWEEN and span <= GROOVE_SPAN_S and not leaves)
     return inside
+
+
+def _period(kept: Sequence[float], place: int) -> float:
+    """How far a timekeeper's strokes usually are apart around one of them, seconds."""
+    near = kept[max(0, place - 4) : place + 6]
+    return float(np.median(np.diff(near)))
 
 
 def _fast_hats(beats: Sequence[Beat], keeps: Sequence[bool], setting: Setting) -> None:
@@ -258,18 +287,20 @@ def _lead(beats: Sequence[Beat], run: range, setting: Setting) -> None:
     positions = np.array([beats[index].beat for index in run])
     gaps_s = np.diff([beats[index].onset_s for index in run])
     gaps = np.mod(np.diff(positions), 1.0)
-    gaps = np.where(gaps_s > 0.06, np.where(gaps < 0.02, 1.0, gaps), np.inf)
-    grid = _nearest_grid(float(np.quantile(gaps, 0.1, method="higher")))
-    for index in run:
+    gaps = np.where(gaps_s > SHORTEST_S, np.where(gaps < 0.02, 1.0, gaps), np.inf)
+    for place, index in enumerate(run):
         setting.place[index] = "run"
+        if place and gaps_s[place - 1] < ALTERNATE_S:
+            setting.again[index] = ALTERNATE
         if len(beats[index].pieces) > 1:
             continue
-        weight = LEAD_FIRST if index == run[0] else LEAD
-        wrong = _wrong_hand(beats[index].beat, grid) if grid is not None else None
-        if grid is None and index == run[0]:
-            wrong = LEFT
-        if wrong is not None:
-            setting.cost[index, wrong] += weight
+        grid = _nearest_grid(float(np.min(gaps[max(0, place - LOCAL) : place + LOCAL])))
+        if grid is not None:
+            wrong = _wrong_hand(beats[index].beat, grid)
+            if wrong is not None:
+                setting.cost[index, wrong] += LEAD_FIRST if place == 0 else LEAD
+        elif place == 0:
+            setting.cost[index, LEFT] += LEAD_UNEVEN
 
 
 def _nearest_grid(gap: float) -> float | None:

@@ -200,6 +200,7 @@ def _costs(
             rebounds = bounces & (is_triple | (run == 0))
             cheap = np.minimum(stay[:, :, run], BOUNCE_COST)
             stay[:, :, run] = np.where(rebounds[:, None], cheap, stay[:, :, run])
+    stay += setting.again[:, None, None]
     stay += np.where(setting.turn > 0, FORCED, 0.0)[:, None, None]
     switch += np.where(setting.turn < 0, FORCED, 0.0)[:, None, None]
     for h in (RIGHT, LEFT):
