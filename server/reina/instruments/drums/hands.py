@@ -199,7 +199,9 @@ def _impossible(
                 if bounced and setting.rudiment[index] is TRIPLES:
                     fault = ""
                 elif bounced and (was_bounce or gap < BOUNCE_S[0] or not in_a_row):
-                    fault = f"no hand strikes {SPOKEN[PIECES[struck.piece[hit]]]} again after {gap * 1000:.0f} ms"
+                    fault = (
+                        f"no hand strikes {SPOKEN[PIECES[struck.piece[hit]]]} again after {gap * 1000:.0f} ms"
+                    )
                 elif not same and gap < _way_s(int(struck.piece[other]), int(struck.piece[hit])):
                     fault = (
                         f"no hand gets from {SPOKEN[PIECES[struck.piece[other]]]} to "

@@ -20,7 +20,9 @@ Technique = Literal[
     "choke",
 ]
 
-HANDS: tuple[Limb, Limb] = ("right_hand", "left_hand")
+Hand = Literal["right_hand", "left_hand"]
+
+HANDS: tuple[Hand, Hand] = ("right_hand", "left_hand")
 """The leading hand of a right-handed player first."""
 
 FEET: tuple[Limb, Limb] = ("right_foot", "left_foot")

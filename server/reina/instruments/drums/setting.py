@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 SNARE: Final = PIECES.index("snare")
 _IS_TIMEKEEPER: Final = np.array([piece in TIMEKEEPERS for piece in PIECES])
 _CRASHES: Final = (PIECES.index("crash_left"), PIECES.index("crash_right"))
+_LED: Final = [PIECES.index(piece) for piece in ("snare", "tom_high", "tom_mid", "tom_floor")]
 _GROOVE: Final = [IN_GROOVE[piece] for piece in PIECES]
 _RUN: Final = [IN_RUN[piece] for piece in PIECES]
 _HI_HAT: Final = PIECES.index("hi_hat")
@@ -137,7 +138,11 @@ def setting_of(beats: Sequence[Beat], named: Sequence[Rudiment | None]) -> Setti
     keeps = _timekeeping(beats)
     in_groove = _in_groove(beats, keeps)
     setting = Setting(
-        np.zeros((count, 2)), ["groove"] * count, [None] * count, np.zeros(count), np.zeros(count, dtype=np.int64)
+        np.zeros((count, 2)),
+        ["groove"] * count,
+        [None] * count,
+        np.zeros(count),
+        np.zeros(count, dtype=np.int64),
     )
     for index, beat in enumerate(beats):
         if len(beat.pieces) > 1:
@@ -290,6 +295,8 @@ def _lead(beats: Sequence[Beat], run: range, setting: Setting) -> None:
     gaps = np.where(gaps_s > SHORTEST_S, np.where(gaps < 0.02, 1.0, gaps), np.inf)
     for place, index in enumerate(run):
         setting.place[index] = "run"
+        if beats[index].pieces[0] not in _LED:
+            continue
         if place and gaps_s[place - 1] < ALTERNATE_S:
             setting.again[index] = ALTERNATE
         if len(beats[index].pieces) > 1:

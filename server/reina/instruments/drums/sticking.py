@@ -54,7 +54,9 @@ MIN_GAP_S: Final = 0.07
 FORCED: Final = 40.0
 
 _KEEPS: Final = np.array([piece in TIMEKEEPERS for piece in PIECES])
-_DRUMS: Final = np.array([piece not in ("ride", "crash_left", "crash_right", "china", "splash") for piece in PIECES])
+_DRUMS: Final = np.array(
+    [piece not in ("ride", "crash_left", "crash_right", "china", "splash") for piece in PIECES]
+)
 _BOTH: Final = 2 * LONGEST_RUN
 
 
@@ -178,7 +180,11 @@ def _costs(
     # A cymbal's skip beat is one motion of the fingers.
     skips = same & _KEEPS[pieces[:, RIGHT]] & (gap > MIN_GAP_S) & ((index < 2) | (gap[before] >= SKIP * gap))
     bounces = (
-        same & _DRUMS[pieces[:, RIGHT]] & (gap >= BOUNCE_S[0]) & (gap <= BOUNCE_S[1]) & (loud <= 1.25 * loud[before])
+        same
+        & _DRUMS[pieces[:, RIGHT]]
+        & (gap >= BOUNCE_S[0])
+        & (gap <= BOUNCE_S[1])
+        & (loud <= 1.25 * loud[before])
     )
     for run in range(LONGEST_RUN):
         other = index - 2 - run

@@ -54,7 +54,9 @@ def chart_of(name: str, row: dict[str, Any], *, times: int | None = None) -> Cha
         velocity=np.array([hit[3] for hit in hits]),
         is_cross_stick=np.array([hit[4] for hit in hits], dtype=np.bool_),
     )
-    return Chart(name, struck, np.sort(np.array(kicks, dtype=np.float64)) * step_s, "".join(hit[2] for hit in hits))
+    return Chart(
+        name, struck, np.sort(np.array(kicks, dtype=np.float64)) * step_s, "".join(hit[2] for hit in hits)
+    )
 
 
 def charts() -> dict[str, Chart]:
