@@ -63,12 +63,12 @@ class Drums(Instrument):
         self,
         score: Score,
         part: int,
-        transposition: int = 0,
+        transposition: int = 0,  # noqa: ARG002
         *,
-        written: bool = False,
-        octave_fit: bool = False,
+        written: bool = False,  # noqa: ARG002
+        octave_fit: bool = False,  # noqa: ARG002
         joined_parts: Sequence[int] = (),
-        usual_fingerings: bool = False,
+        usual_fingerings: bool = False,  # noqa: ARG002
     ) -> DrumPart:
         """As `Instrument.play`; a key is a drum and no pitch, so nothing is transposed."""
         return self.play_with(score, part, joined_parts=joined_parts)

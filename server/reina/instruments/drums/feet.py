@@ -57,6 +57,8 @@ def choose_feet(onset_s: FloatArray, beat: FloatArray, velocity: FloatArray, ped
     reasons = ["right foot on the bass drum"] * count
     gaps = np.diff(onset_s, prepend=-np.inf)
     begins = np.flatnonzero(gaps >= 1.0 / COMFORT)
+    if not count:
+        return Feet(foot, ())
     for begin, end in zip(begins.tolist(), [*begins[1:].tolist(), count], strict=True):
         if end - begin == 1:
             continue

@@ -11,7 +11,6 @@ from reina.instruments.drums.chokes import find_chokes
 from reina.instruments.drums.drum_map import PEDAL_CONTROLLER, drum_map, kit_of, strike
 from reina.instruments.drums.drum_part import DrumFingering, Handedness
 from reina.instruments.drums.feet import choose_feet
-
 from reina.instruments.drums.hands import choose_hands
 from reina.instruments.drums.hit import FEET, HANDS, PIECES, DrumHit, Limb, Technique
 from reina.instruments.drums.struck import Struck
@@ -184,8 +183,11 @@ def _layers(onset_s: FloatArray, piece: IntArray, keys: list[int], velocity: Flo
             continue
         by_piece: dict[int, int] = {}
         for hit in sorted(range(begin, end), key=lambda hit: -velocity[hit]):
-            if piece[hit] >= 0 and by_piece.setdefault(int(piece[hit]), hit) != hit:
-                together.append((hit, by_piece[int(piece[hit])]))
+            if piece[hit] < 0:
+                continue
+            first = by_piece.setdefault(int(piece[hit]), hit)
+            if first != hit:
+                together.append((hit, first))
         begin = end
     pairs = Counter(frozenset((keys[a], keys[b])) for a, b in together)
     kick = PIECES.index("kick")

@@ -15,7 +15,6 @@ from reina.instruments.drums.habits import (
     LEFT,
     REACH_S,
     RIGHT,
-    SPEED_M_S,
 )
 from reina.instruments.drums.hit import PIECES, SPOKEN
 from reina.instruments.drums.reasons import Neighbours, why_hand
@@ -76,6 +75,8 @@ def choose_hands(
     """
     count = len(struck)
     graces = find_graces(struck)
+    if not count:
+        return Hands(np.zeros(0, dtype=np.int64), (), graces)
     hand = np.full(count, UNPLAYED, dtype=np.int64)
     reasons = [""] * count
     playable = graces.main < 0

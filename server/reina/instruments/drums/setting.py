@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -227,7 +228,7 @@ def _fast_hats(beats: Sequence[Beat], keeps: Sequence[bool], setting: Setting) -
         while end < count and beats[end].onset_s - beats[end - 1].onset_s <= FAST_S:
             end += 1
         hats = [i for i in range(begin, end) if keeps[i] and beats[i].pieces == (_HI_HAT,)]
-        if len(hats) >= 4 and any(second - first == 1 for first, second in zip(hats, hats[1:], strict=False)):
+        if len(hats) >= 4 and any(second - first == 1 for first, second in pairwise(hats)):
             # A bar's length around each hat says whether the backbeat falls together with it.
             full = np.array([len(beats[i].pieces) > 1 for i in range(begin, end)])
             for index in range(begin, end):
@@ -257,7 +258,7 @@ def _amid_hats(beats: Sequence[Beat], index: int, keeps: Sequence[bool]) -> bool
     rows = [(index - 2, index - 1), (index + 1, index + 2)]
     gap = 0.5 * (beats[index + 1].onset_s - beats[index - 1].onset_s)
     return any(
-        0 <= first and second < len(beats) and keeps[first] and keeps[second]
+        first >= 0 and second < len(beats) and keeps[first] and keeps[second]
         and abs(beats[second].onset_s - beats[first].onset_s - gap) <= 0.25 * gap
         for first, second in rows
     )  # fmt: skip
