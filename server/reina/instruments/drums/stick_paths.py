@@ -105,7 +105,8 @@ class _Stick:
         self._point = np.stack([station.point for station in stations])
         self._normal = np.stack([station.normal for station in stations])
         self._heading = np.stack([station.heading for station in stations])
-        self._through = np.stack([station.through for station in stations])
+        struck = [station for station in stations if station is not stations[0]]
+        self._beyond = np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
         self._arm = self._point - np.stack([station.pivot for station in stations])
         self._swings: IntArray = np.array([station.swings for station in stations])
         self._outward = np.stack([_level(arm) for arm in self._arm])
@@ -116,7 +117,6 @@ class _Stick:
         self._height = np.concatenate([[0.0], plan.heights[:, 2]])
         self._shape = np.concatenate([[GLIDE], plan.heights[:, 3]])
         self._strokes = plan.strokes_s
-        self._beyond = plan.through
 
     def evaluate(
         self, times_s: FloatArray, tilt: FloatArray, closed: FloatArray
@@ -135,7 +135,7 @@ class _Stick:
         close = np.maximum(1.0 - height / FOLLOW_M, 0.0)[:, None] * np.abs(2.0 * blend - 1.0)
         tip = point + height[:, None] * normal
         tip = tip + close * self._moved(near, tilt) + close * closed[:, None] * self._drop[near]
-        tip = tip + self._past(times_s, near)
+        tip = tip + self._past(times_s)
         # The hand goes up and down itself, ahead of the tip; the stick's angle makes up for the rest.
         lifted = HAND_SHARE * self._heights(times_s + LEAD_S)
         sine = (height - lifted) / GRIP_M - np.sin(CONTACT_RAD)
@@ -180,7 +180,7 @@ class _Stick:
         turn = turned(self._outward[near], angles)
         return rotate(turn, self._arm[near]) - self._arm[near]
 
-    def _past(self, times_s: FloatArray, near: IntArray) -> FloatArray:
+    def _past(self, times_s: FloatArray) -> FloatArray:
         """How far a stroke goes on beyond an edge, ``(F, 3)``."""
         if not self._beyond.any():
             return np.zeros((len(times_s), 3))
@@ -193,8 +193,7 @@ class _Stick:
         there, back = THROUGH_S[0], THROUGH_S[1]
         away = minimum_jerk(since / there) * (1.0 - minimum_jerk((since - there) / back))
         room = np.clip((until - there - back) / 0.1, 0.0, 1.0)
-        far = np.where(place >= 0, away * room * self._beyond[known], 0.0)
-        return far[:, None] * self._through[near]
+        return np.where(place >= 0, away * room, 0.0)[:, None] * self._beyond[known]
 
 
 def turned(outward: FloatArray, tilt: FloatArray) -> FloatArray:
