@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.kit_answers import SWINGS
-from reina.instruments.drums.kit_places import UP
-from reina.instruments.drums.stick_plan import FALL, GLIDE, RISE, plan_sticks
+from reina.instruments.drums.motion.kit_answers import SWINGS
+from reina.instruments.drums.motion.kit_places import UP
+from reina.instruments.drums.motion.stick_plan import FALL, GLIDE, RISE, plan_sticks
 from reina.kinematics.motion_curves import minimum_jerk
 from reina.rotations import from_axis_angle, rotate
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.instruments.drums.hit import DrumHit
-    from reina.instruments.drums.kit_answers import KitAnswers
-    from reina.instruments.drums.kit_places import KitPlaces
-    from reina.instruments.drums.stick_plan import StickPlan
+    from reina.instruments.drums.motion.kit_answers import KitAnswers
+    from reina.instruments.drums.motion.kit_places import KitPlaces
+    from reina.instruments.drums.motion.stick_plan import StickPlan
     from reina.rotations.arrays import FloatArray, IntArray
 
 GRIP_M: Final = 0.27
@@ -106,7 +106,9 @@ class _Stick:
         self._normal = np.stack([station.normal for station in stations])
         self._heading = np.stack([station.heading for station in stations])
         struck = [station for station in stations if station is not stations[0]]
-        self._beyond = np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
+        self._beyond = (
+            np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
+        )
         self._arm = self._point - np.stack([station.pivot for station in stations])
         self._swings: IntArray = np.array([station.swings for station in stations])
         self._outward = np.stack([_level(arm) for arm in self._arm])
