@@ -221,7 +221,7 @@ def _pedal(
     if not told:
         return
     at = np.array([time for time, _ in told])
-    closed = np.array([value for _, value in told])
+    closed = [value for _, value in told]
     for hit, said in enumerate(strikes):
         if said.piece != "hi_hat" or technique[hit] not in ("open", "closed", "chick"):
             continue
@@ -229,8 +229,8 @@ def _pedal(
         if place < 0:
             continue
         if technique[hit] == "chick":
-            soon = slice(place, int(np.searchsorted(at, onset_s[hit] + SPLASH_S)))
-            if len(closed[soon]) and closed[soon][-1] < HALF_OPEN[0]:
+            soon = int(np.searchsorted(at, onset_s[hit] + SPLASH_S)) - 1
+            if soon >= place and closed[soon] < HALF_OPEN[0]:
                 technique[hit] = "splash"
         elif HALF_OPEN[0] <= closed[place] <= HALF_OPEN[1]:
             technique[hit] = "half_open"
