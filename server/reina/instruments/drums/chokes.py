@@ -80,7 +80,8 @@ def find_chokes(
         if struck_by is None:
             continue
         # The hand that did not strike is nearer to free.
-        order: tuple[Hand, ...] = HANDS if struck_by != HANDS[0] else HANDS[::-1]
+        right, left = HANDS
+        order: tuple[Hand, Hand] = (left, right) if struck_by == right else (right, left)
         free = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
         if free is not None:
             chokes.append(Choke(at_s, PIECES[int(piece[hit])], free))

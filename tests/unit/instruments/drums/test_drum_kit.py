@@ -129,7 +129,8 @@ def test_hands_that_stand_under_the_notes_are_kept() -> None:
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("Double paradiddle", "RLRLRRLRLRLL"), ("Paradiddle", "RLRRLRLLRLRR"), ("Double Strokes", "RRLLRRLLRRLL"),
+        ("Double paradiddle", "RLRLRRLRLRLL"), ("Paradiddle", "RLRRLRLLRLRR"),
+        ("Double Strokes", "RRLLRRLLRRLL"),
         ("Paradiddle-diddle", "RLRRLLRLRRLL"), ("Six Stroke Roll", "RLLRRLRLLRRL"), ("Drums", "RLRLRLRLRLRL"),
     ],
 )  # fmt: skip
