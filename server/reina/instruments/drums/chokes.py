@@ -82,7 +82,7 @@ def find_chokes(
         # The hand that did not strike is nearer to free.
         right, left = HANDS
         order: tuple[Hand, Hand] = (left, right) if struck_by == right else (right, left)
-        free = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
+        free: Hand | None = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
         if free is not None:
             chokes.append(Choke(at_s, PIECES[int(piece[hit])], free))
             choked.append(hit)
