@@ -73,7 +73,9 @@ def find_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
     inside: list[bool] = []
     for index in range(count):
         first, second = before[index], after[index]
-        if first < 0 and second >= count:
+        if keeps[index]:
+            inside.append(True)
+        elif first < 0 and second >= count:
             inside.append(False)
         elif first < 0 or second >= count:
             # At the beginning and at the end of the time-keeping a stroke or two belong to it.
