@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from reina.curves import Parameter
 from reina.instruments.drums.drum_map import drum_map, kit_of
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
+from reina.instruments.drums.hit import SPOKEN
+from reina.instruments.drums.motion.kit_answers import HEADS
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import BREATH_S
@@ -48,6 +51,27 @@ class Drums(Instrument):
 
     name, title, rig = "drums", "drum kit", "drumkit"
     handedness = ("right", "left")
+    parameters = (
+        Parameter(
+            path="drums/hi_hat/pedal",
+            type="number",
+            default=1.0,
+            minimum=0.0,
+            maximum=1.0,
+            documentation="How far the hi-hat is closed: 0 open, 1 closed.",
+        ),
+        *(
+            Parameter(
+                path=f"drums/{head}/head",
+                type="number",
+                default=0.0,
+                minimum=0.0,
+                maximum=1.0,
+                documentation=f"How far the head of {SPOKEN[head]} is dented: 0 flat, 1 as far as it gives.",
+            )
+            for head in HEADS
+        ),
+    )
 
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
         """Rank the parts of a score: drums first, and of them the one with the most notes for the kit."""
