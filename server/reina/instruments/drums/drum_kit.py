@@ -24,6 +24,7 @@ from reina.music.warnings import WarningLog
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from reina.instruments.played import PlayedPart
     from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import InstrumentBody
     from reina.kinematics import Curve, MotionCurves
@@ -122,7 +123,7 @@ class Drums(Instrument):
         fingering = finger_drums(score, indices, part, log, handedness=handedness)
         return DrumPart(part, 0, _line(score, indices), fingering, log.warnings(), joined)
 
-    def plan_gestures(self, played: DrumPart, *, seed: int = 0) -> dict[str, Curve]:  # type: ignore[override]
+    def plan_gestures(self, played: PlayedPart, *, seed: int = 0) -> dict[str, Curve]:
         """Not there yet."""
         raise NotImplementedError("the drummer's body is not there yet")
 

@@ -167,9 +167,13 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
         RigError: The kit lacks a piece.
     """
     maker = _PlanMaker(_rest(places, side))
+    known: dict[tuple[str, str, bool], Station] = {}
     for place, hit in enumerate(hits):
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
-        maker.strike(hit, _station(hit, places, side, swings), after)
+        key = (hit.piece, hit.zone, isinstance(hit, Grip))
+        if key not in known:
+            known[key] = _station(hit, places, side, swings)
+        maker.strike(hit, known[key], after)
     maker.finish()
     return StickPlan(
         maker.stations,

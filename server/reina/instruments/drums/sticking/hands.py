@@ -248,7 +248,7 @@ def _strike_graces(struck: Struck, graces: Graces, hand: IntArray, reasons: list
 def _is_free(struck: Struck, strokes: IntArray, grace: int) -> bool:
     """Whether a hand that has strokes to make has the time for a grace note, and for the way there."""
     at, piece = struck.onset_s, struck.piece
-    place = int(np.searchsorted(at[strokes], at[grace]))
+    place = int(np.searchsorted(at[strokes], float(at[grace])))
     for stroke in strokes[max(0, place - 1) : place + 1].tolist():
         gap = abs(float(at[stroke] - at[grace]))
         if gap < max(SOONEST_GRACE_S, _way_s(int(piece[stroke]), int(piece[grace]))):
