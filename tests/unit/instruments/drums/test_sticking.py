@@ -78,6 +78,17 @@ def test_drags_alternate_and_have_two_grace_notes_of_the_other_hand(tempo: int) 
     assert (hands.graces.drag.reshape(-1, 3) == [1, 1, 0]).all()
 
 
+@pytest.mark.parametrize("tempo", [60, 120, 180])
+@pytest.mark.parametrize(
+    ("group", "hands"),
+    [((0.8, 0.7), "RRLL"), ((0.8, 0.72, 0.65), "RRRLLL"), ((0.7, 0.7), "RLRL"), ((0.9, 0.5), "RLRL")],
+)
+def test_groups_that_die_away_are_one_hands(tempo: int, group: tuple[float, ...], hands: str) -> None:
+    times = 24 // len(group)
+    got = snare([k * 15.0 / tempo for k in range(times * len(group))], list(group) * times, 60.0 / tempo)
+    assert letters(got) == hands * (24 // len(hands))
+
+
 def test_softer_notes_at_an_even_gap_are_no_grace_notes() -> None:
     at = [k * 0.06 for k in range(16)]
     hands = snare(at, [0.4, 0.8] * 8)

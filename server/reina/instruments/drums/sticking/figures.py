@@ -45,10 +45,17 @@ LATE_S: Final = 0.024
 ACCENT: Final = 1.12
 """The softest accent is so many times louder than the loudest note that is none."""
 
-FAST_TRIPLES_S: Final = 0.09
+DYING: Final = (1.04, 1.35)
+"""So many times louder than the next is the first stroke of a double or a triple that dies away: less is
+chance, and more is an accent."""
+
+SLOW_DRAG: Final = (0.11, 0.7)
+"""So far apart may a drag's notes be where they have at most this part of their stroke's velocity."""
+
+FAST_TRIPLES_S: Final = 0.066
 """Accents of every third note at this gap or less are triple strokes; slower they are single strokes."""
 
-FAST_DOUBLES_S: Final = 0.1
+FAST_DOUBLES_S: Final = 0.066
 """Accents of every other note at this gap or less are double strokes; slower, a right hand that is
 stronger."""
 
@@ -131,14 +138,16 @@ def find_graces(struck: Struck) -> Graces:
     while begin < count - 1:
         gap = at[begin + 1] - at[begin]
         before = at[begin] - at[begin - 1] if begin else np.inf
-        if gap > DRAG_S or gap < GRACE_S[0] or piece[begin] != piece[begin + 1] or before < APART * gap:
+        if gap > SLOW_DRAG[0] or gap < GRACE_S[0] or piece[begin] != piece[begin + 1] or before < APART * gap:
             begin += 1
             continue
         third = at[begin + 2] - at[begin + 1] if begin + 2 < count else np.inf
         after = at[begin + 3] - at[begin + 2] if begin + 3 < count else np.inf
-        if GRACE_S[0] <= third <= DRAG_S and after >= APART * third:
+        is_two = GRACE_S[0] <= third <= SLOW_DRAG[0] and after >= APART * third
+        if is_two and piece[begin + 2] == piece[begin]:
             stroke = begin + 2
-            if max(loud[begin], loud[begin + 1]) <= SOFTER * loud[stroke]:
+            softer = SOFTER if max(gap, third) <= DRAG_S else SLOW_DRAG[1]
+            if max(loud[begin], loud[begin + 1]) <= softer * loud[stroke]:
                 main[begin : begin + 2] = stroke
                 drag[begin : begin + 2] = 1
                 begin = stroke
@@ -163,6 +172,10 @@ def stretch_rudiment(onset_s: FloatArray, velocity: FloatArray) -> Rudiment | No
     for (period, places), rudiment in ACCENTED.items():
         if len(onset_s) >= rudiment.least and _comes_round(velocity, period, places):
             return rudiment
+    if len(onset_s) >= DOUBLES.least and _dies_away(velocity, 2):
+        return DOUBLES
+    if len(onset_s) >= TRIPLES.least and _dies_away(velocity, 3):
+        return TRIPLES
     if len(onset_s) >= TRIPLES.least and gap <= FAST_TRIPLES_S and _comes_round(velocity, 3, (0,)):
         return TRIPLES
     if len(onset_s) >= DOUBLES.least and gap <= FAST_DOUBLES_S and _comes_round(velocity, 2, (0,)):
@@ -188,6 +201,16 @@ def named_rudiment(text: str) -> Rudiment | None:
     """Return the rudiment that a text names."""
     lowered = text.casefold().replace("_", " ")
     return next((rudiment for name, rudiment in NAMED.items() if name in lowered), None)
+
+
+def _dies_away(velocity: FloatArray, period: int) -> bool:
+    """Whether groups of so many notes get a little softer, and each next one is as loud again."""
+    whole = velocity[: len(velocity) // period * period].reshape(-1, period)
+    if not np.all(whole[:, :-1] >= DYING[0] * whole[:, 1:]) or np.any(whole[1:, 0] <= whole[:-1, -1]):
+        return False
+    level = whole.mean(axis=0)
+    is_little = np.all(level[:-1] <= DYING[1] * level[1:])
+    return bool(is_little and np.ptp(whole[:, 0]) <= 0.5 * (level[0] - level[1]))
 
 
 def _comes_round(velocity: FloatArray, period: int, places: tuple[int, ...]) -> bool:
