@@ -84,6 +84,7 @@ def find_chokes(
         order: tuple[Hand, Hand] = (left, right) if struck_by == right else (right, left)
         free: Hand | None = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
         if free is not None:
+            busy[free] = np.insert(busy[free], int(np.searchsorted(busy[free], at_s)), at_s)
             chokes.append(Choke(at_s, PIECES[int(piece[hit])], free))
             choked.append(hit)
     return tuple(chokes), choked

@@ -119,6 +119,15 @@ def test_no_hand_is_free_for_a_choke_while_both_play() -> None:
     assert drum_fingering(played(drum_score(sorted(strokes)))).chokes == ()
 
 
+def test_one_hand_chokes_one_cymbal_at_a_time() -> None:
+    press = [
+        Control("key_pressure", at, 2 * at, 9, key, 127) for at, key in ((0.4, 49), (0.42, 57), (0.44, 55))
+    ]
+    strokes = [(0.0, 49), (0.0, 57), (0.02, 55), (3.0, 49)]
+    chokes = drum_fingering(played(drum_score(strokes, controls=press))).chokes
+    assert sorted(choke.limb for choke in chokes) == ["left_hand", "right_hand"]
+
+
 def test_lengths_that_are_all_short_choke_nothing() -> None:
     strokes = [(2.0 * k, CRASH, 0.9, 0.1) for k in range(4)]
     assert drum_fingering(played(drum_score(strokes))).chokes == ()
