@@ -115,7 +115,8 @@ class _Stick:
         stations = plan.stations
         self._point = np.stack([station.point for station in stations])
         self._normal = np.stack([station.normal for station in stations])
-        self._heading = np.stack([station.heading for station in stations])
+        heading = np.stack([station.heading for station in stations])
+        self._azimuth = np.arctan2(heading[:, 0], heading[:, 2])
         struck = [station for station in stations if station is not stations[0]]
         self._beyond = (
             np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
@@ -148,8 +149,9 @@ class _Stick:
         point = self._point[station] * (1.0 - blend) + self._point[after] * blend
         normal = self._normal[station] * (1.0 - blend) + self._normal[after] * blend
         normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
-        heading = self._heading[station] * (1.0 - blend) + self._heading[after] * blend
-        heading = heading / np.linalg.norm(heading, axis=1, keepdims=True)
+        turn = self._azimuth[after] - self._azimuth[station]
+        azimuth = self._azimuth[station] + (np.mod(turn + np.pi, 2.0 * np.pi) - np.pi) * done
+        heading = np.stack([np.sin(azimuth), np.zeros_like(azimuth), np.cos(azimuth)], axis=1)
         near = np.where(done > 0.5, after, station)
         close = np.maximum(1.0 - height / FOLLOW_M, 0.0)[:, None] * np.abs(2.0 * blend - 1.0)
         tip = point + height[:, None] * normal
