@@ -1,0 +1,323 @@
+"""The strokes of one hand, planned once: where each lands, how it is prepared, how it goes on.
+
+Louder strokes begin higher: the tip is lifted about 5 cm for a tap and up to 40 cm for an accent (Dahl 2000,
+2004), and less where there is no time. It falls faster and faster, is on the surface at the onset, and
+rebounds into what comes next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from reina.instruments.drums.hit import DrumHit
+from reina.instruments.drums.motion.kit_places import UP
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.instruments.drums.motion.kit_places import KitPlaces, ZonePlace
+    from reina.rotations.arrays import FloatArray
+
+GRIP_M: Final = 0.27
+"""From the tip to where the stick is held: about a third from the butt of 406 mm."""
+
+CONTACT_RAD: Final = 0.27
+"""How steeply the stick points down where it lands."""
+
+GRIP_S: Final = 0.18
+"""How long a hand holds a cymbal that it chokes, at most."""
+
+EARLY_S: Final = 0.0168
+"""The tip is on the surface this long before the onset: so the last frame of a 60th
+before the onset shows it there, and none is late."""
+
+CONTACT_S: Final = 0.005
+"""And this long after."""
+
+EARLY_SHARE, CONTACT_SHARE = 0.35, 0.15
+"""Neither takes more than this part of the time between two strokes."""
+
+LIFT_M: Final = (0.035, 0.40)
+"""How high the tip is lifted for the softest and for the loudest stroke."""
+
+LIFT_POWER: Final = 1.5
+
+CROSS_STICK_LIFT_M: Final = 0.05
+"""The tip stays on the head as the butt is lifted; about so high is the hand."""
+
+LIFT_SPEED_M_S: Final = 1.1
+"""How high a stick gets in the time that it has: so many metres a second."""
+
+FALL_S: Final = 0.13
+"""What a stroke takes from its top to the surface, at most."""
+
+FALL_SHARE: Final = 0.45
+
+LONG_S: Final = 0.9
+"""In a longer gap the stick waits above the piece."""
+
+RISE_S: Final = 0.26
+REBOUND_S: Final = 0.2
+SETTLE_S: Final = 0.25
+WAIT_M: Final = 0.09
+"""Where it waits."""
+
+REST_S: Final = 2.6
+"""In a gap of this length the stick goes to its place of rest."""
+
+GO_REST_S: Final = 0.9
+LEAVE_AFTER_S: Final = 0.45
+
+REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
+"""How much of a stroke's height the stick gets back by itself; a loose head gives less."""
+
+CYMBAL_REBOUND: Final = 0.5
+
+CLEARANCE_M: Final = 0.09
+"""A stick passes at least so high above the higher of the two pieces that it goes between."""
+
+APART_M: Final = 0.03
+"""Each hand strikes a head this far to its own side of the middle, so that two sticks have room."""
+
+APART_SHARE: Final = 0.55
+"""And no farther than this part of the zone's radius."""
+
+THROUGH_M: Final = 0.07
+"""How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
+
+THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
+
+SAME_PLACE_M: Final = 0.02
+
+TRAVEL: Final = (0.04, 0.86)
+"""In which part of the time between two strokes the hand goes from one piece to the other."""
+
+ELBOW: Final = ((-0.28, 0.06), (0.28, 0.06))
+"""About where the elbows are, X and Z: from there a stick points to what it strikes."""
+
+REST_TIP: Final = ((-0.075, 0.13, -0.05), (0.075, 0.13, -0.05))
+"""Where the tips rest, from the middle of the snare."""
+
+
+@dataclass(frozen=True)
+class Grip(DrumHit):
+    """A hand goes to a cymbal's edge and holds it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Station:
+    """Where a stick is for a while: over a zone, or at rest.
+
+    Attributes:
+        point: (3,) where the tip lands.
+        normal: (3,) the way that it is lifted.
+        heading: (3,) which way the stick points from above, level, a unit vector.
+        through: (3,) where the tip goes on to after a stroke.
+        swings: Row of `SWINGS` whose tilt moves the point; -1 if it does not move.
+        pivot: (3,) what it turns about.
+        is_hi_hat: Whether it goes down as the hi-hat is closed.
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    heading: FloatArray
+    through: FloatArray
+    swings: int
+    pivot: FloatArray
+    is_hi_hat: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class StickPlan:
+    """The strokes of one hand.
+
+    Attributes:
+        stations: Where it is, in their order; the first and the last are its rest.
+        moves: (M, 2) from when to when it goes from station m to m + 1.
+        heights: (H, 4) what the tip's height above its station does: from, to, height at the end, and `RISE`,
+            `FALL` or `GLIDE`.
+        strokes_s: (K,) the onsets.
+        through: (K,) how far each goes on beyond the edge, in parts of the station's `through`.
+    """
+
+    stations: list[Station]
+    moves: FloatArray
+    heights: FloatArray
+    strokes_s: FloatArray
+    through: FloatArray
+
+
+RISE, FALL, GLIDE = 0.0, 1.0, 2.0
+"""Fast at first; faster and faster; from rest to rest."""
+
+
+def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: Sequence[str]) -> StickPlan:
+    """Plan all strokes of one hand.
+
+    Args:
+        hits: That hand's, by time.
+        places: The kit.
+        side: 0 on the player's right (-X), 1 on the left.
+        swings: Names of the pieces that turn, in the order of the rows of their tilts.
+
+    Raises:
+        RigError: The kit lacks a piece.
+    """
+    maker = _PlanMaker(_rest(places, side))
+    known: dict[tuple[str, str, bool], Station] = {}
+    for place, hit in enumerate(hits):
+        after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
+        key = (hit.piece, hit.zone, isinstance(hit, Grip))
+        if key not in known:
+            known[key] = _station(hit, places, side, swings)
+        maker.strike(hit, known[key], after)
+    maker.finish()
+    return StickPlan(
+        maker.stations,
+        np.array(maker.moves).reshape(-1, 2),
+        np.array(maker.heights).reshape(-1, 4),
+        np.array([hit.onset_s for hit in hits]),
+        np.array([_through(hit) for hit in hits]),
+    )
+
+
+class _PlanMaker:
+    """Makes the plan of one hand, stroke by stroke."""
+
+    def __init__(self, rest: Station) -> None:
+        self._rest = rest
+        self._before: DrumHit | None = None
+        self._free_s = -np.inf  # since when the tip is off what it struck last
+        self.stations = [rest]
+        self.moves: list[tuple[float, float]] = []
+        self.heights: list[tuple[float, float, float, float]] = []
+
+    def strike(self, hit: DrumHit, station: Station, after_s: float) -> None:
+        """Add a stroke; `after_s` is the time up to the next one."""
+        before = self._before
+        gap = hit.onset_s - before.onset_s if before else np.inf
+        lands_s = hit.onset_s - min(EARLY_S, EARLY_SHARE * gap)
+        room = lands_s - self._free_s
+        lift = _lift(hit, room)
+        far = float(np.linalg.norm(station.point - self.stations[-1].point))
+        if far > SAME_PLACE_M and gap < REST_S:
+            rise = abs(float(station.point[1] - self.stations[-1].point[1]))
+            lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
+        if before is None or gap >= REST_S:
+            fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
+        elif room > LONG_S:
+            fall_s = self._waiting(before, lift, far, lands_s)
+        else:
+            fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
+            self.moves.append((self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room))
+            self.heights.append((self._free_s, fall_s, lift, RISE))
+        self.heights.append((fall_s, lands_s, 0.0, FALL))
+        self.stations.append(station)
+        held_s = (GRIP_S, 0.5 * after_s) if isinstance(hit, Grip) else (CONTACT_S, CONTACT_SHARE * after_s)
+        self._free_s = hit.onset_s + min(held_s)
+        self._before = hit
+
+    def finish(self) -> None:
+        """Add the way to rest after the last stroke."""
+        if self._before is not None:
+            self._to_rest(self._before)
+
+    def _to_rest(self, before: DrumHit) -> None:
+        leave_s = self._free_s + LEAVE_AFTER_S
+        self.heights += [
+            (self._free_s, self._free_s + RISE_S, _rebound(before), RISE),
+            (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
+        ]
+        self.moves.append((leave_s, leave_s + GO_REST_S))
+        self.stations.append(self._rest)
+
+    def _from_rest(self, lift: float, lands_s: float) -> float:
+        """Rest since the stroke before, then come to this one; returns when the stroke falls."""
+        fall_s = lands_s - FALL_S
+        start_s = fall_s - GO_REST_S
+        if self._before is not None:
+            self._to_rest(self._before)
+        else:
+            # What begins with the song is prepared when it does, if there is time.
+            start_s = max(start_s, min(0.0, fall_s - RISE_S))
+        self.heights.append((start_s, fall_s, lift, GLIDE))
+        self.moves.append((start_s, fall_s + 0.4 * FALL_S))
+        return fall_s
+
+    def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
+        """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
+        free_s, fall_s = self._free_s, lands_s - FALL_S
+        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
+        self.moves.append((free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)))
+        self.heights += [
+            (free_s, free_s + REBOUND_S, max(_rebound(before), wait if far > SAME_PLACE_M else 0.0), RISE),
+            (free_s + REBOUND_S, free_s + REBOUND_S + SETTLE_S, wait, GLIDE),
+            (fall_s - RISE_S, fall_s, lift, GLIDE),
+        ]
+        return fall_s
+
+
+def _lift(hit: DrumHit, room_s: float) -> float:
+    """How high the tip is lifted for a stroke, metres."""
+    if hit.technique == "cross_stick":
+        return min(CROSS_STICK_LIFT_M, LIFT_SPEED_M_S * room_s)
+    wanted = LIFT_M[0] + (LIFT_M[1] - LIFT_M[0]) * hit.velocity**LIFT_POWER
+    if hit.technique in ("flam_grace", "drag_grace", "ghost"):
+        wanted = min(wanted, 0.05)
+    return min(wanted, LIFT_SPEED_M_S * room_s)
+
+
+def _rebound(hit: DrumHit) -> float:
+    share = REBOUND.get(hit.piece, CYMBAL_REBOUND)
+    return max(0.04, share * _lift(hit, np.inf))
+
+
+def _through(hit: DrumHit) -> float:
+    is_through = hit.piece in THROUGH and hit.zone == "edge" and not isinstance(hit, Grip)
+    return hit.velocity if is_through else 0.0
+
+
+def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) -> Station:
+    zone = places[hit.piece, hit.zone]
+    heading = _heading(zone.position, side)
+    if isinstance(hit, Grip):
+        return _grip(hit, zone, heading, swings)
+    across = np.cross(UP, heading)  # to the stick's left
+    across = across - zone.normal * float(across @ zone.normal)
+    across = across / np.linalg.norm(across)
+    apart = min(APART_M, APART_SHARE * zone.radius) * (1.0 if side else -1.0)
+    through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
+    return Station(
+        zone.position + apart * across,
+        zone.normal,
+        heading,
+        through,
+        swings.index(hit.piece) if hit.piece in swings else -1,
+        zone.pivot,
+        hit.piece == "hi_hat",
+    )
+
+
+def _grip(hit: Grip, zone: ZonePlace, heading: FloatArray, swings: Sequence[str]) -> Station:
+    """The hand is at the edge, and the stick beside the cymbal, along its edge."""
+    along = np.cross(UP, zone.outward)
+    along = along if float(along @ heading) > 0.0 else -along
+    stick = along * np.cos(CONTACT_RAD) - UP * np.sin(CONTACT_RAD)
+    return Station(
+        zone.position + GRIP_M * stick, UP, along, np.zeros(3), swings.index(hit.piece), zone.pivot
+    )
+
+
+def _heading(point: FloatArray, side: int) -> FloatArray:
+    elbow = np.array([ELBOW[side][0], 0.0, ELBOW[side][1]])
+    level = (point - elbow) * (1.0, 0.0, 1.0)
+    return level / np.linalg.norm(level)
+
+
+def _rest(places: KitPlaces, side: int) -> Station:
+    snare = places["snare", "centre"]
+    point = snare.position + np.array(REST_TIP[side])
+    return Station(point, UP, _heading(point, side), np.zeros(3), -1, point)
