@@ -91,7 +91,9 @@ def contacts() -> list[dict[str, Any]]:
         ball = [0.0, m.BOARD_TOP, m.BALL * pedal.length]
         result.append({"name": f"{side}Pedal", "joint": pedal.name, "offset": ball})
         heel = pedal.hinge - 0.035 * pedal.ahead
-        result.append({"name": f"{side}Heel", "joint": "kit", "offset": [float(heel[0]), 0.022, float(heel[2])]})
+        result.append(
+            {"name": f"{side}Heel", "joint": "kit", "offset": [float(heel[0]), 0.022, float(heel[2])]}
+        )
     # Where the beater's felt is when it lies against the head, in the beater's own frame.
     turn = m.beater_contact_rad()
     felt = [0.0, m.BEATER_REACH + m.BEATER_HALF * np.sin(turn), m.BEATER_HALF * np.cos(turn)]
@@ -126,7 +128,9 @@ def stick_content(side: str) -> dict[str, Any]:
         "licence": "CC0-1.0",
         "models": {tier: f"{tier}.glb" for tier in TIERS},
         "joints": [joint(name, None, np.zeros(3), np.eye(3))],
-        "effectors": [{"name": f"{name}Tip", "joint": name, "offset": [0.0, -m.BEAD_RADIUS, tip - m.BEAD_LENGTH / 2]}],
+        "effectors": [
+            {"name": f"{name}Tip", "joint": name, "offset": [0.0, -m.BEAD_RADIUS, tip - m.BEAD_LENGTH / 2]}
+        ],
         "contacts": [{"name": "butt", "joint": name, "offset": [0.0, 0.0, -m.STICK_BUTT]}],
         "capsules": [
             {

@@ -170,7 +170,6 @@ COWBELL_MOUTH_SIZE = (0.094, 0.058)
 COWBELL_BACK_SIZE = (0.062, 0.040)
 
 
-
 @dataclass(frozen=True)
 class Pedal:
     """A board that turns about the hinge at its heel; at rest it is as high as its spring holds it.

@@ -31,7 +31,13 @@ def capsules() -> list[dict[str, Any]]:
     for stand in STANDS:
         for start, end, radius in stand.lines():
             add(stand.name, "kit", start, end, radius)
-    add(HAT_STAND.name, "kit", np.array(HAT_STAND.top), np.array([m.HAT_X, m.HAT_EDGE_Y - 0.03, m.HAT_Z]), 0.008)
+    add(
+        HAT_STAND.name,
+        "kit",
+        np.array(HAT_STAND.top),
+        np.array([m.HAT_X, m.HAT_EDGE_Y - 0.03, m.HAT_Z]),
+        0.008,
+    )
     add("tom_mount", "kit", POST_FOOT, np.array([POST_FOOT[0], POST_TOP, POST_FOOT[2]]), 0.014)
     for turn in np.radians(THRONE_LEGS_DEG):
         foot = np.array([THRONE_REACH * np.sin(turn), 0.012, THRONE_REACH * np.cos(turn)])
@@ -43,7 +49,9 @@ def capsules() -> list[dict[str, Any]]:
             add(pedal.name, pedal.name, across + 0.03 * ahead, across + 0.97 * ahead, m.BOARD_TOP)
     for drum in m.DRUMS:
         wooden = drum is m.KICK
-        for over in (m.KICK_HOOP_OVER - m.KICK_HOOP_THICK / 2, -drum.depth) if wooden else (m.HOOP_OVER, -drum.depth):
+        for over in (
+            (m.KICK_HOOP_OVER - m.KICK_HOOP_THICK / 2, -drum.depth) if wooden else (m.HOOP_OVER, -drum.depth)
+        ):
             turns = np.linspace(0, 2 * np.pi, HOOP_PIECES + 1)
             ring = [drum.at(over, drum.hoop_radius, turn) for turn in turns]
             for start, end in itertools.pairwise(ring):
@@ -73,17 +81,41 @@ def cylinders() -> list[dict[str, Any]]:
         add(drum.name, "kit", drum.at(0), drum.at(-drum.depth), drum.radius)
     for cymbal in m.CYMBALS:
         for start, end, radius in cymbal_steps(cymbal):
-            add(cymbal.name.removesuffix("_top"), cymbal.name, np.array([0, start, 0]), np.array([0, end, 0]), radius)
+            add(
+                cymbal.name.removesuffix("_top"),
+                cymbal.name,
+                np.array([0, start, 0]),
+                np.array([0, end, 0]),
+                radius,
+            )
     low = m.HI_HAT_TOP
     bottom = m.HAT_EDGE_Y - m.HAT_GAP
-    add("hi_hat", "kit", np.array([m.HAT_X, bottom - 0.030, m.HAT_Z]), np.array([m.HAT_X, bottom, m.HAT_Z]), low.radius)
-    add("stool", "kit", np.array([0, m.SEAT_TOP - m.SEAT_THICK, 0.0]), np.array([0, m.SEAT_TOP, 0.0]), m.SEAT_RADIUS)
+    add(
+        "hi_hat",
+        "kit",
+        np.array([m.HAT_X, bottom - 0.030, m.HAT_Z]),
+        np.array([m.HAT_X, bottom, m.HAT_Z]),
+        low.radius,
+    )
+    add(
+        "stool",
+        "kit",
+        np.array([0, m.SEAT_TOP - m.SEAT_THICK, 0.0]),
+        np.array([0, m.SEAT_TOP, 0.0]),
+        m.SEAT_RADIUS,
+    )
     back = m.COWBELL_MOUTH_SIZE
     half = 0.5 * min(back)
     for across in (-1, 1):
         side = np.array([across * (0.5 * back[0] - half), 0.0, 0.0])
         narrow = np.array([across * (0.5 * m.COWBELL_BACK_SIZE[0] - half), 0.0, 0.0])
-        add("cowbell", "kit", m.COWBELL_MOUTH + side, m.COWBELL_BACK + np.maximum(narrow * across, 0) * across, half)
+        add(
+            "cowbell",
+            "kit",
+            m.COWBELL_MOUTH + side,
+            m.COWBELL_BACK + np.maximum(narrow * across, 0) * across,
+            half,
+        )
     return result
 
 

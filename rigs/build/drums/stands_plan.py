@@ -58,9 +58,7 @@ class Stand:
     def feet(self) -> list[Array]:
         """Where its legs stand, at the middle of their ends."""
         turns = np.radians(self.legs_deg)
-        return [
-            self.base + np.array([self.reach * np.sin(t), FOOT, self.reach * np.cos(t)]) for t in turns
-        ]
+        return [self.base + np.array([self.reach * np.sin(t), FOOT, self.reach * np.cos(t)]) for t in turns]
 
     def lines(self) -> list[tuple[Array, Array, float]]:
         """Its solid parts: start, end and radius of each."""
@@ -87,9 +85,7 @@ def under(name: str, below: float = 0.022) -> tuple[float, float, float]:
 SNARE_STAND = Stand(
     "snare_stand", (0.04, 0.40), 0.40, (0.04, 0.47, 0.40), (180, 60, -60), reach=0.17, hub=0.22
 )
-HAT_STAND = Stand(
-    "hi_hat_stand", (m.HAT_X, m.HAT_Z), 0.72, (m.HAT_X, 0.82, m.HAT_Z), (60, -45), reach=0.24
-)
+HAT_STAND = Stand("hi_hat_stand", (m.HAT_X, m.HAT_Z), 0.72, (m.HAT_X, 0.82, m.HAT_Z), (60, -45), reach=0.24)
 CYMBAL_STANDS = (
     Stand("ride_stand", (-0.88, 0.70), 0.80, under("ride"), (-100, 20, 140)),
     Stand("crash_left_stand", (0.50, 0.98), 0.95, under("crash_left"), (0, 120, -120)),
