@@ -138,8 +138,8 @@ class Cymbal:
 KICK_X = -0.19
 KICK = Drum("kick", (KICK_X, 0.315, 0.76), (0.0, 0.0, -1.0), 11 * INCH, 14 * INCH, 10)
 SNARE = Drum("snare", (0.04, 0.65 - HOOP_TOP, 0.40), (0.0, 1.0, 0.0), 7 * INCH, 5.5 * INCH, 10)
-TOM_HIGH = Drum("tom_high", (0.045, 0.835, 0.72), tuple(tilted(22, 4)), 5 * INCH, 7 * INCH, 6)
-TOM_MID = Drum("tom_mid", (-0.305, 0.835, 0.72), tuple(tilted(22, 14)), 6 * INCH, 8 * INCH, 6)
+TOM_HIGH = Drum("tom_high", (0.045, 0.845, 0.72), tuple(tilted(22, 4)), 5 * INCH, 7 * INCH, 6)
+TOM_MID = Drum("tom_mid", (-0.305, 0.845, 0.72), tuple(tilted(22, 14)), 6 * INCH, 8 * INCH, 6)
 TOM_FLOOR = Drum("tom_floor", (-0.63, 0.61, 0.27), tuple(tilted(5, 40)), 8 * INCH, 14 * INCH, 8)
 DRUMS = (SNARE, KICK, TOM_HIGH, TOM_MID, TOM_FLOOR)
 KICK_HOOP_WIDTH = 0.040
@@ -216,7 +216,7 @@ BEATER_HALF = 0.022
 BEATER_REST_DEG = -38.0
 """About +X from straight up: the beater leans back to the player while the pedal is up."""
 KICK_PEDAL = Pedal("kick_pedal", (KICK_X, float(AXLE[2]) + SPROCKET), 0.0)
-HAT_PEDAL = Pedal("hi_hat_pedal", (HAT_X, HAT_Z), 16.0, length=0.285)
+HAT_PEDAL = Pedal("hi_hat_pedal", (HAT_X - 0.007, HAT_Z - 0.023), 16.0, length=0.285)
 PEDALS = (KICK_PEDAL, HAT_PEDAL)
 BOARD_TOP = 0.005
 """How far a board's top lies over the hinge's middle, out of the board."""

@@ -89,7 +89,7 @@ HAT_STAND = Stand("hi_hat_stand", (m.HAT_X, m.HAT_Z), 0.72, (m.HAT_X, 0.82, m.HA
 CYMBAL_STANDS = (
     Stand("ride_stand", (-0.88, 0.70), 0.80, under("ride"), (-100, 20, 140)),
     Stand("crash_left_stand", (0.50, 0.98), 0.95, under("crash_left"), (0, 120, -120)),
-    Stand("crash_right_stand", (-0.70, 1.12), 0.98, under("crash_right"), (90, -30, 210), reach=0.24),
+    Stand("crash_right_stand", (-0.70, 1.12), 0.98, under("crash_right"), (60, 180, -60), reach=0.24),
     Stand("china_stand", (-1.08, 0.36), 0.90, under("china"), (-20, 100, 220), reach=0.24),
 )
 STANDS = (SNARE_STAND, HAT_STAND, *CYMBAL_STANDS)
