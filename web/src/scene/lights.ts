@@ -71,11 +71,15 @@ export class StageLights {
     for (const { light } of this.spots) light.visible = lit;
   }
 
-  /** Cast the shadows of everybody who stands here: the key's picture of them is as wide as they stand apart, metres. */
-  reach(stands: readonly { readonly x: number; readonly z: number }[]): void {
+  /**
+   * Cast the shadows of everybody who stands here: the key's picture of them is as wide as they stand apart, metres.
+   *
+   * @param beside how far from the middle there is anything else whose shadow counts.
+   */
+  reach(stands: readonly { readonly x: number; readonly z: number }[], beside = 0): void {
     // To the next ten centimetres: who only sways changes nothing.
     const spread = Math.ceil(10 * Math.max(0, ...stands.map(({ x }) => Math.abs(x - TARGET.x)))) / 10;
-    const reach = Math.max(SHADOW_REACH, spread + SHADOW_MARGIN);
+    const reach = Math.max(SHADOW_REACH, spread + SHADOW_MARGIN, beside);
     const { camera } = this.key.shadow;
     if (camera.right === reach) return;
     camera.left = camera.bottom = -reach;
