@@ -117,7 +117,7 @@ def metal_hoop(piece: Workpiece, materials: KitMaterials, drum: Drum, head_y: fl
         (m.HOOP_OVER, out - wall),
     ]
     piece.lathe(materials.chrome, [0, head_y, 0], [0, sign, 0], profile, 56)
-    piece.ring(materials.chrome, [0, head_y + sign * m.HOOP_OVER, 0], [0, 1, 0], out, m.HOOP_BEAD, 56, 7)
+    piece.ring(materials.chrome, [0, head_y + sign * m.HOOP_OVER, 0], [0, 1, 0], out, m.HOOP_BEAD, 56, 8)
 
 
 def wooden_hoop(piece: Workpiece, materials: KitMaterials, drum: Drum, head_y: float, sign: float) -> None:

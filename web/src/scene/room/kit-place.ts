@@ -1,21 +1,12 @@
 /** What a drum kit stands on: a platform with a rug, there only while a kit is on the stage. */
 
-import {
-  BoxGeometry,
-  CanvasTexture,
-  Group,
-  type InstancedMesh,
-  Mesh,
-  type Object3D,
-  Quaternion,
-  SRGBColorSpace,
-  Vector3,
-} from "three";
+import { BoxGeometry, Group, type InstancedMesh, Mesh, type Object3D, Vector3 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import { createContactShade, type Patch } from "./contact-shade";
 import type { WithRow } from "./furniture";
 import { painted } from "./painted";
+import { createRug } from "./rug";
 import { createSurface, type RoomLight } from "./surface";
 
 /** The rig that stands on it. */
@@ -46,65 +37,6 @@ const SHADE: readonly Patch[] = [
   [-1.08, 0.36, 0.45, 0.45],
 ];
 
-/** Old wool: everything a little grey. */
-const FIELD = "#262c3b";
-const BORDER = "#4a2422";
-const SAND = "#8f7a58";
-const FADED = "#5b5a58";
-
-type Place = readonly [x: number, y: number];
-
-/** A rug's picture: a border of lozenges around a field that is strewn with small ones. */
-function rugPicture(): CanvasTexture {
-  const [width, height] = [1024, 930];
-  const canvas = document.createElement("canvas");
-  Object.assign(canvas, { width, height });
-  const draw = canvas.getContext("2d");
-  if (draw !== null) drawRug(draw, width, height);
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = 8;
-  return texture;
-}
-
-function drawRug(draw: CanvasRenderingContext2D, width: number, height: number): void {
-  const frame = (inset: number, color: string): void => {
-    draw.fillStyle = color;
-    draw.fillRect(inset, inset, width - 2 * inset, height - 2 * inset);
-  };
-  const lozenge = ([x, y]: Place, size: number, color: string): void => {
-    draw.fillStyle = color;
-    draw.beginPath();
-    draw.moveTo(x, y - 1.25 * size);
-    draw.lineTo(x + size, y);
-    draw.lineTo(x, y + 1.25 * size);
-    draw.lineTo(x - size, y);
-    draw.fill();
-  };
-  const bands = [FIELD, SAND, BORDER, SAND, FIELD, SAND, BORDER, FIELD];
-  [0, 10, 13, 30, 33, 100, 103, 118].forEach((inset, i) => frame(inset, bands[i] ?? FIELD));
-  const across = Array.from({ length: 26 }, (_, i) => 66 + (i * (width - 132)) / 25);
-  const along = Array.from({ length: 24 }, (_, i) => 66 + (i * (height - 132)) / 23);
-  const border = [
-    ...across.flatMap((x): Place[] => [66, height - 66].map((y): Place => [x, y])),
-    ...along.slice(1, -1).flatMap((y): Place[] => [66, width - 66].map((x): Place => [x, y])),
-  ];
-  border.forEach((place, i) => {
-    lozenge(place, 15, i % 2 === 0 ? SAND : FADED);
-    lozenge(place, 11, BORDER);
-    lozenge(place, 4, SAND);
-  });
-  for (let row = 0; row < 12; row++) {
-    for (let column = 0; column < 14; column++) {
-      const place: Place = [166 + column * 56 - (row % 2) * 28, 168 + row * 54];
-      if (place[0] < 150) continue;
-      lozenge(place, 11, (row + column) % 3 === 0 ? SAND : FADED);
-      lozenge(place, 8, FIELD);
-      lozenge(place, 3, (row + column) % 3 === 0 ? BORDER : SAND);
-    }
-  }
-}
-
 /** Woven: threads across, and a little wear. */
 const WEAVE = /* glsl */ `
 float weave(vec2 place) {
@@ -131,62 +63,67 @@ function slab({ left, right, back, front }: Extent, height: number, top: number)
   );
 }
 
+/** The platform with its rug and what lies in the kit's shade, in the kit's frame. */
+function createPlatform(light: RoomLight): Object3D[] {
+  const { front, left, right } = PLATFORM;
+  const edge = new BoxGeometry(left - right, 0.03, 0.03).translate((left + right) / 2, -0.024, front);
+  const wood = createSurface({ vertexColors: true, roughness: 0.55, metalness: 0, envMapIntensity: 0.35 }, light, {});
+  const platform = new Mesh(
+    mergeGeometries([painted(slab(PLATFORM, DEEP, SUNK - RUG_THICK), 0x38251a), painted(edge, 0x7a5a3c)]),
+    wood,
+  );
+  const picture = createRug((RUG.front - RUG.back) / (RUG.left - RUG.right));
+  const cloth = createSurface({ map: picture, roughness: 0.95, metalness: 0, envMapIntensity: 0.25 }, light, {
+    declarations: WEAVE,
+    color: "diffuseColor.rgb *= weave(vRoomPlace.xz);",
+  });
+  const rug = new Mesh(slab(RUG, RUG_THICK, SUNK), cloth);
+  for (const mesh of [platform, rug]) mesh.receiveShadow = true;
+  platform.castShadow = true;
+  platform.name = "kit platform";
+  rug.name = "kit rug";
+  const shade = createContactShade(SHADE);
+  shade.position.y = SUNK;
+  return [platform, rug, shade];
+}
+
+/** From under the stool to the outermost of what casts a shadow, as it is seen from the key, metres. */
+const KIT_HALF = 0.6;
+
 export class KitPlace {
   readonly object = new Group();
-  readonly #kit = { node: null as Object3D | null };
+  #node: Object3D | null = null;
+  readonly #light: RoomLight;
   readonly #inTheWay: readonly { readonly mesh: InstancedMesh; readonly without: number; readonly all: number }[];
-  readonly #turn = new Quaternion();
   readonly #scale = new Vector3();
 
   /** @param inTheWay what of the room is put away while a kit stands there. */
   constructor(light: RoomLight, inTheWay: readonly WithRow[]) {
+    this.#light = light;
     this.#inTheWay = inTheWay.map(({ mesh, without }) => ({ mesh, without, all: mesh.count }));
-    const { front, left, right } = PLATFORM;
-    const edge = new BoxGeometry(left - right, 0.03, 0.03).translate((left + right) / 2, -0.024, front);
-    const wood = createSurface({ vertexColors: true, roughness: 0.55, metalness: 0, envMapIntensity: 0.35 }, light, {});
-    const platform = new Mesh(
-      mergeGeometries([painted(slab(PLATFORM, DEEP, -RUG_THICK), 0x38251a), painted(edge, 0x7a5a3c)]),
-      wood,
-    );
-    const cloth = createSurface({ map: rugPicture(), roughness: 0.95, metalness: 0, envMapIntensity: 0.25 }, light, {
-      declarations: WEAVE,
-      color: "diffuseColor.rgb *= weave(vRoomPlace.xz);",
-    });
-    const rug = new Mesh(slab(RUG, RUG_THICK, SUNK), cloth);
-    for (const mesh of [platform, rug]) mesh.receiveShadow = true;
-    platform.castShadow = true;
-    platform.name = "kit platform";
-    rug.name = "kit rug";
-    const shade = createContactShade(SHADE);
-    shade.position.y = SUNK;
-    this.object.add(platform, rug, shade);
     this.object.name = "kit place";
-    this.set(null);
+    this.object.visible = false;
   }
 
   /** @param node the kit's root; null where there is none. */
   set(node: Object3D | null): void {
-    this.#kit.node = node;
+    this.#node = node;
+    if (node !== null && this.object.children.length === 0) this.object.add(...createPlatform(this.#light));
     this.object.visible = node !== null;
     for (const { mesh, without, all } of this.#inTheWay) mesh.count = node === null ? all : without;
   }
 
   /** Go where the kit is; after the scene's world matrices are up to date. */
   follow(): void {
-    const { node } = this.#kit;
-    if (node === null) return;
-    node.matrixWorld.decompose(this.object.position, this.#turn, this.#scale);
-    this.object.quaternion.copy(this.#turn);
+    if (this.#node === null) return;
+    this.#node.matrixWorld.decompose(this.object.position, this.object.quaternion, this.#scale);
     this.object.updateMatrixWorld();
   }
 
-  /** How far the kit reaches from the room's middle, metres; 0 where there is none. */
+  /** How far what casts a shadow reaches from the room's middle, metres; 0 where there is no kit. */
   get reach(): number {
-    if (this.#kit.node === null) return 0;
+    if (this.#node === null) return 0;
     const { x, z } = this.object.position;
     return Math.hypot(x, z) + KIT_HALF;
   }
 }
-
-/** From under the stool to the outermost of what casts a shadow, as it is seen from the key. */
-const KIT_HALF = 0.6;
