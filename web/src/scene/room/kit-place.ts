@@ -15,12 +15,12 @@ export const KIT_RIG = "drumkit";
 /** In the kit's frame, whose origin is under the stool: to the player's left and right, behind and before, metres. */
 const PLATFORM = { left: 0.98, right: -1.42, back: -0.62, front: 1.58 } as const;
 const RUG = { left: 0.86, right: -1.3, back: -0.5, front: 1.46 } as const;
-const RUG_THICK = 0.006;
+const RUG_THICK = 0.003;
 /** A platform is a box that goes down to the floor; one that is lower than this would only be seen as an edge. */
 const DEEP = 0.6;
 
-/** How far the kit's feet sink into the rug: enough that it covers the edge of the riser behind. */
-const SUNK = 0.003;
+/** How far the kit's feet sink into the rug: platform and rug lie over the riser behind and its edge. */
+const SUNK = 0.0055;
 
 /** What lies in the kit's shade: the bass drum, the floor tom, the stool, the hi-hat, the snare drum and the stands. */
 const SHADE: readonly Patch[] = [

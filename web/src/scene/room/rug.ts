@@ -50,9 +50,10 @@ function colorAt(x: number, y: number, height: number): Color {
     if (away < 0.72) return BORDER;
     if (away < 1) return number % 2 === 0 ? SAND : FADED;
   }
-  if (inside > 0.15) {
-    const [dy, row] = cell(y - height / 2, FIELD_STEP);
-    const [dx, column] = cell(x - 0.5 + (row % 2 === 0 ? 0 : FIELD_STEP / 2), FIELD_STEP);
+  const [dy, row] = cell(y - height / 2, FIELD_STEP);
+  const [dx, column] = cell(x - 0.5 + (row % 2 === 0 ? 0 : FIELD_STEP / 2), FIELD_STEP);
+  // A whole lozenge or none.
+  if (Math.min(x - dx, 1 - x + dx, y - dy, height - y + dy) > 0.15) {
     const away = lozenge(dx, dy, 0.0105);
     const third = (row + column) % 3 === 0;
     if (away < 0.3) return third ? BORDER : SAND;
