@@ -23,7 +23,7 @@ function triangles(document) {
 }
 
 // These are built at each tier's own fineness: thin overlapping pieces do not survive being reduced.
-const KEPT = new Set(["Hair", "Lapels", "Collar", "Ribbon", "Shirt"]);
+const KEPT = new Set(["Hair", "Lapels", "Collar", "Ribbon", "Shirt", "stands"]);
 function reduce(document, wantedTriangles) {
   const meshes = document.getRoot().listMeshes().filter((mesh) => !KEPT.has(mesh.getName()));
   const parts = meshes.flatMap((mesh) => mesh.listPrimitives());

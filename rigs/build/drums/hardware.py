@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from drums.stands_plan import Stand
 
 UP = np.array([0.0, 1.0, 0.0])
+COARSE = 0.4
+"""Below this detail a leg is one bar and not two, and bolts have no wings."""
 
 
 def tube(piece: Workpiece, material: int, start: Array, end: Array, radius: float, sides: int = 16) -> None:
@@ -50,9 +52,11 @@ def lock(
         (0.012, out - 0.002),
         (0.012, radius),
     ]
-    piece.lathe(materials.chrome, at, along, profile, 14)
+    piece.lathe(materials.chrome, at, along, profile if piece.detail > COARSE else profile[1:-1:3], 14)
     axes = np.column_stack([np.cross(along, side), along, side])
     piece.block(materials.chrome, at + side * (out + 0.004), (0.012, 0.018, 0.014), 0.003, axes)
+    if piece.detail < COARSE:
+        return
     bolt = at + side * (out + 0.004)
     across = axes[:, 0]
     tube(piece, materials.chrome, bolt - across * 0.014, bolt + across * 0.020, 0.0032, 8)
@@ -68,6 +72,10 @@ def tripod(piece: Workpiece, materials: KitMaterials, stand: Stand) -> None:
         out = unit((foot - base) * [1, 0, 1])
         side = np.cross(UP, out)
         leg = unit(foot - hub)
+        if piece.detail < COARSE:
+            single_bars(piece, materials, hub + out * 0.012, low + out * 0.012, foot)
+            rubber_foot(piece, materials, foot)
+            continue
         for s in (-1, 1):
             top = hub + side * s * 0.0075 + out * 0.017
             end = foot - leg * 0.012 + side * s * 0.0075
@@ -79,15 +87,20 @@ def tripod(piece: Workpiece, materials: KitMaterials, stand: Stand) -> None:
         for share in (0.42, 0.985):
             at = hub + (foot - hub) * (1 - share if share < 0.5 else share)
             tube(piece, materials.steel, at - side * 0.0135, at + side * 0.0135, 0.0028, 8)
-        rubber_foot(piece, materials, foot, leg)
+        rubber_foot(piece, materials, foot)
     for at in (hub, low):
         collar = [(-0.013, TUBE_LOW), (-0.013, 0.0205), (0.013, 0.0205), (0.013, TUBE_LOW)]
         piece.lathe(materials.chrome, at, UP, collar, 20)
 
 
-def rubber_foot(piece: Workpiece, materials: KitMaterials, foot: Array, leg: Array) -> None:
+def single_bars(piece: Workpiece, materials: KitMaterials, hub: Array, low: Array, foot: Array) -> None:
+    """A leg and its stay, a bar each."""
+    piece.sweep(materials.chrome, np.array([hub, foot]), 0.0068, 5)
+    piece.sweep(materials.chrome, np.array([low, foot + (hub - foot) * 0.42]), 0.0046, 5)
+
+
+def rubber_foot(piece: Workpiece, materials: KitMaterials, foot: Array) -> None:
     """A rubber shoe, flat on the floor."""
-    del leg
     profile = [
         (0.0, 0.0),
         (0.0, 0.0145),
@@ -96,6 +109,8 @@ def rubber_foot(piece: Workpiece, materials: KitMaterials, foot: Array, leg: Arr
         (0.024, 0.0105),
         (0.025, 0.0),
     ]
+    if piece.detail < COARSE:
+        profile = [(0.0, 0.015), (0.024, 0.0105), (0.025, 0.0)]
     piece.lathe(materials.rubber, foot - UP * FOOT, UP, profile, 14)
 
 
@@ -131,7 +146,7 @@ def tilter(piece: Workpiece, materials: KitMaterials, at: Array, way: Array, *, 
     side = unit(np.cross(way, UP if abs(way[1]) < 0.95 else [1.0, 0.0, 0.0]))
     size = 0.012 if small else 0.017
     half = 0.010 if small else 0.013
-    wheel = [
+    wheel: list[tuple[float, float]] = [
         (-half, 0.0),
         (-half, size - 0.002),
         (-half + 0.002, size),
@@ -143,7 +158,11 @@ def tilter(piece: Workpiece, materials: KitMaterials, at: Array, way: Array, *, 
         (half, size - 0.002),
         (half, 0.0),
     ]
+    if piece.detail < COARSE:
+        wheel = [(-half, 0.0), (-half, size), (half, size), (half, 0.0)]
     piece.lathe(materials.chrome, at, side, wheel, 16)
+    if piece.detail < COARSE:
+        return
     grip = at + side * (half + 0.012)
     tube(piece, materials.chrome, at + side * half, grip, 0.0032, 8)
     across = np.cross(side, way)
@@ -185,6 +204,10 @@ def hat_stand(piece: Workpiece, materials: KitMaterials, stand: Stand) -> None:
     for foot in stand.feet():
         out = unit((foot - base) * [1, 0, 1])
         side = np.cross(UP, out)
+        if piece.detail < COARSE:
+            single_bars(piece, materials, base + UP * stand.hub, base + UP * 0.09, foot)
+            rubber_foot(piece, materials, foot)
+            continue
         for s in (-1, 1):
             top = base + UP * stand.hub + out * 0.017 + side * s * 0.0075
             piece.sweep(
@@ -198,7 +221,7 @@ def hat_stand(piece: Workpiece, materials: KitMaterials, stand: Stand) -> None:
             near = base + UP * 0.09 + out * 0.017 + side * s * 0.0105
             far = foot + (base + UP * stand.hub - foot) * 0.42 + side * s * 0.0105
             piece.sweep(materials.chrome, np.array([near, far]), 0.0032, 6, caps=True, oval=(0.62, 1.0))
-        rubber_foot(piece, materials, foot, out)
+        rubber_foot(piece, materials, foot)
     for y in (0.09, stand.hub):
         collar = [(-0.013, TUBE_LOW), (-0.013, 0.0205), (0.013, 0.0205), (0.013, TUBE_LOW)]
         piece.lathe(materials.chrome, base + UP * y, UP, collar, 20)

@@ -59,18 +59,24 @@ def standing(detail: float, materials: KitMaterials) -> Workpiece:
         own.append(bottom_head(detail, materials, drum))
         if drum is m.SNARE:
             own.append(snare_gear(detail, materials, drum))
-        if drum is m.TOM_FLOOR:
-            legs = Workpiece(detail)
-            floor_legs(legs, materials, drum, turn)
-            own.append(legs)
         for one in own:
             piece.include(one, turn, drum.centre)
-    piece.include(stands(detail, materials), np.eye(3), (0, 0, 0))
     top = m.HI_HAT_TOP
     low = np.array([m.HAT_X, m.HAT_EDGE_Y - m.HAT_GAP - top.bell_height - top.bow_height, m.HAT_Z])
     piece.include(bronze(detail, materials, top, over=True), np.eye(3), low)
-    for add in (spurs, cowbell, kick_frame, hat_base, stool):
+    for add in (cowbell, kick_frame, hat_base):
         add(piece, materials)
+    return piece
+
+
+def carrying(detail: float, materials: KitMaterials) -> Workpiece:
+    """Stands, legs and stool, whose bars are too thin to be reduced."""
+    piece = stands(detail, materials)
+    drum, legs = m.TOM_FLOOR, Workpiece(detail)
+    floor_legs(legs, materials, drum, frame(drum))
+    piece.include(legs, frame(drum), drum.centre)
+    spurs(piece, materials)
+    stool(piece, materials)
     return piece
 
 
@@ -79,7 +85,8 @@ def write_kit(path: Path, detail: float) -> None:
     writer = GlbWriter()
     materials = KitMaterials.into(writer, detail)
     pieces: dict[str, tuple[Workpiece, Array, Array]] = {
-        "standing": (standing(detail, materials), np.eye(3), np.zeros(3))
+        "standing": (standing(detail, materials), np.eye(3), np.zeros(3)),
+        "stands": (carrying(detail, materials), np.eye(3), np.zeros(3)),
     }
     for drum in m.DRUMS:
         pieces[f"{drum.name}_head"] = (head(detail, materials, drum), frame(drum), np.array(drum.centre))

@@ -72,7 +72,7 @@ def test_a_zone_that_is_not_there_is_named_with_those_that_are(kit: Rig) -> None
 
 
 @pytest.mark.parametrize(
-    ("tier", "off_m", "off_deg"), [("full", 0.001, 4), ("medium", 0.001, 20), ("low", 0.003, 90)]
+    ("tier", "off_m", "off_deg"), [("full", 0.001, 4), ("medium", 0.002, 20), ("low", 0.003, 90)]
 )
 def test_zones_lie_on_the_surface_and_look_out_of_it(
     kit: Rig, at_rest: tuple[Array, Array], tier: str, off_m: float, off_deg: float, tmp_path: Path
