@@ -53,6 +53,12 @@ class Workpiece:
         places = np.zeros((len(vertices), 2)) if uv is None else uv
         self._pieces.setdefault(material, []).append((vertices, normals, faces, places))
 
+    def sheet(self, material: int, vertices: Array, normals: Array, uv: Array | None = None) -> None:
+        """Add a surface of vertices (R, C, 3) with their normals and their places in the image (R, C, 2)."""
+        rows, columns = vertices.shape[:2]
+        places = None if uv is None else uv.reshape(-1, 2)
+        self.add(material, vertices.reshape(-1, 3), normals.reshape(-1, 3), grid_faces(rows, columns), places)
+
     def include(self, other: Workpiece, rotation: Array, at: Point) -> None:
         """Add all of another piece, turned by a matrix and moved."""
         for material, pieces in other._pieces.items():

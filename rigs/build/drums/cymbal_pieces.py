@@ -44,11 +44,7 @@ def bronze(detail: float, materials: KitMaterials, cymbal: Cymbal, *, over: bool
         normals = side * (up * sign - spoke[None] * (sign * slope)[:, None, None])
         normals = normals / np.linalg.norm(normals, axis=2, keepdims=True)
         u, v = np.meshgrid(angle / (2 * np.pi) * 4, r / cymbal.radius)
-        index = np.arange(len(r) * (sides + 1)).reshape(len(r), -1)
-        a, b, c, d = (index[i : i - 1 or None, j : j - 1 or None].ravel() for i in (0, 1) for j in (0, 1))
-        faces = np.vstack([np.c_[a, b, c], np.c_[b, d, c]])
-        uv = np.c_[u.ravel(), v.ravel()]
-        piece.add(materials.bronze, vertices.reshape(-1, 3), normals.reshape(-1, 3), faces, uv)
+        piece.sheet(materials.bronze, vertices, normals, np.stack([u, v], axis=2))
     rim = float(cymbal.height(cymbal.radius))
     edge_profile = [(sign * (rim - 0.4 * m.CYMBAL_THICKNESS), cymbal.radius), (sign * rim, cymbal.radius)]
     piece.lathe(materials.bronze, (0, 0, 0), up, edge_profile, 64 if cymbal.radius > 0.15 else 52)

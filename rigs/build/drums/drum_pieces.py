@@ -53,12 +53,7 @@ def shell(detail: float, materials: KitMaterials, drum: Drum) -> Workpiece:
     vertices = r * out[None] + heights[:, None, None] * np.array([0.0, 1.0, 0.0])
     normals = np.broadcast_to(out[None], vertices.shape)
     u, v = np.meshgrid(around / (2 * np.pi) * round(r / 0.1), HOOP_ROWS + 0.01 + rows * (0.98 - HOOP_ROWS))
-    index = np.arange(len(rows) * (sides + 1)).reshape(len(rows), sides + 1)
-    a, b, c, d = (index[i : i - 1 or None, j : j - 1 or None].ravel() for i in (0, 1) for j in (0, 1))
-    faces = np.vstack([np.c_[a, b, c], np.c_[b, d, c]])
-    piece.add(
-        materials.shell, vertices.reshape(-1, 3), normals.reshape(-1, 3), faces, np.c_[u.ravel(), v.ravel()]
-    )
+    piece.sheet(materials.shell, vertices, normals, np.stack([u, v], axis=2))
     badge = outward(np.pi if drum is not m.KICK else 0.0)
     at = polar(r, np.pi if drum is not m.KICK else 0.0, -0.38 * depth)
     if detail > 0.5:
@@ -92,13 +87,7 @@ def bottom_head(detail: float, materials: KitMaterials, drum: Drum) -> Workpiece
     # In the drum's frame the player's side of this drum lies at its foot, so that up is +Z.
     vertices = np.stack([x * (r + 0.003), np.full_like(x, y), up * (r + 0.003)], axis=2)
     normals = np.broadcast_to([0.0, -1.0, 0.0], vertices.shape)
-    index = np.arange(vertices.shape[0] * vertices.shape[1]).reshape(vertices.shape[:2])
-    a, b, c, d = (index[i : i - 1 or None, j : j - 1 or None].ravel() for i in (0, 1) for j in (0, 1))
-    uv = np.stack([0.5 + x / 2, 0.5 - up / 2], axis=2)
-    faces = np.vstack([np.c_[a, b, c], np.c_[b, d, c]])
-    piece.add(
-        materials.front, vertices.reshape(-1, 3), normals.reshape(-1, 3).copy(), faces, uv.reshape(-1, 2)
-    )
+    piece.sheet(materials.front, vertices, normals, np.stack([0.5 + x / 2, 0.5 - up / 2], axis=2))
     return piece
 
 
@@ -141,17 +130,9 @@ def wooden_hoop(piece: Workpiece, materials: KitMaterials, drum: Drum, head_y: f
         normal = spoke * (y0 - y1) + np.array([0.0, sign * (r1 - r0), 0.0])
         normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
         rings = np.stack([spoke * r + [0, head_y + sign * y, 0] for y, r in ((y0, r0), (y1, r1))])
-        u = np.tile(turn / (2 * np.pi) * 3, 2)
-        v = np.repeat(np.array([0.2, 0.8]) * HOOP_ROWS * (0.9 if k % 2 else 1.0), sides + 1)
-        index = np.arange(2 * (sides + 1)).reshape(2, -1)
-        a, b, c, d = index[0, :-1], index[0, 1:], index[1, :-1], index[1, 1:]
-        piece.add(
-            materials.shell,
-            rings.reshape(-1, 3),
-            np.vstack([normal, normal]),
-            np.vstack([np.c_[a, b, c], np.c_[b, d, c]]),
-            np.c_[u, v],
-        )
+        low, high = np.array([0.2, 0.8]) * HOOP_ROWS * (0.9 if k % 2 else 1.0)
+        u, v = np.meshgrid(turn / (2 * np.pi) * 3, [low, high])
+        piece.sheet(materials.shell, rings, np.stack([normal, normal]), np.stack([u, v], axis=2))
 
 
 def lug(detail: float, materials: KitMaterials, length: float) -> Workpiece:

@@ -46,17 +46,9 @@ def board(detail: float, materials: KitMaterials, pedal: Pedal) -> Workpiece:
     for across, y, nx, ny in section:
         rows.append(np.stack([across * width, np.full_like(z, y), z], axis=1))
         normals.append(np.tile([nx, ny, 0.0], (len(z), 1)))
-    vertices, out = np.stack(rows), np.stack(normals)
-    index = np.arange(vertices.shape[0] * vertices.shape[1]).reshape(vertices.shape[:2])
-    a, b, c, d = (index[i : i - 1 or None, j : j - 1 or None].ravel() for i in (0, 1) for j in (0, 1))
-    faces = np.vstack([np.c_[a, b, c], np.c_[b, d, c]])
-    piece.add(materials.steel, vertices.reshape(-1, 3), out.reshape(-1, 3), faces)
-    under = np.array([[s * w, -0.002, at] for s in (-1, 1) for w, at in zip(width, z, strict=True)])
-    ends = np.arange(len(z) - 1)
-    flat = np.vstack(
-        [np.c_[ends, ends + 1, ends + len(z)], np.c_[ends + 1, ends + 1 + len(z), ends + len(z)]]
-    )
-    piece.add(materials.steel, under, np.tile([0.0, -1.0, 0.0], (len(under), 1)), flat)
+    piece.sheet(materials.steel, np.stack(rows), np.stack(normals))
+    edges = [np.stack([side * width, np.full_like(z, -0.002), z], axis=1) for side in (-1.0, 1.0)]
+    piece.sheet(materials.steel, np.stack(edges), np.broadcast_to([0.0, -1.0, 0.0], (2, len(z), 3)))
     # Raised ribs, on which a sole holds.
     for k in range(RIBS if detail > 0.5 else 0):
         at = length * (0.22 + 0.62 * k / (RIBS - 1))

@@ -49,17 +49,11 @@ def cowbell(piece: Workpiece, materials: KitMaterials) -> None:
         fall = (sizes[1][1] - sizes[0][1]) / 2 / float(np.linalg.norm(back - mouth))
         normals = np.stack([row[1] for row in rows]) - z * fall
         normals = sign * normals / np.linalg.norm(normals, axis=2, keepdims=True)
-        index = np.arange(vertices.shape[0] * vertices.shape[1]).reshape(vertices.shape[:2])
-        a, b, c, d = (index[i : i - 1 or None, j : j - 1 or None].ravel() for i in (0, 1) for j in (0, 1))
-        faces = np.vstack([np.c_[a, b, c], np.c_[b, d, c]])
-        piece.add(materials.steel, vertices.reshape(-1, 3), normals.reshape(-1, 3), faces)
-    lip = np.vstack([ring(0.0, 0.0)[0], ring(0.0, 0.0014)[0]])
-    count = len(lip) // 2
-    k = np.arange(count - 1)
-    faces = np.vstack([np.c_[k, k + 1, k + count], np.c_[k + 1, k + 1 + count, k + count]])
-    piece.add(materials.steel, lip, np.tile(-z, (len(lip), 1)), faces)
+        piece.sheet(materials.steel, vertices, normals)
+    lip = np.stack([ring(0.0, 0.0)[0], ring(0.0, 0.0014)[0]])
+    piece.sheet(materials.steel, lip, np.broadcast_to(-z, lip.shape))
     end = np.vstack([back, ring(1.0, 0.0)[0]])
-    fan = np.array([[0, n + 1, n + 2] for n in range(count - 1)])
+    fan = np.array([[0, n + 1, n + 2] for n in range(len(end) - 2)])
     piece.add(materials.steel, end, np.tile(z, (len(end), 1)), fan)
 
 
