@@ -181,7 +181,7 @@ class Workpiece:
             vertices = start + along * points[:, 0, None, None] + spokes * points[:, 1, None, None]
             normals = spokes * step[:, 0, None, None] - along * step[:, 1, None, None]
             normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-9)
-            length = np.r_[0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+            length: Array = np.r_[0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
             u, v = np.meshgrid(angle / (2 * np.pi), length / max(length[-1], 1e-9))
             faces = grid_faces(len(points), columns)
             self.add(
@@ -314,7 +314,7 @@ def _tangents(vertices: Array, normals: Array, faces: NDArray[np.int64], uv: Arr
     # Where u has no direction, any in the surface does.
     spare = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]))
     spare /= np.linalg.norm(spare, axis=1, keepdims=True)
-    unit_u = np.where(length > 1e-12, total_u / np.maximum(length, 1e-12), spare)
+    unit_u: Array = np.where(length > 1e-12, total_u / np.maximum(length, 1e-12), spare)
     hand = np.where((np.cross(normals, unit_u) * total_v).sum(axis=1) < 0, -1.0, 1.0)
     return np.c_[unit_u, hand]
 

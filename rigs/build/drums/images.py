@@ -45,20 +45,20 @@ def shell_image(detail: float) -> tuple[bytes, str]:
     drift = 3.2 * waves(rng, width, 1, 5) + 1.1 * waves(rng, width, 5, 14)
     lines = waves(rng, 1024, 20, 330)
     place = (rows * 700 + drift[None] * 6) % 1024
-    grain = np.interp(place.ravel(), np.arange(1025), np.r_[lines, lines[0]]).reshape(height, width)
+    grain: Picture = np.interp(place.ravel(), np.arange(1025), np.r_[lines, lines[0]]).reshape(height, width)
     broad = waves(rng, 1024, 2, 14)
-    band = np.interp(
+    band: Picture = np.interp(
         ((rows * 420 + drift[None] * 11) % 1024).ravel(), np.arange(1025), np.r_[broad, broad[0]]
     )
     band = band.reshape(height, width)
     # Curl: light across the grain, in soft vertical flames.
     curl = waves(rng, width, 18, 60)[None] * np.exp(-(((rows - 0.5) / 0.5) ** 2))
-    wood = np.clip(0.55 + 0.10 * grain + 0.13 * band + 0.09 * curl, 0, 1)
+    wood: Picture = np.clip(0.55 + 0.10 * grain + 0.13 * band + 0.09 * curl, 0, 1)
     inside = np.clip((rows - HOOP_ROWS) / (1 - HOOP_ROWS), 0, 1)
     burst = np.clip(1.0 - np.abs(2 * inside - 1) ** 2.6, 0, 1)
-    amount = np.clip(wood * (0.35 + 0.85 * burst), 0, 1)[..., None]
-    stained = STAIN_DARK * (1 - amount) + STAIN_LIGHT * amount
-    hoop = MAPLE * (0.86 + 0.10 * grain[..., None] + 0.06 * band[..., None])
+    amount: Picture = np.clip(wood * (0.35 + 0.85 * burst), 0, 1)[..., None]
+    stained: Picture = STAIN_DARK * (1 - amount) + STAIN_LIGHT * amount
+    hoop: Picture = MAPLE * (0.86 + 0.10 * grain[..., None] + 0.06 * band[..., None])
     picture: Picture = np.where((rows < HOOP_ROWS)[..., None], hoop, stained)
     # v runs from the image's top.
     return jpeg(picture.astype(np.float32), 82)

@@ -208,7 +208,8 @@ class Pedal:
         rise = np.radians(self.rise_deg)
         z = self.ahead * np.cos(rise) + np.array([0.0, np.sin(rise), 0.0])
         x = unit(np.cross([0.0, 1.0, 0.0], z))
-        return np.column_stack([x, np.cross(z, x), z])
+        axes: Array = np.column_stack([x, np.cross(z, x), z]).astype(np.float64)
+        return axes
 
 
 AXLE = np.array([KICK_X, 0.165, 0.680])

@@ -57,8 +57,8 @@ def capsules() -> list[dict[str, Any]]:
             for start, end in itertools.pairwise(ring):
                 add(drum.name, "kit", start, end, m.KICK_HOOP_THICK / 2 if wooden else m.HOOP_BEAD)
         for turn in drum.lug_turns():
-            ends = [drum.at(along, drum.radius + LUG_OUT, turn) for along in (-0.008, 0.008 - drum.depth)]
-            add(drum.name, "kit", *ends, LUG_RADIUS)
+            top, low = (drum.at(y, drum.radius + LUG_OUT, turn) for y in (-0.008, 0.008 - drum.depth))
+            add(drum.name, "kit", top, low, LUG_RADIUS)
     for drum in (m.TOM_FLOOR,):
         for turn in np.radians([60, 180, 300]):
             out = drum.at(-0.18, drum.radius + 0.02, turn)
@@ -125,7 +125,7 @@ def cymbal_steps(cymbal: Cymbal) -> list[tuple[float, float, float]]:
     floor = float(cymbal.height(np.linspace(0.0, cymbal.radius, 200)).min()) - m.CYMBAL_THICKNESS
     steps: list[tuple[float, float, float]] = []
     for radius in radii:
-        inside = np.linspace(0.0, radius, 100)
+        inside: Array = np.linspace(0.0, radius, 100)
         steps.append((floor, max(float(cymbal.height(inside).min()), floor + 0.001), float(radius)))
     return steps
 

@@ -21,7 +21,9 @@ FLOOR_LEGS = tuple(np.radians([60.0, 180.0, 300.0]))
 
 def rounded(width: float, height: float, corner: float, steps: int) -> tuple[Array, Array]:
     """A rectangle with round corners about the origin: points (K, 2) and normals out of it."""
-    turns = np.concatenate([np.linspace(q, q + 0.5 * np.pi, steps) for q in np.arange(4) * 0.5 * np.pi])
+    turns: Array = np.concatenate(
+        [np.linspace(q, q + 0.5 * np.pi, steps) for q in np.arange(4) * 0.5 * np.pi]
+    )
     out = np.stack([np.cos(turns), np.sin(turns)], axis=1)
     middle = np.repeat([[1, 1], [-1, 1], [-1, -1], [1, -1]], steps, axis=0)
     points = middle * (np.array([width, height]) / 2 - corner) + corner * out
@@ -109,7 +111,7 @@ def stick(detail: float, material: int) -> Workpiece:
     profile += [(float(z), r) for z in shaft]
     taper = np.linspace(0, 1, piece.facets(8, 4))[1:]
     profile += [(bead - 0.075 + 0.075 * t, r + (0.0029 - r) * (t**1.35)) for t in taper]
-    turn = np.linspace(np.arcsin(0.0029 / m.BEAD_RADIUS), np.pi, piece.facets(11, 6))
+    turn: Array = np.linspace(float(np.arcsin(0.0029 / m.BEAD_RADIUS)), np.pi, piece.facets(11, 6))
     middle = bead + m.BEAD_LENGTH / 2
     profile += [
         (middle - 0.5 * m.BEAD_LENGTH * np.cos(a), m.BEAD_RADIUS * np.sin(a) ** 0.92) for a in turn[1:-1]

@@ -97,7 +97,8 @@ def test_zones_lie_on_the_surface_and_look_out_of_it(
 
 def triangles_of(content: dict[str, Any]) -> tuple[Array, Array]:
     """Corners and normals (T, 3, 3) of all meshes, in the world."""
-    corners, normals = [], []
+    corners: list[Array] = []
+    normals: list[Array] = []
     for mesh in content["meshes"]:
         place = np.array(mesh["place"]).reshape(4, 4).T
         index = np.array(mesh["triangles"]["values"], dtype=np.int64).reshape(-1, 3)
@@ -119,7 +120,7 @@ def closest_on(corners: Array, point: Array) -> tuple[Array, Array]:
         ],
         axis=1,
     )
-    inside = (shares >= 0).all(axis=1)
+    inside = np.asarray((shares >= 0).all(axis=1))
     best = np.where(inside[:, None], shares, 0.0)
     found = np.where(
         inside, np.linalg.norm((shares[..., None] * corners).sum(axis=1) - point, axis=1), np.inf
