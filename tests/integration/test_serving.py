@@ -111,6 +111,16 @@ def test_health_says_what_it_speaks(client: httpx.Client) -> None:
     assert health["streams"] == ["reina.v1"]
 
 
+def test_a_drum_kits_description_says_where_it_is_struck(client: httpx.Client) -> None:
+    kit = client.get("/api/v1/rigs/drumkit").json()
+    joints = {joint["name"] for joint in kit["joints"]}
+    assert {zone["piece"] for zone in kit["zones"]} >= {"snare", "kick", "hi_hat", "ride", "cowbell"}
+    assert {zone["joint"] for zone in kit["zones"]} | {solid["joint"] for solid in kit["cylinders"]} <= joints
+    for side in ("left", "right"):
+        effectors = client.get(f"/api/v1/rigs/{side}_stick").json()["effectors"]
+        assert [effector["name"] for effector in effectors] == [f"{side}StickTip"]
+
+
 def test_a_rigs_description_links_its_models(client: httpx.Client) -> None:
     rigs = client.get("/api/v1/rigs").json()["rigs"]
     assert {"trumpet", "trumpeter"} <= {rig["name"] for rig in rigs}
