@@ -1,0 +1,218 @@
+"""A drummer's body: sticks go where the strokes ask, arms follow by iteration, and the trunk helps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from reina.instruments.player.body import LIMBS, PlayerBody
+from reina.instruments.player.body_table import SIGNALS
+from reina.instruments.player.held_pose import HeldPose
+from reina.instruments.player.instrument_body import BodyFrames
+from reina.instruments.player.trunk_reach import SHOULDERS, reach_out
+from reina.instruments.player.trunk_reach import SIGNALS as REACHING
+from reina.kinematics import TwoBoneLimbs
+from reina.kinematics.sampled_curves import SampledCurves
+from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
+from reina.rotations import conjugate, exp, from_axis_angle, multiply, rotate, same_hemisphere
+from reina.skeleton import RigError, forward_kinematics
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from reina.instruments.player.engagement import Engagement
+    from reina.instruments.player.instrument_body import BodyMotion
+    from reina.rotations.arrays import FloatArray, IntArray
+    from reina.skeleton import Rig
+
+SIDES = ("left", "right")
+KIT = "drums"
+"""The name of the kit's skeleton."""
+STICKS = ("left_stick", "right_stick")
+"""The names of the sticks' skeletons."""
+
+DORSAL = np.array([[0.30, 1.0, -0.15], [-0.30, 1.0, -0.15]])
+"""Where the backs of the hands look: up, a little out and back."""
+FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
+DEVIATION_RAD = np.radians([[-26.0, 16.0], [-16.0, 26.0]])
+"""How far wrists may be bent before a stick gives way."""
+
+PLANNED_HZ = 10.0
+"""How often a second it is worked out how the trunk stands."""
+SAMPLED_HZ = 40.0
+SMOOTHING_S = 0.8
+"""The trunk follows where the hands are over this long."""
+HEAD_TURNED_TO = 0.4
+"""How much of the way to the middle of both hands the head turns beyond the trunk."""
+HEEL_RAD = 0.12
+"""How far a heel rises as its pedal goes down."""
+
+
+class Limbs(Protocol):
+    """Where sticks and feet are to be at any time: what the strokes say."""
+
+    duration_s: float
+
+    def hands(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The sticks' tips ``(F, 2, 3)``, metres in the kit's frame, and where they point ``(F, 2, 3)``."""
+        ...
+
+    def feet(self, times_s: FloatArray) -> FloatArray:
+        """How far each pedal is down, left and right, ``(F, 2)``: 0 up, 1 pressed."""
+        ...
+
+    def kit(self, times_s: FloatArray) -> Mapping[str, FloatArray]:
+        """Turns of the kit's joints from rest by name, rotation vectors ``(F, 3)``."""
+        ...
+
+    def parameters(self, times_s: FloatArray) -> FloatArray:
+        """The values of the instrument's parameters, ``(F, P)``."""
+        ...
+
+
+class DrumsBody:
+    """Solves whole poses of a drummer, the kit and the sticks.
+
+    Args:
+        engagement: Who plays; the hold has attachments `STICKS`, the kit contacts ``leftPedal`` and
+            ``rightPedal``.
+        limbs: Where sticks and feet are to be.
+
+    Raises:
+        RigError: Something that playing needs is not in the rigs.
+    """
+
+    def __init__(self, engagement: Engagement, limbs: Limbs) -> None:
+        rig, kit = engagement.player_rig, engagement.instrument_rigs[KIT]
+        held = HeldPose(rig, engagement.hold)
+        self._limbs = limbs
+        self._kit = kit
+        self._body = PlayerBody(rig, held, signals=tuple(SHOULDERS), joint_turns=SHOULDERS)
+        self._attached = self._attachments(engagement)
+        self._arms = self._tool_arms(engagement, TwoBoneLimbs(rig, LIMBS[:2]))
+        self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
+        self._poles = self._held_poles(rig, held)
+        self._feet = _Feet(rig, kit, held)
+        self._kit_joints: IntArray = np.arange(len(kit.skeleton.names))
+        sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
+        self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
+            np.float32
+        )
+        self._trunk = self._plan_trunk(held.positions[rig.skeleton.index("spine")])
+
+    def _attachments(self, engagement: Engagement) -> FloatArray:
+        lost = [name for name in STICKS if name not in engagement.hold.attachments]
+        if lost:
+            raise RigError(f"the hold carries no {lost[0]!r}", location="attachments")
+        return np.stack([engagement.hold.attachments[name].rotation for name in STICKS])
+
+    def _tool_arms(self, engagement: Engagement, arms: TwoBoneLimbs) -> ToolArms:
+        tools: list[Tool] = []
+        for name, side in zip(STICKS, SIDES, strict=True):
+            attached = engagement.hold.attachments[name]
+            tip = engagement.instrument_rigs[name].effector(f"{side}StickTip").offset
+            direction = rotate(attached.rotation, np.array([0.0, 0.0, 1.0]))
+            tools.append(Tool(attached.position, direction, rotate(attached.rotation, tip)))
+        return ToolArms(arms, tools, DORSAL, WristRange(FLEXION_RAD, DEVIATION_RAD))
+
+    def _held_poles(self, rig: Rig, held: HeldPose) -> FloatArray:
+        """Which way the elbows point in the hold, in the chest's frame, ``(2, 3)``."""
+        joints = np.array([rig.chain(arm).joints for arm in LIMBS[:2]])
+        shoulder, elbow, wrist = (held.positions[joints[:, part]] for part in range(3))
+        pole = elbow - 0.5 * (shoulder + wrist)
+        chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
+        return rotate(conjugate(chest), pole / np.linalg.norm(pole, axis=-1, keepdims=True))
+
+    def _plan_trunk(self, pivot: FloatArray) -> SampledCurves:
+        """How trunk and head follow the hands, over the whole piece."""
+        count = int(np.ceil((self._limbs.duration_s + 2.0) * SAMPLED_HZ)) + 1
+        times = np.arange(count) / SAMPLED_HZ
+        tips, directions = self._limbs.hands(times)
+        wrists = self._arms.wrists(tips, directions)
+        reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
+        window = np.hanning(2 * reach + 3)[1:-1]
+        padded = np.pad(wrists.reshape(count, -1), ((reach, reach), (0, 0)), mode="edge")
+        smooth = np.stack(
+            [np.convolve(column, window / window.sum(), mode="valid") for column in padded.T], axis=1
+        )
+        wrists = smooth[:: int(SAMPLED_HZ / PLANNED_HZ)].reshape(-1, 2, 3)
+        signals = {name: np.zeros(len(wrists)) for name in (*SIGNALS, *SHOULDERS)}
+        turned = reach_out(self._body, wrists, pivot, signals)
+        middle = wrists.mean(axis=1) - pivot
+        head = HEAD_TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
+        return SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
+
+    def solve(self, motion: BodyMotion) -> BodyFrames:
+        """The poses of F frames."""
+        times = motion.times_s
+        trunk = self._trunk.evaluate(times)
+        signals = dict(motion.signals)
+        for column, name in enumerate((*REACHING, "head_turn")):
+            signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
+        standing = self._body.stand(signals, motion.stance)
+        tips, directions = self._limbs.hands(times)
+        poles = rotate(standing.world[:, self._chest, None], self._poles)
+        sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
+        pressed = self._limbs.feet(times)
+        kit = self._kit_rotations(times)
+        feet, feet_rotations = self._feet.solve(kit, pressed)
+        standing = replace(standing, feet=feet, feet_rotations=feet_rotations)
+        moving = self._body.reach(standing, sticks.wrists, sticks.hands, elbows=sticks.hinges)
+
+        frames, joints = len(times), len(self._body.still)
+        rotations = np.empty((frames, *self._still.shape), dtype=np.float32)
+        rotations[:] = self._still
+        rotations[:, self._body.moving] = moving
+        rotations[:, joints : joints + len(self._kit_joints)] = kit
+        held = multiply(sticks.hands, self._attached)
+        rotations[:, -2:] = held * np.where(held[..., 3:] < 0.0, -1.0, 1.0)
+        roots = np.zeros((frames, 4, 3))
+        roots[:, 0] = standing.hips
+        roots[:, 2:] = sticks.fulcrums
+        return BodyFrames(rotations, roots, self._limbs.parameters(times))
+
+    def _kit_rotations(self, times: FloatArray) -> FloatArray:
+        """Local rotations of the kit's joints, ``(F, N, 4)``."""
+        skeleton = self._kit.skeleton
+        turns = self._limbs.kit(times)
+        rotations = np.empty((len(times), len(skeleton.names), 4))
+        rotations[:] = skeleton.rest_rotations
+        if turns:
+            joints = [skeleton.index(name) for name in turns]
+            turned = multiply(skeleton.rest_rotations[joints], exp(np.stack(list(turns.values()), axis=1)))
+            rotations[:, joints] = same_hemisphere(turned, skeleton.rest_rotations[joints])
+        return rotations
+
+
+class _Feet:
+    """The balls of the feet stay on the boards of the pedals; heels rise a little as these go down."""
+
+    def __init__(self, rig: Rig, kit: Rig, held: HeldPose) -> None:
+        ankles = [rig.chain(leg).joints[-1] for leg in LIMBS[2:]]
+        contacts = [kit.contact(f"{side}Pedal") for side in SIDES]
+        self._boards = [contact.joint for contact in contacts]
+        self._offsets: FloatArray = np.stack([contact.offset for contact in contacts])
+        self._hinges: FloatArray = kit.skeleton.rest_translations[self._boards]
+        self._rotations: FloatArray = held.world[ankles]
+        _, boards = forward_kinematics(kit.skeleton, kit.skeleton.rest_rotations)
+        balls = self._hinges + rotate(boards[self._boards], self._offsets)
+        self._balls: FloatArray = rotate(conjugate(self._rotations), balls - held.positions[ankles])
+        # About the foot's own side, in its frame.
+        ahead = rotate(self._rotations, np.array([0.0, 0.0, 1.0]))
+        side = np.stack([ahead[:, 2], np.zeros(2), -ahead[:, 0]], axis=-1)
+        self._sideways: FloatArray = rotate(
+            conjugate(self._rotations), side / np.linalg.norm(side, axis=-1)[:, None]
+        )
+
+    def solve(self, kit: FloatArray, pressed: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Where the ankles are ``(F, 2, 3)``, metres, and the feet's rotations ``(F, 2, 4)``.
+
+        Args:
+            kit: The kit's local rotations ``(F, N, 4)``; the boards hang on its root, which stands still.
+            pressed: How far each pedal is down, ``(F, 2)``.
+        """
+        balls = self._hinges + rotate(kit[:, self._boards], self._offsets)
+        rotations = multiply(self._rotations, from_axis_angle(self._sideways, HEEL_RAD * pressed))
+        return balls - rotate(rotations, self._balls), rotations
