@@ -24,6 +24,9 @@ GAIN = 0.75
 SLACK = 0.985
 """An arm that is stretched further than this part of its reach pulls its tool along."""
 
+FOLDED = 1.04
+"""So does one that is folded to less than this many times its shortest."""
+
 
 @dataclass(frozen=True, eq=False)
 class Tool:
@@ -67,9 +70,8 @@ class ToolPose:
     """From there to the tips, unit, ``(F, K, 3)``."""
     hinges: FloatArray
     """Which way the elbows' hinges point, ``(F, K, 3)``, as `TwoBoneLimbs.solve` takes them."""
-    overreach: FloatArray
-    """How much further than the arms reach the wrists would have to be, metres, ``(F, K)``; 0 where all is
-    in reach."""
+    lacking: FloatArray
+    """How far the wrists are from where an arm can bring them, metres, ``(F, K)``; 0 where all is in reach."""
 
 
 class ToolArms:
@@ -93,6 +95,7 @@ class ToolArms:
     ) -> None:
         self._bend: FloatArray = np.asarray(arms.bend)[:, None]
         self._reach: FloatArray = arms.reach
+        self._nearest: FloatArray = arms.nearest
         self._upper, self._lower = arms.lengths
         self._dorsal = np.asarray(dorsal, dtype=np.float64)
         # In the hand: columns direction, back of the hand across it, and their cross.
@@ -143,11 +146,12 @@ class ToolArms:
         basis = self._basis(pointing)
         wrists = tips + np.matmul(basis, self._wrist)[..., 0]
         far = wrists - shoulders
-        overreach = np.maximum(np.sqrt(np.einsum("...i,...i->...", far, far)) - self._reach, 0.0)
+        distance = np.sqrt(np.einsum("...i,...i->...", far, far))
+        lacking = np.maximum(distance - self._reach, 0.0) + np.maximum(self._nearest - distance, 0.0)
         hinges = cross(poles, far) * self._bend
         hands = from_matrix(np.matmul(basis, self._to_basis))
         fulcrums = tips + np.matmul(basis, self._fulcrum)[..., 0]
-        return ToolPose(wrists, hands, fulcrums, pointing, hinges, overreach)
+        return ToolPose(wrists, hands, fulcrums, pointing, hinges, lacking)
 
     def wrists(self, tips: FloatArray, directions: FloatArray) -> FloatArray:
         """Where the wrists would be if no tool gave way, ``(F, K, 3)``, metres; arguments as `solve`."""
@@ -168,7 +172,7 @@ class ToolArms:
         line = wrists - shoulders
         distance = np.sqrt(np.einsum("...i,...i->...", line, line))
         along = line / np.maximum(distance, 1e-9)[..., None]
-        within = np.minimum(distance, SLACK * self._reach)
+        within = np.minimum(np.maximum(distance, FOLDED * self._nearest), SLACK * self._reach)
         pole = poles - along * np.einsum("...i,...i->...", along, poles)[..., None]
         pole = pole / np.sqrt(np.einsum("...i,...i->...", pole, pole))[..., None]
         ahead = (within * within + self._upper**2 - self._lower**2) / (2.0 * within)
