@@ -1,4 +1,4 @@
-"""Arms with a stick in hand: the tip at its place, wrists within their range, poses that depend on nothing else."""
+"""Arms with a stick in hand: tips at their places, wrists in their range, poses of their target alone."""
 
 from pathlib import Path
 
