@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from common.rig_file import write_json
-from hold.arm import Arm
+from hold.arm import Arm, ArmPose
 from hold.rig import Rig
 from hold.seated import HEEL_UP_DEG, Footing, sit
 from hold.stick_grip import StickGrip, lacking
@@ -31,10 +32,14 @@ OVER_SNARE_M = 0.05
 """How far over the snare the tips are held."""
 APART_M = 0.05
 """How far each tip is from the snare's middle."""
-STICKS_IN_DEG, STICKS_DOWN_DEG = 38.0, 12.0
-"""How far the sticks point to one another, and down."""
-SWIVEL_RAD = 0.35
-"""How far the elbows are out from hanging straight down."""
+STICKS_DOWN_DEG = 12.0
+"""How far the sticks point down."""
+STICKS_IN_DEG = (36.0, 12.0)
+"""How far they point to one another, at best, and how much more or less costs as much as a bent wrist."""
+SWIVEL_RAD = (0.35, 0.3)
+"""How far the elbows are out from hanging straight down, likewise."""
+BENT_DEG = np.array([25.0, 10.0])
+"""How much flexion and deviation of the wrist cost as much."""
 
 
 def footings(kit: Rig) -> dict[str, Footing]:
@@ -48,9 +53,7 @@ def footings(kit: Rig) -> dict[str, Footing]:
     return result
 
 
-def hold_stick(
-    rig: Rig, kit: Rig, stick: Rig, side: str, stance: Stance
-) -> tuple[Pose, dict[str, Any]]:
+def hold_stick(rig: Rig, kit: Rig, stick: Rig, side: str, stance: Stance) -> tuple[Pose, dict[str, Any]]:
     """The arm's and hand's local rotations with the stick over the snare, and the stick's place in the hand."""
     outward = 1.0 if side == "left" else -1.0
     grip = StickGrip.solve(rig, side)
@@ -61,15 +64,27 @@ def hold_stick(
     turn, place = kit.world({})[zone["joint"]]
     tip = place + turn @ (np.array(zone["position"]) + OVER_SNARE_M * np.array(zone["normal"]))
     tip[0] += outward * APART_M
-    aside, down = np.radians([STICKS_IN_DEG, STICKS_DOWN_DEG])
-    ahead = np.array([-outward * np.sin(aside) * np.cos(down), -np.sin(down), np.cos(aside) * np.cos(down)])
-    up = np.array([0.0, 1.0, 0.0]) - ahead * ahead[1]
-    up /= np.linalg.norm(up)
-    pointing = np.column_stack([np.cross(up, ahead), up, ahead])
-    hand = pointing @ held.T
-    fulcrum = tip - pointing @ stick.effector(f"{side}StickTip")[1]
     arm = Arm(rig, side, rig.world(stance.pose, stance.hips)["upperChest"])
-    reached = arm.reach(fulcrum - hand @ grip.fulcrum, hand, SWIVEL_RAD, np.zeros(2))
+
+    def reach(x: Array) -> ArmPose:
+        aside, down = np.radians([x[0], STICKS_DOWN_DEG])
+        ahead = np.array(
+            [-outward * np.sin(aside) * np.cos(down), -np.sin(down), np.cos(aside) * np.cos(down)]
+        )
+        up = np.array([0.0, 1.0, 0.0]) - ahead * ahead[1]
+        up /= np.linalg.norm(up)
+        pointing = np.column_stack([np.cross(up, ahead), up, ahead])
+        hand = pointing @ held.T
+        fulcrum = tip - pointing @ stick.effector(f"{side}StickTip")[1]
+        return arm.reach(fulcrum - hand @ grip.fulcrum, hand, x[1], np.zeros(2))
+
+    def cost(x: Array) -> Array:
+        best, width = np.array([STICKS_IN_DEG, SWIVEL_RAD]).T
+        return np.r_[np.degrees(reach(x).wrist[1:]) / BENT_DEG, (x - best) / width, reach(x).lacking * 1000.0]
+
+    found = least_squares(cost, [STICKS_IN_DEG[0], SWIVEL_RAD[0]], x_scale=[10.0, 0.3])
+    reached = reach(found.x)
+    print(f"{side} stick {found.x[0]:.0f} degrees inward, elbow {found.x[1]:.2f} out")
     print(
         f"{side} wrist twist, flexion, deviation",
         np.degrees(reached.wrist).round(1),

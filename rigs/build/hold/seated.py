@@ -84,7 +84,8 @@ def _leg(rig: Rig, pose: Pose, hips: Array, side: str, footing: Footing) -> Pose
         knee, place = world[f"{side}LowerLeg"][1], world[f"{side}Foot"][1]
         # The knee lies over the line that the foot points along.
         toward = np.array([outward * np.cos(footing.out_rad), 0.0, -np.sin(footing.out_rad)])
-        return np.r_[(place - ankle) * 1000, (knee - ankle) @ toward * 20.0]
+        wrung = np.abs(x[[0, 2]]) - np.radians([38.0, 24.0])
+        return np.r_[(place - ankle) * 1000, (knee - ankle) @ toward * 20.0, np.maximum(wrung, 0.0) * 100.0]
 
     found = least_squares(error, np.array([0.0, -1.4, 0.0, 1.5]), xtol=1e-15, ftol=1e-15, gtol=1e-15)
     result = legs(found.x)

@@ -23,6 +23,8 @@ FULCRUM_M = (0.092, -0.0275, 0.020)
 """Where the stick's axis passes the index finger; the last toward the thumb."""
 THUMB_AHEAD_M = 0.006
 """How far before the index finger the thumb lies."""
+LEAST_RAD = np.radians([-68.0, -125.0, -43.0])
+"""How far the finger's three joints may be bent."""
 FLESH_M = 0.0015
 """How deep a finger may lie in the stick."""
 
@@ -70,15 +72,15 @@ def _close(finger: Finger, fulcrum: Array, direction: Array) -> Array:
             np.minimum(gap + FLESH_M, 0.0) * MM * 2.0,
             (pad - under) * MM * [0.5, 0.5, 0.25],
             gap[-1] * MM,
-            (x[3] - 0.6 * x[2]) * 1.0,
+            (x[3] - 0.4 * x[2]) * 1.0,
             x[0] * 8.0,
             np.maximum(x[1:] - [1.0, 0.0, 0.0], 0.0) * 20.0,
-            np.minimum(x[1:] - np.radians([-80.0, -105.0, -75.0]), 0.0) * 20.0,
+            np.minimum(x[1:] - LEAST_RAD, 0.0) * 20.0,
         ]
 
     best = min(
         (
-            least_squares(residuals, [0.0, first, second, 0.6 * second])
+            least_squares(residuals, [0.0, first, second, 0.4 * second])
             for first in np.radians([-10.0, -40.0, -70.0])
             for second in np.radians([-50.0, -90.0])
         ),
@@ -90,6 +92,7 @@ def _close(finger: Finger, fulcrum: Array, direction: Array) -> Array:
 def _press(thumb: Thumb, fulcrum: Array, direction: Array) -> Array:
     """Angles (5,) that lay the thumb's pad on the stick, from above and from its own side."""
     stick = _stick(fulcrum, direction)
+
     def residuals(x: Array) -> Array:
         points, looking = thumb.points(x)
         centres, radii = thumb.spheres(x, 5)
@@ -124,10 +127,14 @@ def lacking(rig: Rig, side: str, grip: StickGrip) -> list[str]:
         angles = _close(finger, grip.fulcrum, grip.direction)
         centres, radii = finger.spheres(angles, 6)
         gap = (stick.clearance(centres) - radii) * MM
-        lines.append(f"{finger.name}: pad {gap[-1]:.1f} mm, deepest {gap.min():.1f} mm, {np.degrees(angles).round()}")
+        lines.append(
+            f"{finger.name}: pad {gap[-1]:.1f} mm, deepest {gap.min():.1f} mm, {np.degrees(angles).round()}"
+        )
     thumb = Thumb.of(rig, side)
     angles = _press(thumb, grip.fulcrum, grip.direction)
     centres, radii = thumb.spheres(angles, 5)
     gap = (stick.clearance(centres) - radii) * MM
-    lines.append(f"{thumb.name}: pad {gap[-1]:.1f} mm, deepest {gap.min():.1f} mm, {np.degrees(angles).round()}")
+    lines.append(
+        f"{thumb.name}: pad {gap[-1]:.1f} mm, deepest {gap.min():.1f} mm, {np.degrees(angles).round()}"
+    )
     return lines
