@@ -4,6 +4,11 @@ import { named } from "./server/en";
 /** What the server names, told apart by what it is. */
 export type Kind = "instrument" | "player" | "seat" | "mood" | "problem";
 
+/** A piece of a drum kit. */
+export function pieceName(piece: string): string {
+  return (named as Readonly<Record<string, string>>)[`drum_${piece}`] ?? piece;
+}
+
 /**
  * A name or a title of the server's in the language that is shown.
  *

@@ -49,4 +49,9 @@ export const transport = words("transport", {
   nonePlayable: "None of this part's notes can be played",
   noNotes: "This part has no notes",
   closeWhy: "Close the explanation",
+  strike: filled("{limb}: {piece}"),
+  rightHand: "right hand",
+  leftHand: "left hand",
+  rightFoot: "right foot",
+  leftFoot: "left foot",
 });
