@@ -1,0 +1,119 @@
+"""The drum kit as an instrument: it chooses the part of drums and gives every note a piece and a limb."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from reina.instruments.drums.drum_part import DrumPart, Handedness
+from reina.instruments.drums.finger_drums import finger_drums
+from reina.instruments.instrument import Instrument
+from reina.instruments.joined_parts import check_parts, notes_of_parts
+from reina.instruments.line import BREATH_S
+from reina.instruments.played import Line
+from reina.instruments.ranking import PartRanking, Suitability, rank_parts
+from reina.music.arrays import read_only
+from reina.music.warnings import WarningLog
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.instruments.player.engagement import Engagement
+    from reina.instruments.player.instrument_body import InstrumentBody
+    from reina.kinematics import Curve, MotionCurves
+    from reina.music.arrays import IntArray
+    from reina.music.score import Score
+
+SUITABILITY: Final = Suitability(programs={}, names={}, lowest=0, highest=127, drums=12.0)
+"""A part of drums goes before every other, whatever it is called."""
+
+NO_DRUMS: Final = -12.0
+"""What speaks against a part whose pitches are tones."""
+
+MAX_TOLD: Final = 200
+"""How many notes that are not mimed are told of one by one."""
+
+
+class Drums(Instrument):
+    """A drum kit and its player.
+
+    Its body is not there yet: `plan_gestures` and `body` say so.
+    """
+
+    name, title, rig = "drums", "drum kit", "drumkit"
+    handedness = ("right", "left")
+
+    def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
+        """Rank the parts of a score: drums first, the one with the most notes of the kit before others."""
+        most = max(len(score.note_indices(part.index)) for part in score.parts)
+        ranked: list[PartRanking] = []
+        for ranking in rank_parts(score, SUITABILITY):
+            if not score.parts[ranking.part].is_drums:
+                reasons = (f"no drums ({NO_DRUMS:+.1f})", *ranking.reasons)
+                ranked.append(replace(ranking, score=round(ranking.score + NO_DRUMS, 3), reasons=reasons))
+                continue
+            share = len(score.note_indices(ranking.part)) / most
+            reasons = (*ranking.reasons, f"{share:.0%} as many notes as the fullest part ({share:+.1f})")
+            ranked.append(replace(ranking, score=round(ranking.score + share, 3), reasons=reasons))
+        return tuple(sorted(ranked, key=lambda ranking: (-ranking.score, ranking.part)))
+
+    def play(
+        self,
+        score: Score,
+        part: int,
+        transposition: int = 0,  # noqa: ARG002
+        *,
+        written: bool = False,  # noqa: ARG002
+        octave_fit: bool = False,  # noqa: ARG002
+        joined_parts: Sequence[int] = (),
+        usual_fingerings: bool = False,  # noqa: ARG002
+    ) -> DrumPart:
+        """As `Instrument.play`; a key is a drum and no pitch, so nothing is transposed."""
+        return self.play_with(score, part, joined_parts=joined_parts)
+
+    def play_with(
+        self,
+        score: Score,
+        part: int,
+        *,
+        joined_parts: Sequence[int] = (),
+        handedness: Handedness = "right",
+    ) -> DrumPart:
+        """Play a part with the right or with the left hand leading.
+
+        Raises:
+            NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.
+        """
+        joined = check_parts(score, part, joined_parts)
+        indices = notes_of_parts(score, (part, *joined))
+        log = WarningLog(MAX_TOLD)
+        fingering = finger_drums(score, indices, part, log, handedness=handedness)
+        return DrumPart(part, 0, _line(score, indices), fingering, log.warnings(), joined)
+
+    def plan_gestures(self, played: DrumPart, *, seed: int = 0) -> dict[str, Curve]:  # type: ignore[override]
+        """Not there yet."""
+        raise NotImplementedError("the drummer's body is not there yet")
+
+    def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:
+        """Not there yet."""
+        raise NotImplementedError("the drummer's body is not there yet")
+
+
+def _line(score: Score, indices: IntArray) -> Line:
+    """All notes of a drum part: none is cut, and several are struck at once."""
+    notes = score.notes
+    onset_s = notes.onset_s[indices]
+    rests = np.diff(onset_s, prepend=onset_s[:1]) >= 4.0 * BREATH_S
+    return Line(
+        note_index=read_only(indices),
+        onset_s=read_only(onset_s),
+        end_s=read_only(notes.end_s[indices]),
+        sounding_pitch=read_only(notes.sounding_pitch[indices].astype(np.int64)),
+        velocity=read_only(notes.velocity[indices]),
+        phrase=read_only(np.cumsum(rests).astype(np.int64)),
+        dropped=read_only(np.zeros(0, dtype=np.int64)),
+        shortened=read_only(np.zeros(0, dtype=np.int64)),
+        tongued=None,
+    )

@@ -1,0 +1,216 @@
+"""Where both sticks are at any times: tips, which way they point, and the hands that hold them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from reina.instruments.drums.kit_answers import SWINGS
+from reina.instruments.drums.kit_places import UP
+from reina.instruments.drums.stick_plan import FALL, GLIDE, RISE, plan_sticks
+from reina.kinematics.motion_curves import minimum_jerk
+from reina.rotations import from_axis_angle, rotate
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.instruments.drums.hit import DrumHit
+    from reina.instruments.drums.kit_answers import KitAnswers
+    from reina.instruments.drums.kit_places import KitPlaces
+    from reina.instruments.drums.stick_plan import StickPlan
+    from reina.rotations.arrays import FloatArray, IntArray
+
+GRIP_M: Final = 0.27
+"""From the tip to where the stick is held: about a third from the butt of 406 mm."""
+
+CONTACT_RAD: Final = 0.27
+"""How steeply the stick points down where it lands."""
+
+HAND_SHARE: Final = 0.3
+"""How much of the tip's height the hand goes up itself; the wrist does the rest."""
+
+LEAD_S: Final = 0.02
+"""The hand is so far ahead: it goes down while the tip still goes up, and the tip whips after it."""
+
+STEEPEST: Final = 0.88
+"""Sine of the steepest angle of a stick."""
+
+FALL_POWER, RISE_POWER = 2.4, 2.2
+"""A stroke falls with the time's power; it rises as the reverse."""
+
+THROUGH_S: Final = (0.05, 0.13)
+"""A stroke goes through a crash's edge for so long, and is back after the second time more."""
+
+FOLLOW_M: Final = 0.12
+"""Within this height the tip goes with a cymbal that still swings."""
+
+
+@dataclass(frozen=True, eq=False)
+class StickFrames:
+    """Both sticks in F frames, in the kit's frame; index 0 is the stick on the player's right, 1 on the left.
+
+    Attributes:
+        tip: ``(F, 2, 3)`` metres.
+        direction: ``(F, 2, 3)`` unit vectors from the hand to the tip.
+        grip: ``(F, 2, 3)`` where the hands hold them.
+    """
+
+    tip: FloatArray
+    direction: FloatArray
+    grip: FloatArray
+
+
+class StickPaths:
+    """The sticks of a part; a pure function of times.
+
+    Args:
+        hits: By time; those of hands count.
+        places: The kit as it stands, mirrored for a left-handed player.
+        answers: What the kit does: tips land on cymbals where they are at that time.
+        hi_hat_travel: (3,) how the hi-hat's top goes from open to closed, if its zones are those of the open one.
+    """
+
+    def __init__(
+        self,
+        hits: Sequence[DrumHit],
+        places: KitPlaces,
+        answers: KitAnswers,
+        *,
+        hi_hat_travel: FloatArray | None = None,
+    ) -> None:
+        self._answers = answers
+        travel = np.zeros(3) if hi_hat_travel is None else hi_hat_travel
+        self._sticks = [
+            _Stick(
+                plan_sticks([hit for hit in hits if hit.limb == limb], places, side, tuple(SWINGS)), travel
+            )
+            for side, limb in enumerate(("right_hand", "left_hand"))
+        ]
+
+    def evaluate(self, times_s: FloatArray) -> StickFrames:
+        """Both sticks at times ``(F,)``."""
+        tilt, closed = self._answers.tilt(times_s), self._answers.hi_hat(times_s)
+        frames = [stick.evaluate(times_s, tilt, closed) for stick in self._sticks]
+        tip, direction = (np.stack(parts, axis=1) for parts in zip(*frames, strict=True))
+        return StickFrames(tip, direction, tip - GRIP_M * direction)
+
+
+class _Stick:
+    """One stick."""
+
+    def __init__(self, plan: StickPlan, hi_hat_travel: FloatArray) -> None:
+        stations = plan.stations
+        self._point = np.stack([station.point for station in stations])
+        self._normal = np.stack([station.normal for station in stations])
+        self._heading = np.stack([station.heading for station in stations])
+        struck = [station for station in stations if station is not stations[0]]
+        self._beyond = np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
+        self._arm = self._point - np.stack([station.pivot for station in stations])
+        self._swings: IntArray = np.array([station.swings for station in stations])
+        self._outward = np.stack([_level(arm) for arm in self._arm])
+        self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
+        self._moves = plan.moves
+        self._from = np.concatenate([[-np.inf], plan.heights[:, 0]])
+        self._to = np.concatenate([[-np.inf], plan.heights[:, 1]])
+        self._height = np.concatenate([[0.0], plan.heights[:, 2]])
+        self._shape = np.concatenate([[GLIDE], plan.heights[:, 3]])
+        self._strokes = plan.strokes_s
+
+    def evaluate(
+        self, times_s: FloatArray, tilt: FloatArray, closed: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Tip and direction ``(F, 3)``; of the cymbals their tilt ``(F, C, 2)``, of the hi-hat how far it is closed."""
+        station, done = self._where(times_s)
+        after = np.minimum(station + 1, len(self._point) - 1)
+        blend = done[:, None]
+        height = self._heights(times_s)
+        point = self._point[station] * (1.0 - blend) + self._point[after] * blend
+        normal = self._normal[station] * (1.0 - blend) + self._normal[after] * blend
+        normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
+        heading = self._heading[station] * (1.0 - blend) + self._heading[after] * blend
+        heading = heading / np.linalg.norm(heading, axis=1, keepdims=True)
+        near = np.where(done > 0.5, after, station)
+        close = np.maximum(1.0 - height / FOLLOW_M, 0.0)[:, None] * np.abs(2.0 * blend - 1.0)
+        tip = point + height[:, None] * normal
+        tip = tip + close * self._moved(near, tilt) + close * closed[:, None] * self._drop[near]
+        tip = tip + self._past(times_s)
+        # The hand goes up and down itself, ahead of the tip; the stick's angle makes up for the rest.
+        lifted = HAND_SHARE * self._heights(times_s + LEAD_S)
+        sine = (height - lifted) / GRIP_M - np.sin(CONTACT_RAD)
+        sine = np.clip(sine, -STEEPEST, STEEPEST)
+        cosine = np.sqrt(1.0 - sine * sine)
+        back = (np.cos(CONTACT_RAD) - cosine) * GRIP_M * np.minimum(height / 0.05, 1.0)
+        tip = tip - back[:, None] * heading
+        return tip, heading * cosine[:, None] + sine[:, None] * UP
+
+    def _where(self, times_s: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Which station the stick is at or leaves, and how far it is on its way to the next."""
+        if not len(self._moves):
+            return np.zeros(len(times_s), dtype=np.intp), np.zeros(len(times_s))
+        move = np.searchsorted(self._moves[:, 0], times_s, side="right") - 1
+        known = np.maximum(move, 0)
+        start, end = self._moves[known, 0], self._moves[known, 1]
+        done = minimum_jerk((times_s - start) / np.maximum(end - start, 1e-9))
+        return np.maximum(move, 0), np.where(move >= 0, done, 0.0)
+
+    def _heights(self, times_s: FloatArray) -> FloatArray:
+        """How high the tip is above where it lands, metres."""
+        place = np.searchsorted(self._from, times_s, side="right") - 1
+        start, end = self._from[place], self._to[place]
+        before, after = self._height[np.maximum(place - 1, 0)], self._height[place]
+        with np.errstate(invalid="ignore"):
+            u = np.where(np.isfinite(start), (times_s - start) / np.maximum(end - start, 1e-9), 1.0)
+        u = np.clip(u, 0.0, 1.0)
+        shape = self._shape[place]
+        done = np.where(
+            shape == RISE,
+            1.0 - (1.0 - u) ** RISE_POWER,
+            np.where(shape == FALL, u**FALL_POWER, minimum_jerk(u)),
+        )
+        return before + (after - before) * done
+
+    def _moved(self, near: IntArray, tilt: FloatArray) -> FloatArray:
+        """How far the piece's swing moves the point where the tip lands, ``(F, 3)``."""
+        row = self._swings[near]
+        angles = np.where(row[:, None] >= 0, tilt[np.arange(len(near)), np.maximum(row, 0)], 0.0)
+        if not angles.any():
+            return np.zeros((len(near), 3))
+        turn = turned(self._outward[near], angles)
+        return rotate(turn, self._arm[near]) - self._arm[near]
+
+    def _past(self, times_s: FloatArray) -> FloatArray:
+        """How far a stroke goes on beyond an edge, ``(F, 3)``."""
+        if not self._beyond.any():
+            return np.zeros((len(times_s), 3))
+        place = np.searchsorted(self._strokes, times_s, side="right") - 1
+        known = np.maximum(place, 0)
+        since = times_s - self._strokes[known]
+        until = np.full(len(times_s), np.inf)
+        later = known + 1 < len(self._strokes)
+        until[later] = self._strokes[known[later] + 1] - self._strokes[known[later]]
+        there, back = THROUGH_S[0], THROUGH_S[1]
+        away = minimum_jerk(since / there) * (1.0 - minimum_jerk((since - there) / back))
+        room = np.clip((until - there - back) / 0.1, 0.0, 1.0)
+        return np.where(place >= 0, away * room, 0.0)[:, None] * self._beyond[known]
+
+
+def turned(outward: FloatArray, tilt: FloatArray) -> FloatArray:
+    """The turn of a cymbal ``(F, 4)`` that dips where it is struck.
+
+    Args:
+        outward: (F, 3) level unit vectors from its middle to where it is struck.
+        tilt: (F, 2) radians: down towards there, and to the side.
+    """
+    across = np.cross(np.broadcast_to(UP, outward.shape), outward)
+    vector = across * tilt[:, :1] + outward * tilt[:, 1:]
+    angle = np.linalg.norm(vector, axis=1)
+    axis = np.where(angle[:, None] > 1e-12, vector / np.maximum(angle, 1e-12)[:, None], UP)
+    return from_axis_angle(axis, angle)
+
+
+def _level(arm: FloatArray) -> FloatArray:
+    level = arm * (1.0, 0.0, 1.0)
+    far = float(np.linalg.norm(level))
+    return level / far if far > 1e-6 else np.zeros(3)

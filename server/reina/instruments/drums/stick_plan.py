@@ -1,0 +1,265 @@
+"""The strokes of one hand, planned once: where each lands, how high the stick is lifted before, how it goes on after.
+
+Louder strokes begin higher: the tip is lifted about 5 cm for a tap and up to 40 cm for an accent (Dahl 2000, 2004), and less where
+there is no time. It falls faster and faster, is on the surface at the onset, and rebounds into what comes next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from reina.instruments.drums.kit_places import UP
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.instruments.drums.hit import DrumHit
+    from reina.instruments.drums.kit_places import KitPlaces
+    from reina.rotations.arrays import FloatArray
+
+EARLY_S: Final = 0.0168
+"""The tip is on the surface this long before the onset: a frame of 1/60 s that shows it there is there at or before
+the onset, never after."""
+
+CONTACT_S: Final = 0.005
+"""And this long after."""
+
+EARLY_SHARE, CONTACT_SHARE = 0.35, 0.15
+"""Neither takes more than this part of the time between two strokes."""
+
+LIFT_M: Final = (0.035, 0.40)
+"""How high the tip is lifted for the softest and for the loudest stroke."""
+
+LIFT_POWER: Final = 1.5
+
+CROSS_STICK_LIFT_M: Final = 0.05
+"""The tip stays on the head as the butt is lifted; about so high is the hand."""
+
+LIFT_SPEED_M_S: Final = 1.1
+"""How high a stick gets in the time that it has: so many metres a second."""
+
+FALL_S: Final = 0.13
+"""What a stroke takes from its top to the surface, at most."""
+
+FALL_SHARE: Final = 0.45
+
+LONG_S: Final = 0.8
+"""In a longer gap the stick waits above the piece."""
+
+RISE_S: Final = 0.28
+SETTLE_S: Final = 0.35
+WAIT_M: Final = 0.09
+"""Where it waits."""
+
+REST_S: Final = 2.6
+"""In a gap of this length the stick goes to its place of rest."""
+
+GO_REST_S: Final = 0.9
+LEAVE_AFTER_S: Final = 0.45
+
+REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
+"""How much of a stroke's height the stick gets back by itself; a loose head gives less."""
+
+CYMBAL_REBOUND: Final = 0.5
+
+CLEARANCE_M: Final = 0.09
+"""A stick passes at least so high above the higher of the two pieces that it goes between."""
+
+APART_M: Final = 0.03
+"""Each hand strikes a head this far to its own side of the middle, so that two sticks have room."""
+
+APART_SHARE: Final = 0.55
+"""And no farther than this part of the zone's radius."""
+
+THROUGH_M: Final = 0.07
+"""How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
+
+THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
+
+TRAVEL: Final = (0.04, 0.86)
+"""In which part of the time between two strokes the hand goes from one piece to the other."""
+
+ELBOW: Final = ((-0.28, 0.06), (0.28, 0.06))
+"""About where the elbows are, X and Z: from there a stick points to what it strikes."""
+
+REST_TIP: Final = ((-0.075, 0.13, -0.05), (0.075, 0.13, -0.05))
+"""Where the tips rest, from the middle of the snare."""
+
+
+@dataclass(frozen=True, eq=False)
+class Station:
+    """Where a stick is for a while: over a zone, or at rest.
+
+    Attributes:
+        point: (3,) where the tip lands.
+        normal: (3,) the way that it is lifted.
+        heading: (3,) which way the stick points from above, level, a unit vector.
+        through: (3,) where the tip goes on to after a stroke.
+        swings: Row of `SWINGS` whose tilt moves the point; -1 if it does not move.
+        pivot: (3,) what it turns about.
+        is_hi_hat: Whether it goes down as the hi-hat is closed.
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    heading: FloatArray
+    through: FloatArray
+    swings: int
+    pivot: FloatArray
+    is_hi_hat: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class StickPlan:
+    """The strokes of one hand.
+
+    Attributes:
+        stations: Where it is, in their order; the first and the last are its rest.
+        moves: (M, 2) from when to when it goes from station m to m + 1.
+        heights: (H, 4) what the tip's height above its station does: from, to, height at the end, and `RISE`,
+            `FALL` or `GLIDE`.
+        strokes_s: (K,) the onsets.
+        through: (K,) how far each goes on beyond the edge, in parts of the station's `through`.
+    """
+
+    stations: list[Station]
+    moves: FloatArray
+    heights: FloatArray
+    strokes_s: FloatArray
+    through: FloatArray
+
+
+RISE, FALL, GLIDE = 0.0, 1.0, 2.0
+"""Fast at first; faster and faster; from rest to rest."""
+
+
+def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: Sequence[str]) -> StickPlan:
+    """Plan all strokes of one hand.
+
+    Args:
+        hits: That hand's, by time.
+        places: The kit.
+        side: 0 on the player's right (-X), 1 on the left.
+        swings: Names of the pieces that turn, in the order of the rows of their tilts.
+
+    Raises:
+        RigError: The kit lacks a piece.
+    """
+    rest = _rest(places, side)
+    stations, moves, heights = [rest], list[tuple[float, float]](), list[tuple[float, float, float, float]]()
+    before: DrumHit | None = None
+    free_s, height = -np.inf, 0.0  # since when the tip is free, and how high it then is
+    for place, hit in enumerate(hits):
+        station = _station(hit, places, side, swings)
+        gap = hit.onset_s - before.onset_s if before else np.inf
+        after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
+        lands_s = hit.onset_s - min(EARLY_S, EARLY_SHARE * gap)
+        room = lands_s - free_s
+        lift = _lift(hit, room)
+        if gap >= REST_S:
+            if before is not None:
+                leave_s = free_s + LEAVE_AFTER_S
+                heights += [
+                    (free_s, free_s + RISE_S, _rebound(before), RISE),
+                    (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
+                ]
+                moves.append((leave_s, leave_s + GO_REST_S))
+                stations.append(rest)
+            top_s = lands_s - FALL_S
+            start_s = (
+                top_s - GO_REST_S if before is not None else max(top_s - GO_REST_S, min(0.0, top_s - 0.3))
+            )
+            heights.append((start_s, top_s, max(lift, CLEARANCE_M), GLIDE))
+            moves.append((start_s, top_s + 0.4 * FALL_S))
+        else:
+            assert before is not None
+            way = station.point - stations[-1].point
+            far = float(np.linalg.norm(way))
+            if far > 0.02:
+                lift = max(lift, 0.5 * abs(float(way[1])) + min(CLEARANCE_M, 0.5 * far))
+            if room > LONG_S:
+                moves.append((free_s + 0.15, max(free_s + 0.5, lands_s - FALL_S - RISE_S)))
+                wait = max(WAIT_M, lift - 0.15) if far > 0.02 else WAIT_M
+                top_s = lands_s - FALL_S
+                heights += [
+                    (free_s, free_s + 0.2, max(_rebound(before), wait if far > 0.02 else 0.0), RISE),
+                    (free_s + 0.2, free_s + 0.2 + SETTLE_S * 0.7, wait, GLIDE),
+                    (top_s - RISE_S * 0.9, top_s, lift, GLIDE),
+                ]
+            else:
+                moves.append((free_s + TRAVEL[0] * room, free_s + TRAVEL[1] * room))
+                top_s = lands_s - min(FALL_S, FALL_SHARE * room)
+                heights.append((free_s, top_s, lift, RISE))
+        heights.append((top_s, lands_s, 0.0, FALL))
+        stations.append(station)
+        free_s = hit.onset_s + min(CONTACT_S, CONTACT_SHARE * after)
+        before = hit
+    if before is not None:
+        leave_s = free_s + LEAVE_AFTER_S
+        heights += [
+            (free_s, free_s + RISE_S, _rebound(before), RISE),
+            (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
+        ]
+        moves.append((leave_s, leave_s + GO_REST_S))
+        stations.append(rest)
+    del height
+    return StickPlan(
+        stations,
+        np.array(moves).reshape(-1, 2),
+        np.array(heights).reshape(-1, 4),
+        np.array([hit.onset_s for hit in hits]),
+        np.array([_through(hit) for hit in hits]),
+    )
+
+
+def _lift(hit: DrumHit, room_s: float) -> float:
+    """How high the tip is lifted for a stroke, metres."""
+    if hit.technique == "cross_stick":
+        return min(CROSS_STICK_LIFT_M, LIFT_SPEED_M_S * room_s)
+    wanted = LIFT_M[0] + (LIFT_M[1] - LIFT_M[0]) * hit.velocity**LIFT_POWER
+    if hit.technique in ("flam_grace", "drag_grace", "ghost"):
+        wanted = min(wanted, 0.05)
+    return min(wanted, LIFT_SPEED_M_S * room_s)
+
+
+def _rebound(hit: DrumHit) -> float:
+    share = REBOUND.get(hit.piece, CYMBAL_REBOUND)
+    return max(0.04, share * _lift(hit, np.inf))
+
+
+def _through(hit: DrumHit) -> float:
+    return hit.velocity if hit.piece in THROUGH and hit.zone == "edge" else 0.0
+
+
+def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) -> Station:
+    zone = places[hit.piece, hit.zone]
+    heading = _heading(zone.position, side)
+    across = np.cross(UP, heading)  # to the stick's left
+    across = across - zone.normal * float(across @ zone.normal)
+    across = across / np.linalg.norm(across)
+    apart = min(APART_M, APART_SHARE * zone.radius) * (1.0 if side else -1.0)
+    through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
+    return Station(
+        zone.position + apart * across,
+        zone.normal,
+        heading,
+        through,
+        swings.index(hit.piece) if hit.piece in swings else -1,
+        zone.pivot,
+        hit.piece == "hi_hat",
+    )
+
+
+def _heading(point: FloatArray, side: int) -> FloatArray:
+    elbow = np.array([ELBOW[side][0], 0.0, ELBOW[side][1]])
+    level = (point - elbow) * (1.0, 0.0, 1.0)
+    return level / np.linalg.norm(level)
+
+
+def _rest(places: KitPlaces, side: int) -> Station:
+    snare = places["snare", "centre"]
+    point = snare.position + np.array(REST_TIP[side])
+    return Station(point, UP, _heading(point, side), np.zeros(3), -1, point)
