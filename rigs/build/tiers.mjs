@@ -49,7 +49,7 @@ await document.transform(prune({ keepLeaves: true, keepAttributes: false, keepEx
 const plain = await issues(await io.writeBinary(document));
 await document.transform(
   reorder({ encoder: MeshoptEncoder, target: "size" }),
-  quantize({ pattern: /^(NORMAL|COLOR_0|WEIGHTS_0|JOINTS_0)$/, quantizeNormal: 8, quantizeColor: 8 }),
+  quantize({ pattern: /^(NORMAL|TANGENT|COLOR_0|WEIGHTS_0|JOINTS_0)$/, quantizeNormal: 8, quantizeColor: 8 }),
 );
 document.createExtension(KHRMeshQuantization).setRequired(true);
 document

@@ -8,7 +8,7 @@ import numpy as np
 
 from brass import measures as m
 from brass.paths import arc_length, at_lengths, bezier, joined_path, line
-from brass.turning import Workpiece
+from common.turning import Workpiece
 from brass.wraps import WRAPS
 
 if TYPE_CHECKING:

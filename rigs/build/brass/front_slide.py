@@ -9,7 +9,7 @@ import numpy as np
 from brass import measures as m
 from brass.leadpipe import leadpipe, leadpipe_obstacles, water_key
 from brass.paths import joined_path, line, u_bend
-from brass.turning import Workpiece
+from common.turning import Workpiece
 
 if TYPE_CHECKING:
     from brass.measures import Horn

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from brass.measures import Horn
     from brass.metals import Metals
     from brass.paths import Array
-    from brass.turning import Workpiece
+    from common.turning import Workpiece
 
 RECEIVER = (
     (0, 0.0056), (0, 0.0074), (0.004, 0.0076), (0.005, 0.0070), (0.030, 0.0066), (0.0345, 0.0072),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from brass import measures as m
 from brass.leadpipe import RECEIVER, leadpipe_obstacles
 from brass.paths import bezier, joined_path, line, u_bend
-from brass.turning import Workpiece
+from common.turning import Workpiece
 
 if TYPE_CHECKING:
     from brass.measures import Horn

@@ -11,7 +11,7 @@ import numpy as np
 
 from brass import measures as m
 from brass.paths import joined_path, line, u_bend
-from brass.turning import Workpiece
+from common.turning import Workpiece
 
 if TYPE_CHECKING:
     from brass.measures import Horn

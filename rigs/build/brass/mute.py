@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from brass.turning import Workpiece
+from common.turning import Workpiece
 
 if TYPE_CHECKING:
     from brass.measures import Horn

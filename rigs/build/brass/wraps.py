@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from brass.measures import Horn
     from brass.metals import Metals
     from brass.paths import Array
-    from brass.turning import Workpiece
+    from common.turning import Workpiece
 
 
 @dataclass(frozen=True)

@@ -106,12 +106,18 @@ class GlbWriter:
         weights: Array | None = None,
         targets: list[Array] | None = None,
         colours: Array | None = None,
+        tangents: Array | None = None,
     ) -> dict[str, Any]:
-        """One drawable part; joints, weights are (V, 4), targets a list of offsets (V, 3), colours (V, 3)."""
+        """One drawable part; joints, weights are (V, 4), targets a list of offsets (V, 3), colours (V, 3).
+
+        `tangents` (V, 4) are along u, with the sense of v, as glTF has them.
+        """
         attributes = {
             "POSITION": self.accessor(positions.astype("<f4"), "VEC3", ARRAY_BUFFER, bounds=True),
             "NORMAL": self.accessor(normals.astype("<f4"), "VEC3", ARRAY_BUFFER),
         }
+        if tangents is not None:
+            attributes["TANGENT"] = self.accessor(tangents.astype("<f4"), "VEC4", ARRAY_BUFFER)
         if uv is not None:
             attributes["TEXCOORD_0"] = self.accessor(uv.astype("<f4"), "VEC2", ARRAY_BUFFER)
         if colours is not None:

@@ -10,7 +10,20 @@ from reina.skeleton.load_rig import load_rig, read_rig
 from reina.skeleton.motion_clip import MotionClip
 from reina.skeleton.read_bvh import PositionMeaning, read_bvh
 from reina.skeleton.retarget import blended, clip_of_motion, looped, retarget
-from reina.skeleton.rig import SOLVERS, Button, Capsule, Chain, Limits, Morph, MovingPart, Point, Rig, Twist
+from reina.skeleton.rig import (
+    SOLVERS,
+    Button,
+    Capsule,
+    Chain,
+    Cylinder,
+    Limits,
+    Morph,
+    MovingPart,
+    Point,
+    Rig,
+    Twist,
+    Zone,
+)
 from reina.skeleton.skeleton import Skeleton
 from reina.skeleton.write_bvh import bvh_head, bvh_rows, write_bvh
 
@@ -21,6 +34,7 @@ __all__ = [
     "Capsule",
     "Chain",
     "ClipWarning",
+    "Cylinder",
     "Hold",
     "HumanPose",
     "Limits",
@@ -34,6 +48,7 @@ __all__ = [
     "RigError",
     "Skeleton",
     "Twist",
+    "Zone",
     "blended",
     "bvh_head",
     "bvh_rows",

@@ -17,20 +17,24 @@ from reina.skeleton.rig import (
     Button,
     Capsule,
     Chain,
+    Cylinder,
     Limits,
     Morph,
     MovingPart,
     Point,
     Rig,
     Twist,
+    Zone,
 )
 from reina.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from reina.rotations.arrays import FloatArray
     from reina.skeleton.motion_clip import MotionClip
 
+_UNIT_TOLERANCE = 1e-3
 _CHAIN_LENGTHS = {"planar_three_bone": 3, "coupled_three_bone": 3, "two_bone": 3}
 
 
@@ -75,17 +79,11 @@ def read_rig(document: Node) -> Rig:
         morphs=tuple(
             Morph(entry["parameter"].text(), entry["target"].text()) for entry in document.items("morphs")
         ),
-        capsules=tuple(
-            Capsule(
-                _joint(entry["joint"], skeleton),
-                entry["from"].numbers(3),
-                entry["to"].numbers(3),
-                entry["radius"].number(),
-            )
-            for entry in document.items("capsules")
-        ),
+        capsules=tuple(Capsule(*_read_solid(entry, skeleton)) for entry in document.items("capsules")),
         parts=tuple(_read_part(entry) for entry in document.items("parts")),
         buttons=tuple(_read_button(entry) for entry in document.items("buttons")),
+        cylinders=tuple(Cylinder(*_read_solid(entry, skeleton)) for entry in document.items("cylinders")),
+        zones=_read_zones(document, skeleton),
     )
 
 
@@ -217,6 +215,36 @@ def _read_button(entry: Node) -> Button:
     return Button(
         int(valve), entry["effector"].text(), entry["position"].numbers(3), entry["travel"].numbers(3)
     )
+
+
+def _read_solid(entry: Node, skeleton: Skeleton) -> tuple[int, FloatArray, FloatArray, float, str | None]:
+    """What capsules and cylinders have: joint, both ends, radius and the piece that it belongs to."""
+    piece = entry.get("piece")
+    return (
+        _joint(entry["joint"], skeleton),
+        entry["from"].numbers(3),
+        entry["to"].numbers(3),
+        entry["radius"].number(),
+        None if piece is None else piece.text(),
+    )
+
+
+def _read_zones(document: Node, skeleton: Skeleton) -> dict[tuple[str, str], Zone]:
+    zones: dict[tuple[str, str], Zone] = {}
+    for entry in document.items("zones"):
+        piece, name = entry["piece"].text(), entry["zone"].text()
+        if (piece, name) in zones:
+            raise entry["zone"].fail(f"{piece!r} has the zone {name!r} twice")
+        normal = entry["normal"].numbers(3)
+        length = float(np.linalg.norm(normal))
+        if abs(length - 1.0) > _UNIT_TOLERANCE:
+            raise entry["normal"].fail(f"a normal has length 1, not {length:.6g}")
+        radius = entry["radius"].number()
+        if radius < 0:
+            raise entry["radius"].fail(f"a zone's radius is at least 0, not {radius:g}")
+        joint, position = _joint(entry["joint"], skeleton), entry["position"].numbers(3)
+        zones[piece, name] = Zone(piece, name, joint, position, normal / length, radius)
+    return zones
 
 
 def _joint(node: Node, skeleton: Skeleton) -> int:

@@ -94,11 +94,50 @@ class Morph:
 
 @dataclass(frozen=True, eq=False)
 class Capsule:
-    """A solid part for collisions: a segment in a joint's frame with a radius, metres."""
+    """A solid part for collisions: a segment in a joint's frame with a radius, metres, and round ends.
+
+    Attributes:
+        piece: What of an instrument it belongs to, `Zone.piece` where that is struck; None where nothing says.
+    """
 
     joint: int
     start: FloatArray
     end: FloatArray
+    radius: float
+    piece: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Cylinder:
+    """A solid part with flat ends, as drums and cymbals are; otherwise as `Capsule`."""
+
+    joint: int
+    start: FloatArray
+    end: FloatArray
+    radius: float
+    piece: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Zone:
+    """Where a piece of a kit is struck, in a joint's frame, metres.
+
+    Where a part moves the joint's node, the zone goes with it, by the part's travel times its parameter.
+
+    Attributes:
+        piece: ``snare``, ``ride``.
+        name: Which of the piece's zones: ``centre``, ``edge``, ``rim``; ``bow``, ``bell``, ``edge``.
+        joint: Index of the joint that carries it.
+        position: On the surface, ``(3,)``.
+        normal: Out of the surface, unit, ``(3,)``.
+        radius: How far from there along the surface a tip may land and still be in it.
+    """
+
+    piece: str
+    name: str
+    joint: int
+    position: FloatArray
+    normal: FloatArray
     radius: float
 
 
@@ -163,6 +202,8 @@ class Rig:
         capsules: In the document's order.
         parts: What an instrument's parameters move.
         buttons: What the player's fingers press.
+        cylinders: Solid parts with flat ends, in the document's order.
+        zones: Where the pieces of a kit are struck, by piece and the zone's name.
         clips: Motion of its own, ``clips/<name>.bvh`` in its folder, by name.
     """
 
@@ -179,6 +220,8 @@ class Rig:
     parts: tuple[MovingPart, ...]
     buttons: tuple[Button, ...]
     clips: dict[str, MotionClip] = field(default_factory=dict[str, "MotionClip"])
+    cylinders: tuple[Cylinder, ...] = ()
+    zones: dict[tuple[str, str], Zone] = field(default_factory=dict[tuple[str, str], Zone])
 
     def effector(self, name: str) -> Point:
         """An effector by name; RigError lists them where there is none of that name."""
@@ -191,6 +234,14 @@ class Rig:
     def chain(self, name: str) -> Chain:
         """A chain by name; RigError lists them where there is none of that name."""
         return _find(self.chains, name, "chain")
+
+    def zone(self, piece: str, name: str) -> Zone:
+        """A zone of a piece; RigError lists the zones where there is none of that name."""
+        zone = self.zones.get((piece, name))
+        if zone is None:
+            known = ", ".join(" ".join(key) for key in self.zones) or "none"
+            raise RigError(f"there is no zone {name!r} of {piece!r}; there are: {known}", location="zones")
+        return zone
 
     def chain_of_effector(self, effector: str) -> Chain:
         """The chain that brings an effector to its target.

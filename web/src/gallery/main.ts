@@ -9,6 +9,7 @@ import "./gallery.css";
 import { playedScore, Stage, type Tier } from "../scene";
 import { FINISHES, LENSES, LIGHTS, MUTES, type Overrides, PARTS, STYLES } from "./choices";
 import { SessionFrames } from "./frames";
+import { RigAtRest, withRigs } from "./rig-at-rest";
 
 /** What is shown; what is left out stays as it is. */
 export interface GalleryView {
@@ -76,7 +77,10 @@ async function open(): Promise<Gallery> {
   const stage = new Stage(canvas, { tier, reducedMotion: true, wholeParts: true });
   const frames = await SessionFrames.open(asked.get("session"));
   const { manifest, score } = frames;
-  await stage.load(manifest, (rig) => manifest.links.rigs[rig] ?? `/api/v1/rigs/${rig}`);
+  // Rigs that no session plays yet: `?rig=drumkit@0,0.2,-2.15`.
+  const rigs = await RigAtRest.loadAll(asked.getAll("rig"), manifest);
+  const skeletons = [...manifest.skeletons, ...rigs.map(({ layout }) => layout)];
+  await stage.load({ ...manifest, skeletons }, (rig) => manifest.links.rigs[rig] ?? `/api/v1/rigs/${rig}`);
   const players = Math.max(...manifest.skeletons.map(({ player }) => player)) + 1;
   stage.setScore(playedScore(score, players));
   new ResizeObserver(() => stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio)).observe(canvas);
@@ -106,7 +110,8 @@ async function open(): Promise<Gallery> {
     };
     stage.isolate(PARTS[view.part] ?? null);
     if (!stage.viewPreset(view.camera)) stage.giveBackCamera();
-    stage.draw(await frames.at(view.time, chosen));
+    const frame = await frames.at(view.time, chosen);
+    stage.draw({ ...frame, floats: withRigs(frame.floats, manifest, rigs) });
     // On the canvas once the next picture is due.
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   }
