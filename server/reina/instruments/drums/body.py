@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.instruments.drums.drum_part import drum_fingering
+from reina.instruments.drums.drummer_motion import DrummerMotion
+from reina.instruments.drums.kit_pose import HI_HAT, KitPose, kit_places, part_travel
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
 from reina.instruments.player.held_pose import HeldPose
@@ -16,15 +19,13 @@ from reina.instruments.player.trunk_reach import SIGNALS as REACHING
 from reina.kinematics import TwoBoneLimbs
 from reina.kinematics.sampled_curves import SampledCurves
 from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
-from reina.rotations import conjugate, exp, from_axis_angle, multiply, rotate, same_hemisphere
+from reina.rotations import conjugate, from_axis_angle, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import BodyMotion
-    from reina.rotations.arrays import FloatArray, IntArray
+    from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
 
 SIDES = ("left", "right")
@@ -46,61 +47,46 @@ SMOOTHING_S = 0.8
 """The trunk follows where the hands are over this long."""
 HEAD_TURNED_TO = 0.4
 """How much of the way to the middle of both hands the head turns beyond the trunk."""
-HEEL_RAD = 0.12
-"""How far a heel rises as its pedal goes down."""
-
-
-class Limbs(Protocol):
-    """Where sticks and feet are to be at any time: what the strokes say."""
-
-    duration_s: float
-
-    def hands(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The sticks' tips ``(F, 2, 3)``, metres in the kit's frame, and where they point ``(F, 2, 3)``."""
-        ...
-
-    def feet(self, times_s: FloatArray) -> FloatArray:
-        """How far each pedal is down, left and right, ``(F, 2)``: 0 up, 1 pressed."""
-        ...
-
-    def kit(self, times_s: FloatArray) -> Mapping[str, FloatArray]:
-        """Turns of the kit's joints from rest by name, rotation vectors ``(F, 3)``."""
-        ...
-
-    def parameters(self, times_s: FloatArray) -> FloatArray:
-        """The values of the instrument's parameters, ``(F, P)``."""
-        ...
+HEEL_RAD, HELD_HEEL = 0.26, 0.4
+"""How far a heel goes from down to up, and where on that way it is in the hold."""
 
 
 class DrumsBody:
     """Solves whole poses of a drummer, the kit and the sticks.
 
     Args:
-        engagement: Who plays; the hold has attachments `STICKS`, the kit contacts ``leftPedal`` and
-            ``rightPedal``.
-        limbs: Where sticks and feet are to be.
+        engagement: Who plays a `DrumPart`; the hold has attachments `STICKS`, the kit zones and contacts
+            ``leftPedal`` and ``rightPedal``.
 
     Raises:
         RigError: Something that playing needs is not in the rigs.
     """
 
-    def __init__(self, engagement: Engagement, limbs: Limbs) -> None:
+    def __init__(self, engagement: Engagement) -> None:
         rig, kit = engagement.player_rig, engagement.instrument_rigs[KIT]
         held = HeldPose(rig, engagement.hold)
-        self._limbs = limbs
-        self._kit = kit
+        beats = np.arange(int(np.ceil(engagement.score.tempo_map.beats(engagement.score.duration_s))) + 1)
+        self._beats: FloatArray = engagement.score.tempo_map.seconds(beats.astype(np.float64))
+        self._motion = DrummerMotion(
+            drum_fingering(engagement.played),
+            kit_places(kit),
+            beats_s=self._beats,
+            hi_hat_travel=part_travel(kit, HI_HAT),
+        )
+        self._kit = KitPose(kit)
         self._body = PlayerBody(rig, held, signals=tuple(SHOULDERS), joint_turns=SHOULDERS)
         self._attached = self._attachments(engagement)
         self._arms = self._tool_arms(engagement, TwoBoneLimbs(rig, LIMBS[:2]))
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         self._poles = self._held_poles(rig, held)
         self._feet = _Feet(rig, kit, held)
-        self._kit_joints: IntArray = np.arange(len(kit.skeleton.names))
         sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
         self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
             np.float32
         )
-        self._trunk = self._plan_trunk(held.positions[rig.skeleton.index("spine")])
+        self._trunk = self._plan_trunk(
+            engagement.score.duration_s, held.positions[rig.skeleton.index("spine")]
+        )
 
     def _attachments(self, engagement: Engagement) -> FloatArray:
         lost = [name for name in STICKS if name not in engagement.hold.attachments]
@@ -125,11 +111,11 @@ class DrumsBody:
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
         return rotate(conjugate(chest), pole / np.linalg.norm(pole, axis=-1, keepdims=True))
 
-    def _plan_trunk(self, pivot: FloatArray) -> SampledCurves:
+    def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
         """How trunk and head follow the hands, over the whole piece."""
-        count = int(np.ceil((self._limbs.duration_s + 2.0) * SAMPLED_HZ)) + 1
-        times = np.arange(count) / SAMPLED_HZ
-        tips, directions = self._limbs.hands(times)
+        count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
+        sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
+        tips, directions = sticks.tip[:, ::-1], sticks.direction[:, ::-1]
         wrists = self._arms.wrists(tips, directions)
         reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
         window = np.hanning(2 * reach + 3)[1:-1]
@@ -152,12 +138,12 @@ class DrumsBody:
         for column, name in enumerate((*REACHING, "head_turn")):
             signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
         standing = self._body.stand(signals, motion.stance)
-        tips, directions = self._limbs.hands(times)
+        drummed = self._motion.evaluate(times)
+        tips, directions = drummed.sticks.tip[:, ::-1], drummed.sticks.direction[:, ::-1]
         poles = rotate(standing.world[:, self._chest, None], self._poles)
         sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
-        pressed = self._limbs.feet(times)
-        kit = self._kit_rotations(times)
-        feet, feet_rotations = self._feet.solve(kit, pressed)
+        kit = self._kit.rotations(drummed)
+        feet, feet_rotations = self._feet.solve(kit, drummed.feet.heel[:, ::-1])
         standing = replace(standing, feet=feet, feet_rotations=feet_rotations)
         moving = self._body.reach(standing, sticks.wrists, sticks.hands, elbows=sticks.hinges)
 
@@ -165,29 +151,17 @@ class DrumsBody:
         rotations = np.empty((frames, *self._still.shape), dtype=np.float32)
         rotations[:] = self._still
         rotations[:, self._body.moving] = moving
-        rotations[:, joints : joints + len(self._kit_joints)] = kit
+        rotations[:, joints:-2] = kit
         held = multiply(sticks.hands, self._attached)
         rotations[:, -2:] = held * np.where(held[..., 3:] < 0.0, -1.0, 1.0)
         roots = np.zeros((frames, 4, 3))
         roots[:, 0] = standing.hips
         roots[:, 2:] = sticks.fulcrums
-        return BodyFrames(rotations, roots, self._limbs.parameters(times))
-
-    def _kit_rotations(self, times: FloatArray) -> FloatArray:
-        """Local rotations of the kit's joints, ``(F, N, 4)``."""
-        skeleton = self._kit.skeleton
-        turns = self._limbs.kit(times)
-        rotations = np.empty((len(times), len(skeleton.names), 4))
-        rotations[:] = skeleton.rest_rotations
-        if turns:
-            joints = [skeleton.index(name) for name in turns]
-            turned = multiply(skeleton.rest_rotations[joints], exp(np.stack(list(turns.values()), axis=1)))
-            rotations[:, joints] = same_hemisphere(turned, skeleton.rest_rotations[joints])
-        return rotations
+        return BodyFrames(rotations, roots, self._kit.parameters(drummed))
 
 
 class _Feet:
-    """The balls of the feet stay on the boards of the pedals; heels rise a little as these go down."""
+    """The balls of the feet stay on the boards of the pedals; heels go up for what is loud."""
 
     def __init__(self, rig: Rig, kit: Rig, held: HeldPose) -> None:
         ankles = [rig.chain(leg).joints[-1] for leg in LIMBS[2:]]
@@ -206,13 +180,13 @@ class _Feet:
             conjugate(self._rotations), side / np.linalg.norm(side, axis=-1)[:, None]
         )
 
-    def solve(self, kit: FloatArray, pressed: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def solve(self, kit: FloatArray, heels: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Where the ankles are ``(F, 2, 3)``, metres, and the feet's rotations ``(F, 2, 4)``.
 
         Args:
             kit: The kit's local rotations ``(F, N, 4)``; the boards hang on its root, which stands still.
-            pressed: How far each pedal is down, ``(F, 2)``.
+            heels: How far each heel is up, ``(F, 2)``: 0 down, 1 as far as it goes.
         """
         balls = self._hinges + rotate(kit[:, self._boards], self._offsets)
-        rotations = multiply(self._rotations, from_axis_angle(self._sideways, HEEL_RAD * pressed))
+        rotations = multiply(self._rotations, from_axis_angle(self._sideways, HEEL_RAD * (heels - HELD_HEEL)))
         return balls - rotate(rotations, self._balls), rotations

@@ -7,19 +7,23 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from reina.instruments.drums.body import KIT, STICKS, DrumsBody
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
+from reina.instruments.drums.kit_pose import PARAMETERS
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import BREATH_S
 from reina.instruments.played import Line
+from reina.instruments.player.phrasing import phrases_of, plan_breath, plan_phrasing
 from reina.instruments.ranking import PartRanking, Suitability, rank_parts
 from reina.music.arrays import read_only
 from reina.music.warnings import WarningLog
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
+    from reina.instruments.played import PlayedPart
     from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import InstrumentBody
     from reina.kinematics import Curve, MotionCurves
@@ -32,18 +36,24 @@ SUITABILITY: Final = Suitability(programs={}, names={}, lowest=0, highest=127, d
 NO_DRUMS: Final = -12.0
 """What speaks against a part whose pitches are tones."""
 
+MIDDLE_KEY: Final = 45
+"""On drums no key asks for more effort than another."""
+
 MAX_TOLD: Final = 200
 """How many notes that are not mimed are told of one by one."""
 
 
 class Drums(Instrument):
-    """A drum kit and its player.
-
-    Its body is not there yet: `plan_gestures` and `body` say so.
-    """
+    """A drum kit and its player."""
 
     name, title, rig = "drums", "drum kit", "drumkit"
-    handedness = ("right", "left")
+    seat = "drums"
+    parameters = PARAMETERS
+
+    @property
+    def skeletons(self) -> Mapping[str, str]:
+        """The kit and both sticks."""
+        return {KIT: self.rig, **{stick: stick for stick in STICKS}}
 
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
         """Rank the parts of a score: drums first, the one with the most notes of the kit before others."""
@@ -92,13 +102,15 @@ class Drums(Instrument):
         fingering = finger_drums(score, indices, part, log, handedness=handedness)
         return DrumPart(part, 0, _line(score, indices), fingering, log.warnings(), joined)
 
-    def plan_gestures(self, played: DrumPart, *, seed: int = 0) -> dict[str, Curve]:  # type: ignore[override]
-        """Not there yet."""
-        raise NotImplementedError("the drummer's body is not there yet")
+    def plan_gestures(self, played: PlayedPart, *, seed: int = 0) -> dict[str, Curve]:
+        """Breath and phrasing; what hands and feet do is planned by `body`."""
+        phrases = phrases_of(played)
+        phrased = plan_phrasing(played, phrases, middle_pitch=MIDDLE_KEY, seed=seed)
+        return {name: phrased[name] for name in ("playing", "lean", "turn")} | plan_breath(phrases)
 
-    def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:
-        """Not there yet."""
-        raise NotImplementedError("the drummer's body is not there yet")
+    def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:  # noqa: ARG002
+        """What turns strokes into poses."""
+        return DrumsBody(engagement)
 
 
 def _line(score: Score, indices: IntArray) -> Line:
@@ -117,3 +129,6 @@ def _line(score: Score, indices: IntArray) -> Line:
         shortened=read_only(np.zeros(0, dtype=np.int64)),
         tongued=None,
     )
+
+
+DRUMS: Final = Drums()

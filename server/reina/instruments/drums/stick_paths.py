@@ -106,7 +106,9 @@ class _Stick:
         self._normal = np.stack([station.normal for station in stations])
         self._heading = np.stack([station.heading for station in stations])
         struck = [station for station in stations if station is not stations[0]]
-        self._beyond = np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
+        self._beyond = (
+            np.array([station.through for station in struck]).reshape(-1, 3) * plan.through[:, None]
+        )
         self._arm = self._point - np.stack([station.pivot for station in stations])
         self._swings: IntArray = np.array([station.swings for station in stations])
         self._outward = np.stack([_level(arm) for arm in self._arm])
