@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.habits import LEFT, RIGHT
+from reina.instruments.drums.sticking.habits import LEFT, RIGHT
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray, IntArray

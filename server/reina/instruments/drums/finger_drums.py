@@ -11,10 +11,10 @@ from reina.instruments.drums.chokes import find_chokes
 from reina.instruments.drums.drum_map import PEDAL_CONTROLLER, drum_map, kit_of, strike
 from reina.instruments.drums.drum_part import DrumFingering, Handedness
 from reina.instruments.drums.feet import choose_feet
-from reina.instruments.drums.hands import choose_hands
-from reina.instruments.drums.hit import FEET, HANDS, PIECES, DrumHit, Limb, Technique
-from reina.instruments.drums.struck import Struck
-from reina.instruments.drums.written_hands import named_rudiments, written_hands
+from reina.instruments.drums.hit import FEET, HANDS, MIRRORED, PIECES, DrumHit, Limb, Technique
+from reina.instruments.drums.sticking.hands import choose_hands
+from reina.instruments.drums.sticking.struck import Struck
+from reina.instruments.drums.sticking.written_hands import named_rudiments, written_hands
 from reina.instruments.note_fingerings import StrikeFingering
 from reina.music.arrays import read_only
 
@@ -42,12 +42,6 @@ HALF_OPEN: Final = (32, 88)
 SPLASH_S: Final = 0.18
 """A pedal that is up again so soon after it was struck has splashed the hi-hat."""
 
-MIRRORED: Final[dict[Limb, Limb]] = {
-    "right_hand": "left_hand",
-    "left_hand": "right_hand",
-    "right_foot": "left_foot",
-    "left_foot": "right_foot",
-}
 _SNARE: Final = PIECES.index("snare")
 
 

@@ -27,6 +27,14 @@ HANDS: tuple[Hand, Hand] = ("right_hand", "left_hand")
 
 FEET: tuple[Limb, Limb] = ("right_foot", "left_foot")
 
+MIRRORED: dict[Limb, Limb] = {
+    "right_hand": "left_hand",
+    "left_hand": "right_hand",
+    "right_foot": "left_foot",
+    "left_foot": "right_foot",
+}
+"""Each limb's on the other side."""
+
 PIECES = (
     "snare",
     "kick",

@@ -9,13 +9,20 @@ from typing import Any
 import numpy as np
 
 from reina.instruments.drums.feet import choose_feet
-from reina.instruments.drums.hands import choose_hands
 from reina.instruments.drums.hit import FEET, HANDS, PIECES, DrumHit
-from reina.instruments.drums.kit_places import KitPlaces, ZonePlace
-from reina.instruments.drums.struck import Struck
+from reina.instruments.drums.motion.kit_places import KitPlaces, ZonePlace
+from reina.instruments.drums.sticking.hands import choose_hands
+from reina.instruments.drums.sticking.struck import Struck
 
 SOFT, PLAIN = 0.35, 0.7
-ZONES = {"hi_hat": "bow", "ride": "bow", "crash_left": "edge", "crash_right": "edge", "china": "edge", "splash": "edge"}
+ZONES = {
+    "hi_hat": "bow",
+    "ride": "bow",
+    "crash_left": "edge",
+    "crash_right": "edge",
+    "china": "edge",
+    "splash": "edge",
+}
 _PIECES = {"hi_hat_open": "hi_hat", "ride_bell": "ride", "cross_stick": "snare"}
 
 
@@ -91,11 +98,17 @@ def hits_of(chart: Chart) -> list[DrumHit]:
     struck = chart.struck
     hands = choose_hands(struck, chart.kick_s)
     hits = [
-        DrumHit(float(at), float(at), PIECES[piece], ZONES.get(PIECES[piece], "centre"), HANDS[hand], float(loud))
-        for at, piece, hand, loud in zip(struck.onset_s, struck.piece, hands.hand, struck.velocity, strict=True)
+        DrumHit(
+            float(at), float(at), PIECES[piece], ZONES.get(PIECES[piece], "centre"), HANDS[hand], float(loud)
+        )
+        for at, piece, hand, loud in zip(
+            struck.onset_s, struck.piece, hands.hand, struck.velocity, strict=True
+        )
         if hand >= 0
     ]
-    feet = choose_feet(chart.kick_s, np.zeros(len(chart.kick_s)), np.full(len(chart.kick_s), 0.8), np.zeros(0))
+    feet = choose_feet(
+        chart.kick_s, np.zeros(len(chart.kick_s)), np.full(len(chart.kick_s), 0.8), np.zeros(0)
+    )
     hits += [
         DrumHit(float(at), float(at), "kick", "centre", FEET[foot], 0.8)
         for at, foot in zip(chart.kick_s, feet.foot, strict=True)

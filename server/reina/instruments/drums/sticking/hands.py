@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.figures import TRIPLES, Graces, find_graces
-from reina.instruments.drums.habits import (
+from reina.instruments.drums.hit import PIECES, SPOKEN
+from reina.instruments.drums.sticking.beat import FORCED, Beat, Setting
+from reina.instruments.drums.sticking.cheapest_way import Sticking, stick
+from reina.instruments.drums.sticking.figures import TRIPLES, Graces, find_graces
+from reina.instruments.drums.sticking.habits import (
     BOUNCE_S,
     DISTANCE_M,
     HIGHEST_RATE,
@@ -16,16 +19,14 @@ from reina.instruments.drums.habits import (
     REACH_S,
     RIGHT,
 )
-from reina.instruments.drums.hit import PIECES, SPOKEN
-from reina.instruments.drums.reasons import Neighbours, why_hand
-from reina.instruments.drums.setting import FORCED, Beat, Setting, setting_of
-from reina.instruments.drums.sticking import Sticking, stick
+from reina.instruments.drums.sticking.reasons import Neighbours, why_hand
+from reina.instruments.drums.sticking.setting import setting_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.figures import Rudiment
-    from reina.instruments.drums.struck import Struck
+    from reina.instruments.drums.sticking.figures import Rudiment
+    from reina.instruments.drums.sticking.struck import Struck
     from reina.rotations.arrays import FloatArray, IntArray
 
 AT_ONCE_S: Final = 0.012

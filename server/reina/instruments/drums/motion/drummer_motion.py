@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from reina.instruments.drums.finger_drums import MIRRORED
-from reina.instruments.drums.foot_paths import FootFrames, FootPaths
-from reina.instruments.drums.kit_answers import KitAnswers, KitFrames
-from reina.instruments.drums.stick_paths import StickFrames, StickPaths
+from reina.instruments.drums.hit import MIRRORED
+from reina.instruments.drums.motion.foot_paths import FootFrames, FootPaths
+from reina.instruments.drums.motion.kit_answers import KitAnswers, KitFrames
+from reina.instruments.drums.motion.stick_paths import StickFrames, StickPaths
 
 if TYPE_CHECKING:
     from reina.instruments.drums.drum_part import DrumFingering
-    from reina.instruments.drums.kit_places import KitPlaces
+    from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.rotations.arrays import FloatArray
 
 

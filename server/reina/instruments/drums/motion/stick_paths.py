@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.kit_answers import SWINGS
-from reina.instruments.drums.kit_places import UP
-from reina.instruments.drums.stick_plan import FALL, GLIDE, RISE, plan_sticks
+from reina.instruments.drums.motion.kit_answers import SWINGS
+from reina.instruments.drums.motion.kit_places import UP
+from reina.instruments.drums.motion.stick_plan import FALL, GLIDE, RISE, plan_sticks
 from reina.kinematics.motion_curves import minimum_jerk
 from reina.rotations import from_axis_angle, rotate
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.instruments.drums.hit import DrumHit
-    from reina.instruments.drums.kit_answers import KitAnswers
-    from reina.instruments.drums.kit_places import KitPlaces
-    from reina.instruments.drums.stick_plan import StickPlan
+    from reina.instruments.drums.motion.kit_answers import KitAnswers
+    from reina.instruments.drums.motion.kit_places import KitPlaces
+    from reina.instruments.drums.motion.stick_plan import StickPlan
     from reina.rotations.arrays import FloatArray, IntArray
 
 GRIP_M: Final = 0.27

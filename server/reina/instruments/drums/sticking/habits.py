@@ -19,18 +19,18 @@ RIGHT, LEFT = 0, 1
 """Columns of the tables: the leading hand first."""
 
 SIDES_M: Final = {
-    "snare": (-0.12, 0.25),
-    "kick": (0.0, 0.5),
-    "tom_high": (-0.16, 0.52),
-    "tom_mid": (0.20, 0.52),
-    "tom_floor": (0.48, 0.16),
-    "hi_hat": (-0.48, 0.35),
-    "ride": (0.58, 0.46),
-    "crash_left": (-0.46, 0.62),
-    "crash_right": (0.46, 0.66),
-    "china": (0.86, 0.50),
-    "splash": (0.02, 0.62),
-    "cowbell": (0.04, 0.52),
+    "snare": (-0.04, 0.40),
+    "kick": (0.19, 0.76),
+    "tom_high": (-0.045, 0.72),
+    "tom_mid": (0.305, 0.72),
+    "tom_floor": (0.63, 0.27),
+    "hi_hat": (-0.33, 0.48),
+    "ride": (0.60, 0.45),
+    "crash_left": (-0.28, 0.61),
+    "crash_right": (0.39, 0.57),
+    "china": (0.68, 0.24),
+    "splash": (0.12, 0.73),
+    "cowbell": (0.13, 0.67),
 }
 """About where each piece lies: to the player's right and ahead, metres; what travel and crossing are judged by."""
 
@@ -82,6 +82,9 @@ BOUNCE_COST: Final = 1.0
 
 FASTEST_SINGLES: Final = 20.5
 """Strokes a second that two hands make in turn; faster is a roll of doubles."""
+
+LONG_ROLL: Final = (15.5, 16)
+"""So many strokes a second, and so many of them: a roll that goes on is played in doubles before singles are too fast."""
 
 HIGHEST_RATE: Final = 14.0
 """Strokes a second that one hand can make."""

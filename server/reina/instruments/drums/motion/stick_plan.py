@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.kit_places import UP
+from reina.instruments.drums.motion.kit_places import UP
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.instruments.drums.hit import DrumHit
-    from reina.instruments.drums.kit_places import KitPlaces
+    from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.rotations.arrays import FloatArray
 
 EARLY_S: Final = 0.0168

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.stick_plan import CONTACT_S, EARLY_S
+from reina.instruments.drums.motion.stick_plan import CONTACT_S, EARLY_S
 from reina.kinematics.motion_curves import minimum_jerk
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.instruments.drums.hit import DrumHit
-    from reina.instruments.drums.kit_answers import KitAnswers
+    from reina.instruments.drums.motion.kit_answers import KitAnswers
     from reina.rotations.arrays import FloatArray
 
 SWING_S: Final = 0.1

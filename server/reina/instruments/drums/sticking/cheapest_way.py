@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.figures import TRIPLES
-from reina.instruments.drums.habits import (
+from reina.instruments.drums.hit import PIECES
+from reina.instruments.drums.sticking.figures import TRIPLES
+from reina.instruments.drums.sticking.habits import (
     BOUNCE_COST,
     BOUNCE_S,
     CROSSING,
@@ -25,12 +26,11 @@ from reina.instruments.drums.habits import (
     repeat_cost,
     travel_cost,
 )
-from reina.instruments.drums.hit import PIECES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.setting import Beat, Setting
+    from reina.instruments.drums.sticking.beat import Beat, Setting
     from reina.rotations.arrays import FloatArray, IntArray
 
 LONGEST_RUN: Final = 4

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.hi_hat_pedal import CLOSED, hi_hat_movements
-from reina.instruments.drums.ringing import Ringing
+from reina.instruments.drums.motion.hi_hat_pedal import CLOSED, hi_hat_movements
+from reina.instruments.drums.motion.ringing import Ringing
 from reina.kinematics import MotionCurves
 
 if TYPE_CHECKING:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.instruments.drums.figures import named_rudiment
-from reina.instruments.drums.habits import LEFT, RIGHT
+from reina.instruments.drums.sticking.figures import named_rudiment
+from reina.instruments.drums.sticking.habits import LEFT, RIGHT
 
 if TYPE_CHECKING:
-    from reina.instruments.drums.figures import Rudiment
+    from reina.instruments.drums.sticking.figures import Rudiment
     from reina.music.score import Score
     from reina.rotations.arrays import FloatArray
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 if TYPE_CHECKING:
-    from reina.instruments.drums.struck import Struck
+    from reina.instruments.drums.sticking.struck import Struck
     from reina.rotations.arrays import FloatArray, IntArray
 
 GRACE_S: Final = (0.012, 0.062)
@@ -35,8 +35,8 @@ ALWAYS_GRACE_S: Final = 0.045
 EVEN: Final = 0.2
 """Gaps that differ by less, as a part of their median, are even."""
 
-ACCENT: Final = 1.2
-"""An accent is so many times louder than the notes that it stands among."""
+ACCENT: Final = 1.12
+"""The softest accent is so many times louder than the loudest note that is none."""
 
 FAST_TRIPLES_S: Final = 0.09
 """Accents of every third note at this gap or less are triple strokes; slower they are single strokes."""

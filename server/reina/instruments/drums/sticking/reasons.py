@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from reina.instruments.drums.habits import FASTEST_SINGLES, LEFT, RIGHT, TIMEKEEPERS
 from reina.instruments.drums.hit import PIECES, SPOKEN
+from reina.instruments.drums.sticking.habits import FASTEST_SINGLES, LEFT, RIGHT, TIMEKEEPERS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.setting import Beat, Setting
-    from reina.instruments.drums.sticking import Sticking
+    from reina.instruments.drums.sticking.beat import Beat, Setting
+    from reina.instruments.drums.sticking.cheapest_way import Sticking
 
 SIDES: Final = ("right", "left")
 

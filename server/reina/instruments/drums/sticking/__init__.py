@@ -1,0 +1,1 @@
+"""Which hand strikes: habits, figures and the way through a part that costs the hands least."""
