@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.instruments.drums.drum_part import drum_fingering
-from reina.instruments.drums.drummer_motion import DrummerMotion
-from reina.instruments.drums.kit_pose import HI_HAT, KitPose, kit_places, part_travel
+from reina.instruments.drums.motion.drummer_motion import DrummerMotion
+from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
 from reina.instruments.player.held_pose import HeldPose

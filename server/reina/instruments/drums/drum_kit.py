@@ -10,7 +10,7 @@ import numpy as np
 from reina.instruments.drums.body import KIT, STICKS, DrumsBody
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
-from reina.instruments.drums.kit_pose import PARAMETERS
+from reina.instruments.drums.motion.kit_pose import PARAMETERS
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import BREATH_S

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.curves import Parameter
-from reina.instruments.drums.kit_answers import HEADS, SWINGS
-from reina.instruments.drums.kit_places import SWINGING, KitPlaces, ZonePlace
-from reina.instruments.drums.stick_paths import turned
+from reina.instruments.drums.motion.kit_answers import HEADS, SWINGS
+from reina.instruments.drums.motion.kit_places import SWINGING, KitPlaces, ZonePlace
+from reina.instruments.drums.motion.stick_paths import turned
 from reina.rotations import about_axis, multiply, rotate, same_hemisphere
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
-    from reina.instruments.drums.drummer_motion import DrummerFrames
+    from reina.instruments.drums.motion.drummer_motion import DrummerFrames
     from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
 
