@@ -36,10 +36,18 @@ STICKS = ("left_stick", "right_stick")
 
 DORSAL = np.array([[0.30, 1.0, -0.15], [-0.30, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
+ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
+"""Where elbows point: down, out and a little back."""
+ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
+"""Where the elbows are at ease, across and ahead, metres."""
+INWARD_RAD = np.radians([-20.0, 20.0])
+"""How far a stick points inward from the line from elbow to tip, about +Y."""
 FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
-DEVIATION_RAD = np.radians([[-26.0, 16.0], [-16.0, 26.0]])
+DEVIATION_RAD = np.radians([[-28.0, 10.0], [-10.0, 28.0]])
 """How far wrists may be bent before a stick gives way."""
 
+SEATED, SWAYING = 0.35, ("sway_side", "sway_fore", "sway_turn", "lean", "turn")
+"""How much of what turns a standing player's hips is left."""
 PLANNED_HZ = 10.0
 """How often a second it is worked out how the trunk stands."""
 SAMPLED_HZ = 40.0
@@ -78,7 +86,8 @@ class DrumsBody:
         self._attached = self._attachments(engagement)
         self._arms = self._tool_arms(engagement, TwoBoneLimbs(rig, LIMBS[:2]))
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
-        self._poles = self._held_poles(rig, held)
+        chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
+        self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
         self._feet = _Feet(rig, kit, held)
         sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
         self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
@@ -103,19 +112,12 @@ class DrumsBody:
             tools.append(Tool(attached.position, direction, rotate(attached.rotation, tip)))
         return ToolArms(arms, tools, DORSAL, WristRange(FLEXION_RAD, DEVIATION_RAD))
 
-    def _held_poles(self, rig: Rig, held: HeldPose) -> FloatArray:
-        """Which way the elbows point in the hold, in the chest's frame, ``(2, 3)``."""
-        joints = np.array([rig.chain(arm).joints for arm in LIMBS[:2]])
-        shoulder, elbow, wrist = (held.positions[joints[:, part]] for part in range(3))
-        pole = elbow - 0.5 * (shoulder + wrist)
-        chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
-        return rotate(conjugate(chest), pole / np.linalg.norm(pole, axis=-1, keepdims=True))
-
     def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
         """How trunk and head follow the hands, over the whole piece."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
         sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
-        tips, directions = sticks.tip[:, ::-1], sticks.direction[:, ::-1]
+        tips = sticks.tip[:, ::-1]
+        directions = _from_elbows(tips, sticks.direction[:, ::-1])
         wrists = self._arms.wrists(tips, directions)
         reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
         window = np.hanning(2 * reach + 3)[1:-1]
@@ -134,12 +136,16 @@ class DrumsBody:
         """The poses of F frames."""
         times = motion.times_s
         trunk = self._trunk.evaluate(times)
-        signals = dict(motion.signals)
+        # Who sits sways from the waist; feet are on their pedals.
+        signals = {
+            name: SEATED * signal if name in SWAYING else signal for name, signal in motion.signals.items()
+        }
         for column, name in enumerate((*REACHING, "head_turn")):
             signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
         standing = self._body.stand(signals, motion.stance)
         drummed = self._motion.evaluate(times)
-        tips, directions = drummed.sticks.tip[:, ::-1], drummed.sticks.direction[:, ::-1]
+        tips = drummed.sticks.tip[:, ::-1]
+        directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
         poles = rotate(standing.world[:, self._chest, None], self._poles)
         sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
         kit = self._kit.rotations(drummed)
@@ -158,6 +164,18 @@ class DrumsBody:
         roots[:, 0] = standing.hips
         roots[:, 2:] = sticks.fulcrums
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
+
+
+def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:
+    """Sticks as steep as they are asked to be, that come from where the elbows are, ``(F, 2, 3)``."""
+    ahead = tips[..., [0, 2]] - ELBOW_PLACES
+    ahead = ahead / np.sqrt(np.einsum("...i,...i->...", ahead, ahead))[..., None]
+    level = np.sqrt(np.maximum(1.0 - directions[..., 1] ** 2, 0.0))
+    result = np.empty_like(directions)
+    result[..., 0] = level * (ahead[..., 0] * np.cos(INWARD_RAD) + ahead[..., 1] * np.sin(INWARD_RAD))
+    result[..., 1] = directions[..., 1]
+    result[..., 2] = level * (ahead[..., 1] * np.cos(INWARD_RAD) - ahead[..., 0] * np.sin(INWARD_RAD))
+    return result
 
 
 class _Feet:
