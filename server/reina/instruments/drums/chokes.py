@@ -12,7 +12,7 @@ from reina.instruments.drums.hit import HANDS, PIECES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.hit import Limb
+    from reina.instruments.drums.hit import Hand, Limb
     from reina.music.arrays import FloatArray, IntArray
     from reina.music.score import Score
 
@@ -80,7 +80,7 @@ def find_chokes(
         if struck_by is None:
             continue
         # The hand that did not strike is nearer to free.
-        order = sorted(HANDS, key=lambda hand: hand == struck_by)
+        order: tuple[Hand, ...] = HANDS if struck_by != HANDS[0] else HANDS[::-1]
         free = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
         if free is not None:
             chokes.append(Choke(at_s, PIECES[int(piece[hit])], free))

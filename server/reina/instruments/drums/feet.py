@@ -1,4 +1,4 @@
-"""Which foot: the right one has the bass drum and the left one the hi-hat, until the right one alone is too slow."""
+"""Which foot: the right has the bass drum and the left the hi-hat, until the right alone is too slow."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ BUSY_S: Final = 0.1
 
 GRID: Final = 0.25
 """The division in quarter notes by which the right foot leads."""
+
+SIDES: Final = ("right", "left")
 
 UNPLAYED: Final = -1
 
@@ -73,7 +75,7 @@ def choose_feet(onset_s: FloatArray, beat: FloatArray, velocity: FloatArray, ped
                 side = RIGHT
             foot[hit] = side
             reasons[hit] = (
-                f"{('right', 'left')[side]} foot: the feet take turns, as {rate:.0f} a second is too fast for one"
+                f"{SIDES[side]} foot: the feet take turns, as {rate:.0f} a second is too fast for one"
             )
     _leave_out(onset_s, velocity, foot, reasons)
     return Feet(foot, tuple(reasons))

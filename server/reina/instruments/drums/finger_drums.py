@@ -167,7 +167,7 @@ def _not_mounted(said: Strike) -> str:
 
 
 def _layers(onset_s: FloatArray, piece: IntArray, keys: list[int], velocity: FloatArray) -> IntArray:
-    """Of each note the one that it is one stroke with, -1 of others: the louder of two sounds of one piece."""
+    """Of each note the louder sound of its piece that it is one stroke with; -1 of others."""
     one_with = np.full(len(keys), -1, dtype=np.int64)
     uses = Counter(keys)
     together: list[tuple[int, int]] = []
@@ -195,7 +195,7 @@ def _layers(onset_s: FloatArray, piece: IntArray, keys: list[int], velocity: Flo
 
 def _dynamics(piece: IntArray, velocity: FloatArray, technique: list[Technique | None]) -> None:
     """Mark ghost notes and accents, by what is usual on each piece."""
-    for struck in np.unique(piece[piece >= 0]).tolist():
+    for struck in sorted({index for index in piece.tolist() if index >= 0}):
         own = np.flatnonzero(piece == struck)
         usual = float(np.median(velocity[own]))
         loudest = float(np.quantile(velocity[own], 0.9))
@@ -221,7 +221,7 @@ def _pedal(
     if not told:
         return
     at = np.array([time for time, _ in told])
-    closed = np.array([value for _, value in told])
+    closed = [value for _, value in told]
     for hit, said in enumerate(strikes):
         if said.piece != "hi_hat" or technique[hit] not in ("open", "closed", "chick"):
             continue
@@ -229,8 +229,8 @@ def _pedal(
         if place < 0:
             continue
         if technique[hit] == "chick":
-            soon = slice(place, int(np.searchsorted(at, onset_s[hit] + SPLASH_S)))
-            if len(closed[soon]) and closed[soon][-1] < HALF_OPEN[0]:
+            soon = int(np.searchsorted(at, onset_s[hit] + SPLASH_S)) - 1
+            if soon >= place and closed[soon] < HALF_OPEN[0]:
                 technique[hit] = "splash"
         elif HALF_OPEN[0] <= closed[place] <= HALF_OPEN[1]:
             technique[hit] = "half_open"

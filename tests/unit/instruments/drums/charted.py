@@ -96,22 +96,23 @@ def kit_places() -> KitPlaces:
 def hits_of(chart: Chart) -> list[DrumHit]:
     """The hits of a chart with the hands and feet that are chosen for it."""
     struck = chart.struck
-    hands = choose_hands(struck, chart.kick_s)
+    hands: list[int] = choose_hands(struck, chart.kick_s).hand.tolist()
+    at: list[float] = struck.onset_s.tolist()
+    pieces: list[int] = struck.piece.tolist()
+    loud: list[float] = struck.velocity.tolist()
     hits = [
         DrumHit(
-            float(at), float(at), PIECES[piece], ZONES.get(PIECES[piece], "centre"), HANDS[hand], float(loud)
+            at[index], at[index], PIECES[piece], ZONES.get(PIECES[piece], "centre"), HANDS[hand], loud[index]
         )
-        for at, piece, hand, loud in zip(
-            struck.onset_s, struck.piece, hands.hand, struck.velocity, strict=True
-        )
+        for index, (piece, hand) in enumerate(zip(pieces, hands, strict=True))
         if hand >= 0
     ]
-    feet = choose_feet(
-        chart.kick_s, np.zeros(len(chart.kick_s)), np.full(len(chart.kick_s), 0.8), np.zeros(0)
-    )
+    kicks: list[float] = chart.kick_s.tolist()
+    level = np.full(len(kicks), 0.8)
+    feet: list[int] = choose_feet(chart.kick_s, np.zeros(len(kicks)), level, np.zeros(0)).foot.tolist()
     hits += [
-        DrumHit(float(at), float(at), "kick", "centre", FEET[foot], 0.8)
-        for at, foot in zip(chart.kick_s, feet.foot, strict=True)
+        DrumHit(kick, kick, "kick", "centre", FEET[foot], 0.8)
+        for kick, foot in zip(kicks, feet, strict=True)
         if foot >= 0
     ]
     return sorted(hits, key=lambda hit: hit.onset_s)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from reina.instruments.drums.hit import DrumHit
     from reina.instruments.drums.motion.kit_answers import KitAnswers
-    from reina.rotations.arrays import FloatArray
+    from reina.rotations.arrays import FloatArray, IntArray
 
 SWING_S: Final = 0.1
 """What the beater takes to the head, at most."""
@@ -145,7 +145,7 @@ class _Pedal:
         near = np.minimum.reduce([np.abs(times_s - self._at[nearest]) for nearest in self._around(times_s)])
         return minimum_jerk((near - 0.5 * IDLE_S) / (0.5 * IDLE_S))
 
-    def _around(self, times_s: FloatArray) -> list[FloatArray]:
+    def _around(self, times_s: FloatArray) -> list[IntArray]:
         after = np.searchsorted(self._at, times_s)
         last = len(self._at) - 1
         return [np.clip(after - 1, 0, last), np.clip(after, 0, last)]

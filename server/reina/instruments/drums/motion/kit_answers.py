@@ -1,4 +1,4 @@
-"""What the kit does when it is struck: cymbals swing and settle, the hi-hat's top follows its pedal, heads give, the beater goes back.
+"""What the kit does when it is struck: cymbals swing and settle, the hi-hat follows its pedal, heads give.
 
 All are pure functions of the hits before a time, but for what a foot does ahead of its stroke.
 """
@@ -66,7 +66,7 @@ class KitFrames:
     """What moves of the kit in F frames.
 
     Attributes:
-        tilt: ``(F, 6, 2)`` radians, of each of `SWINGS`: towards where it was struck, and to the side of that.
+        tilt: ``(F, 6, 2)`` radians, of each of `SWINGS`: towards where it was struck, and to its side.
         hi_hat: ``(F,)`` how far the hi-hat is closed: 0 open, 1 closed.
         heads: ``(F, 5)`` of each of `HEADS`, 0 at rest, 1 as far as it gives.
     """

@@ -1,4 +1,7 @@
-"""Where a kit is struck: its zones at rest, in the kit's frame (+Y up, the player faces +Z, +X to the player's left)."""
+"""Where a kit is struck: its zones at rest.
+
+The kit's frame has +Y up; the player faces +Z, and +X is the player's left.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """What swings or shivers after it was struck: a damped oscillation that each hit adds to.
 
-The sum over all hits before a time is kept exactly as one complex amplitude a hit, so a time costs one look-up however many hits
-there were, and is a function of the hits before it alone.
+The sum over all hits before a time is kept exactly as one complex amplitude a hit, so a time costs one
+look-up however many hits there were, and is a function of the hits before it alone.
 """
 
 from __future__ import annotations

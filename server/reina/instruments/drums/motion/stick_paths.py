@@ -69,7 +69,7 @@ class StickPaths:
         hits: By time; those of hands count.
         places: The kit as it stands, mirrored for a left-handed player.
         answers: What the kit does: tips land on cymbals where they are at that time.
-        hi_hat_travel: (3,) how the hi-hat's top goes from open to closed, if its zones are those of the open one.
+        hi_hat_travel: (3,) from the open to the closed hi-hat, if its zones are those of the open one.
     """
 
     def __init__(
@@ -123,7 +123,13 @@ class _Stick:
     def evaluate(
         self, times_s: FloatArray, tilt: FloatArray, closed: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Tip and direction ``(F, 3)``; of the cymbals their tilt ``(F, C, 2)``, of the hi-hat how far it is closed."""
+        """Tip and direction ``(F, 3)``.
+
+        Args:
+            times_s: (F,) seconds.
+            tilt: (F, C, 2) the cymbals'.
+            closed: (F,) how far the hi-hat is closed.
+        """
         station, done = self._where(times_s)
         after = np.minimum(station + 1, len(self._point) - 1)
         blend = done[:, None]

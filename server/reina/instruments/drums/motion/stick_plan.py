@@ -1,7 +1,8 @@
-"""The strokes of one hand, planned once: where each lands, how high the stick is lifted before, how it goes on after.
+"""The strokes of one hand, planned once: where each lands, how it is prepared, how it goes on.
 
-Louder strokes begin higher: the tip is lifted about 5 cm for a tap and up to 40 cm for an accent (Dahl 2000, 2004), and less where
-there is no time. It falls faster and faster, is on the surface at the onset, and rebounds into what comes next.
+Louder strokes begin higher: the tip is lifted about 5 cm for a tap and up to 40 cm for an accent (Dahl 2000,
+2004), and less where there is no time. It falls faster and faster, is on the surface at the onset, and
+rebounds into what comes next.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
 
 EARLY_S: Final = 0.0168
-"""The tip is on the surface this long before the onset: a frame of 1/60 s that shows it there is there at or before
-the onset, never after."""
+"""The tip is on the surface this long before the onset: so the last frame of a 60th
+before the onset shows it there, and none is late."""
 
 CONTACT_S: Final = 0.005
 """And this long after."""
@@ -46,11 +47,12 @@ FALL_S: Final = 0.13
 
 FALL_SHARE: Final = 0.45
 
-LONG_S: Final = 0.8
+LONG_S: Final = 0.9
 """In a longer gap the stick waits above the piece."""
 
-RISE_S: Final = 0.28
-SETTLE_S: Final = 0.35
+RISE_S: Final = 0.26
+REBOUND_S: Final = 0.2
+SETTLE_S: Final = 0.25
 WAIT_M: Final = 0.09
 """Where it waits."""
 
@@ -78,6 +80,8 @@ THROUGH_M: Final = 0.07
 """How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
 
 THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
+
+SAME_PLACE_M: Final = 0.02
 
 TRAVEL: Final = (0.04, 0.86)
 """In which part of the time between two strokes the hand goes from one piece to the other."""
@@ -148,71 +152,93 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     Raises:
         RigError: The kit lacks a piece.
     """
-    rest = _rest(places, side)
-    stations, moves, heights = [rest], list[tuple[float, float]](), list[tuple[float, float, float, float]]()
-    before: DrumHit | None = None
-    free_s, height = -np.inf, 0.0  # since when the tip is free, and how high it then is
+    maker = _PlanMaker(_rest(places, side))
     for place, hit in enumerate(hits):
-        station = _station(hit, places, side, swings)
-        gap = hit.onset_s - before.onset_s if before else np.inf
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
-        lands_s = hit.onset_s - min(EARLY_S, EARLY_SHARE * gap)
-        room = lands_s - free_s
-        lift = _lift(hit, room)
-        if gap >= REST_S:
-            if before is not None:
-                leave_s = free_s + LEAVE_AFTER_S
-                heights += [
-                    (free_s, free_s + RISE_S, _rebound(before), RISE),
-                    (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
-                ]
-                moves.append((leave_s, leave_s + GO_REST_S))
-                stations.append(rest)
-            top_s = lands_s - FALL_S
-            start_s = (
-                top_s - GO_REST_S if before is not None else max(top_s - GO_REST_S, min(0.0, top_s - 0.3))
-            )
-            heights.append((start_s, top_s, max(lift, CLEARANCE_M), GLIDE))
-            moves.append((start_s, top_s + 0.4 * FALL_S))
-        else:
-            assert before is not None
-            way = station.point - stations[-1].point
-            far = float(np.linalg.norm(way))
-            if far > 0.02:
-                lift = max(lift, 0.5 * abs(float(way[1])) + min(CLEARANCE_M, 0.5 * far))
-            if room > LONG_S:
-                moves.append((free_s + 0.15, max(free_s + 0.5, lands_s - FALL_S - RISE_S)))
-                wait = max(WAIT_M, lift - 0.15) if far > 0.02 else WAIT_M
-                top_s = lands_s - FALL_S
-                heights += [
-                    (free_s, free_s + 0.2, max(_rebound(before), wait if far > 0.02 else 0.0), RISE),
-                    (free_s + 0.2, free_s + 0.2 + SETTLE_S * 0.7, wait, GLIDE),
-                    (top_s - RISE_S * 0.9, top_s, lift, GLIDE),
-                ]
-            else:
-                moves.append((free_s + TRAVEL[0] * room, free_s + TRAVEL[1] * room))
-                top_s = lands_s - min(FALL_S, FALL_SHARE * room)
-                heights.append((free_s, top_s, lift, RISE))
-        heights.append((top_s, lands_s, 0.0, FALL))
-        stations.append(station)
-        free_s = hit.onset_s + min(CONTACT_S, CONTACT_SHARE * after)
-        before = hit
-    if before is not None:
-        leave_s = free_s + LEAVE_AFTER_S
-        heights += [
-            (free_s, free_s + RISE_S, _rebound(before), RISE),
-            (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
-        ]
-        moves.append((leave_s, leave_s + GO_REST_S))
-        stations.append(rest)
-    del height
+        maker.strike(hit, _station(hit, places, side, swings), after)
+    maker.finish()
     return StickPlan(
-        stations,
-        np.array(moves).reshape(-1, 2),
-        np.array(heights).reshape(-1, 4),
+        maker.stations,
+        np.array(maker.moves).reshape(-1, 2),
+        np.array(maker.heights).reshape(-1, 4),
         np.array([hit.onset_s for hit in hits]),
         np.array([_through(hit) for hit in hits]),
     )
+
+
+class _PlanMaker:
+    """Makes the plan of one hand, stroke by stroke."""
+
+    def __init__(self, rest: Station) -> None:
+        self._rest = rest
+        self._before: DrumHit | None = None
+        self._free_s = -np.inf  # since when the tip is off what it struck last
+        self.stations = [rest]
+        self.moves: list[tuple[float, float]] = []
+        self.heights: list[tuple[float, float, float, float]] = []
+
+    def strike(self, hit: DrumHit, station: Station, after_s: float) -> None:
+        """Add a stroke; `after_s` is the time up to the next one."""
+        before = self._before
+        gap = hit.onset_s - before.onset_s if before else np.inf
+        lands_s = hit.onset_s - min(EARLY_S, EARLY_SHARE * gap)
+        room = lands_s - self._free_s
+        lift = _lift(hit, room)
+        far = float(np.linalg.norm(station.point - self.stations[-1].point))
+        if far > SAME_PLACE_M and gap < REST_S:
+            rise = abs(float(station.point[1] - self.stations[-1].point[1]))
+            lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
+        if before is None or gap >= REST_S:
+            fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
+        elif room > LONG_S:
+            fall_s = self._waiting(before, lift, far, lands_s)
+        else:
+            fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
+            self.moves.append((self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room))
+            self.heights.append((self._free_s, fall_s, lift, RISE))
+        self.heights.append((fall_s, lands_s, 0.0, FALL))
+        self.stations.append(station)
+        self._free_s = hit.onset_s + min(CONTACT_S, CONTACT_SHARE * after_s)
+        self._before = hit
+
+    def finish(self) -> None:
+        """Add the way to rest after the last stroke."""
+        if self._before is not None:
+            self._to_rest(self._before)
+
+    def _to_rest(self, before: DrumHit) -> None:
+        leave_s = self._free_s + LEAVE_AFTER_S
+        self.heights += [
+            (self._free_s, self._free_s + RISE_S, _rebound(before), RISE),
+            (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
+        ]
+        self.moves.append((leave_s, leave_s + GO_REST_S))
+        self.stations.append(self._rest)
+
+    def _from_rest(self, lift: float, lands_s: float) -> float:
+        """Rest since the stroke before, then come to this one; returns when the stroke falls."""
+        fall_s = lands_s - FALL_S
+        start_s = fall_s - GO_REST_S
+        if self._before is not None:
+            self._to_rest(self._before)
+        else:
+            # What begins with the song is prepared when it does, if there is time.
+            start_s = max(start_s, min(0.0, fall_s - RISE_S))
+        self.heights.append((start_s, fall_s, lift, GLIDE))
+        self.moves.append((start_s, fall_s + 0.4 * FALL_S))
+        return fall_s
+
+    def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
+        """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
+        free_s, fall_s = self._free_s, lands_s - FALL_S
+        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
+        self.moves.append((free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)))
+        self.heights += [
+            (free_s, free_s + REBOUND_S, max(_rebound(before), wait if far > SAME_PLACE_M else 0.0), RISE),
+            (free_s + REBOUND_S, free_s + REBOUND_S + SETTLE_S, wait, GLIDE),
+            (fall_s - RISE_S, fall_s, lift, GLIDE),
+        ]
+        return fall_s
 
 
 def _lift(hit: DrumHit, room_s: float) -> float:

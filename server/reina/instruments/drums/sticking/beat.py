@@ -50,6 +50,11 @@ class Beat:
     graces: int = 0
     after_kick: bool = False
 
+    @property
+    def is_both(self) -> bool:
+        """Whether two hands strike."""
+        return len(self.hits) > 1
+
 
 @dataclass
 class Setting:

@@ -1,8 +1,8 @@
 """Which hand strikes: the way through a whole part that costs the hands least, by dynamic programming.
 
-A state is which hand struck last and how many strokes it has made in a row, so what the other hand struck last, and when, is
-known too. A stroke costs what the hand prefers there (`setting`), what it takes to strike again after so short a time, the way from
-piece to piece, and crossed arms.
+A state is which hand struck last and how many strokes it has made in a row, so what the other hand struck
+last, and when, is known too. A stroke costs what the hand prefers there (`setting`), what it takes to strike
+again after so short a time, the way from piece to piece, and crossed arms.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def stick(beats: Sequence[Beat], setting: Setting) -> Sticking:
     count = len(beats)
     at = np.array([beat.onset_s for beat in beats])
     pieces = np.array([_sides(beat.pieces) for beat in beats], dtype=np.int64).reshape(-1, 2)
-    is_both = np.array([len(beat.pieces) > 1 for beat in beats], dtype=np.bool_)
+    is_both = np.array([beat.is_both for beat in beats], dtype=np.bool_)
     loud = np.array([beat.velocity for beat in beats])
     stay, switch, from_both, into_both, both_both = _costs(at, pieces, loud, setting)
     own = setting.cost
@@ -162,9 +162,9 @@ def _costs(
     """What each way from beat to beat costs beside what is preferred.
 
     Returns:
-        ``stay`` and ``switch``, (G, 2, R): the hand that strikes now struck last too, or the other one did, with R strokes
-        in a row. ``from_both`` (G, 2): both struck last. ``into_both`` (G, 2, R): both strike now, and that hand
-        struck last. ``both_both`` (G,).
+        ``stay`` and ``switch``, (G, 2, R): the hand that strikes now struck last too, or the other one did,
+        with R strokes in a row. ``from_both`` (G, 2): both struck last. ``into_both`` (G, 2, R): both strike
+        now, and that hand struck last. ``both_both`` (G,).
     """
     count = len(at)
     index = np.arange(count)

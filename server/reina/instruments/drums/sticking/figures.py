@@ -1,9 +1,12 @@
-"""Rudiments that a score's own signs ask for: grace notes before a stroke, and accents that fit a sticking alone.
+"""Rudiments that a score's own signs ask for: grace notes, and accents that fit one sticking alone.
 
-Notes of equal strength say nothing, and are single strokes unless they are too fast for them. What does say something:
+Notes of equal strength say nothing, and are single strokes unless they are too fast for them. What does say
+something:
 
-- A soft note 15 to 60 ms before another on the same drum is the grace note of a flam; two are those of a drag (a ruff).
-- On the snare alone, with no cymbal and no bass drum, eight even notes or more whose accents come round as `ACCENTED` has it.
+- A soft note 15 to 60 ms before another on the same drum is the grace note of a flam; two are those of a
+  drag (a ruff).
+- On the snare alone, with no cymbal and no bass drum, eight even notes or more whose accents come round as
+  `ACCENTED` has it.
 - Strong and weak notes in twos or threes, as a right and a left hand sound: doubles and triples.
 """
 
@@ -28,7 +31,8 @@ APART: Final = 1.7
 """How many times farther a figure's first grace note is from the note before it than from the next."""
 
 SOFTER: Final = 0.85
-"""A grace note has at most this part of its stroke's velocity; one nearer than `ALWAYS_GRACE_S` may be as loud."""
+"""A grace note has at most this part of its stroke's velocity; one nearer than `ALWAYS_GRACE_S` may be as
+loud."""
 
 ALWAYS_GRACE_S: Final = 0.045
 
@@ -42,7 +46,8 @@ FAST_TRIPLES_S: Final = 0.09
 """Accents of every third note at this gap or less are triple strokes; slower they are single strokes."""
 
 FAST_DOUBLES_S: Final = 0.1
-"""Accents of every other note at this gap or less are double strokes; slower, a right hand that is stronger."""
+"""Accents of every other note at this gap or less are double strokes; slower, a right hand that is
+stronger."""
 
 
 @dataclass(frozen=True)

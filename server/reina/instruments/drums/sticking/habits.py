@@ -1,7 +1,7 @@
 """What a right-handed drummer's hands prefer, in costs: the larger, the less is it done.
 
-Where no number of a study is known the costs are set so that the grooves, fills and rudiments of the test bed come out as drummers
-write them.
+Where no number of a study is known the costs are set so that the grooves, fills and rudiments of the test
+bed come out as drummers write them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from reina.instruments.drums.hit import PIECES
 
 if TYPE_CHECKING:
-    from reina.rotations.arrays import ArrayLike, FloatArray
+    from reina.rotations.arrays import ArrayLike, FloatArray, IntArray
 
 RIGHT, LEFT = 0, 1
 """Columns of the tables: the leading hand first."""
@@ -32,7 +32,8 @@ SIDES_M: Final = {
     "splash": (0.12, 0.73),
     "cowbell": (0.13, 0.67),
 }
-"""About where each piece lies: to the player's right and ahead, metres; what travel and crossing are judged by."""
+"""About where each piece lies: to the player's right and ahead, metres; what travel and crossing are judged
+by."""
 
 IN_GROOVE: Final = {
     "snare": (1.2, 0.0),
@@ -48,7 +49,8 @@ IN_GROOVE: Final = {
     "cowbell": (0.0, 1.2),
     "kick": (0.0, 0.0),
 }
-"""What it costs to strike a piece with the right and with the left hand while the time is kept on a cymbal."""
+"""What it costs to strike a piece with the right and with the left hand while the time is kept on a
+cymbal."""
 
 IN_RUN: Final = {
     **IN_GROOVE,
@@ -84,7 +86,8 @@ FASTEST_SINGLES: Final = 20.5
 """Strokes a second that two hands make in turn; faster is a roll of doubles."""
 
 LONG_ROLL: Final = (15.5, 16)
-"""So many strokes a second, and so many of them: a roll that goes on is played in doubles before singles are too fast."""
+"""So many strokes a second, and so many of them: a roll that goes on is played in doubles before singles are
+too fast."""
 
 HIGHEST_RATE: Final = 14.0
 """Strokes a second that one hand can make."""
@@ -158,7 +161,7 @@ CROSSING: Final = _crossings()
 """(P, P) what it costs that the right hand is on the first piece while the left is on the second."""
 
 
-def travel_cost(from_piece: FloatArray, to_piece: FloatArray, gap_s: FloatArray) -> FloatArray:
+def travel_cost(from_piece: IntArray, to_piece: IntArray, gap_s: FloatArray) -> FloatArray:
     """What it costs a hand to go from piece to piece in a time; indices into `PIECES`."""
     far = DISTANCE_M[from_piece, to_piece]
     need = np.where(far > 0.0, far / SPEED_M_S + REACH_S, 0.0)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from reina.instruments.drums.sticking.figures import Rudiment
     from reina.instruments.drums.sticking.struck import Struck
-    from reina.rotations.arrays import FloatArray, IntArray
+    from reina.rotations.arrays import BoolArray, FloatArray, IntArray
 
 AT_ONCE_S: Final = 0.012
 """Hits within this time are struck at once."""
@@ -104,7 +104,7 @@ def choose_hands(
 
 def _stick(
     struck: Struck,
-    playable: FloatArray,
+    playable: BoolArray,
     graced: IntArray,
     kick_s: FloatArray,
     named: Sequence[Rudiment | None],
@@ -124,7 +124,7 @@ def _stick(
 
 
 def _beats(
-    struck: Struck, playable: FloatArray, graced: IntArray, kick_s: FloatArray, reasons: list[str]
+    struck: Struck, playable: BoolArray, graced: IntArray, kick_s: FloatArray, reasons: list[str]
 ) -> list[Beat]:
     """Gather what is struck at once; of more than two the softest are left out."""
     at: list[float] = struck.onset_s.tolist()

@@ -42,7 +42,7 @@ def _stretches(beats: Sequence[Beat]) -> list[range]:
 
 
 def _is_roll(beats: Sequence[Beat], stretch: range) -> bool:
-    """Whether notes follow each other too fast for single strokes, or so fast and long that doubles are easier."""
+    """Whether notes are too fast for single strokes, or so fast and so many that doubles are easier."""
     span = beats[stretch[-1]].onset_s - beats[stretch[0]].onset_s
     rate = (len(stretch) - 1) / max(span, 1e-6)
     return len(stretch) >= 4 and (
@@ -51,7 +51,7 @@ def _is_roll(beats: Sequence[Beat], stretch: range) -> bool:
 
 
 def _roll(stretch: range, setting: Setting, *, leads: bool) -> None:
-    """Double strokes from the first note on; the first roll begins with the right hand, the next with the other."""
+    """Double strokes from the first note on; one roll begins with the right hand, the next with the left."""
     setting.cost[stretch.start : stretch.stop] = 0.0
     if leads:
         setting.cost[stretch[0], LEFT] = LEAD_FIRST

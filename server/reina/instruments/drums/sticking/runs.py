@@ -60,7 +60,7 @@ def lead(beats: Sequence[Beat], run: range, setting: Setting) -> None:
     """The right hand leads: on the beats where the bar is divided evenly, else at the beginning."""
     if len(run) == 1:
         beat = beats[run[0]]
-        if len(beat.pieces) == 1:
+        if not beat.is_both:
             setting.cost[run[0]] = _GROOVE[beat.pieces[0]]
         return
     positions = np.array([beats[index].beat for index in run])
@@ -73,7 +73,7 @@ def lead(beats: Sequence[Beat], run: range, setting: Setting) -> None:
             continue
         if place and gaps_s[place - 1] < ALTERNATE_S:
             setting.again[index] = ALTERNATE
-        if len(beats[index].pieces) > 1:
+        if beats[index].is_both:
             continue
         grid = nearest_grid(float(np.min(gaps[max(0, place - LOCAL) : place + LOCAL])))
         if grid is not None:

@@ -41,7 +41,7 @@ def setting_of(beats: Sequence[Beat], named: Sequence[Rudiment | None]) -> Setti
         np.zeros(count, dtype=np.int64),
     )
     for index, beat in enumerate(beats):
-        if len(beat.pieces) > 1:
+        if beat.is_both:
             continue
         table = _GROOVE if in_groove[index] or keeps[index] else _RUN
         setting.cost[index] = CROSS_STICK if beat.is_cross_stick else table[beat.pieces[0]]

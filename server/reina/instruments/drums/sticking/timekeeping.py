@@ -103,10 +103,10 @@ def share_fast_hats(beats: Sequence[Beat], keeps: Sequence[bool], setting: Setti
         hats = [i for i in range(begin, end) if keeps[i] and beats[i].pieces == (_HI_HAT,)]
         if len(hats) >= 4 and any(second - first == 1 for first, second in pairwise(hats)):
             # A bar's length around each hat says whether the backbeat falls together with it.
-            full = np.array([len(beats[i].pieces) > 1 for i in range(begin, end)])
+            full = np.array([beats[i].is_both for i in range(begin, end)])
             for index in range(begin, end):
                 beat = beats[index]
-                if len(beat.pieces) > 1:
+                if beat.is_both:
                     continue
                 near = full[max(0, index - begin - 8) : index - begin + 9]
                 is_shared = not near.any()
