@@ -38,6 +38,9 @@ DORSAL = np.array([[0.30, 1.0, -0.15], [-0.30, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
 ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
 """Where elbows point: down, out and a little back."""
+SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
+NEAREST_M, YIELDING_M = 0.43, 0.03
+"""No tip comes nearer to its shoulder than about the first, seen from above; no piece is."""
 ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
 """Where the elbows are at ease, across and ahead, metres."""
 INWARD_RAD = np.radians([-20.0, 20.0])
@@ -116,7 +119,7 @@ class DrumsBody:
         """How trunk and head follow the hands, over the whole piece."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
         sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
-        tips = sticks.tip[:, ::-1]
+        tips = _at_arms_length(sticks.tip[:, ::-1])
         directions = _from_elbows(tips, sticks.direction[:, ::-1])
         wrists = self._arms.wrists(tips, directions)
         reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
@@ -144,7 +147,7 @@ class DrumsBody:
             signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
         standing = self._body.stand(signals, motion.stance)
         drummed = self._motion.evaluate(times)
-        tips = drummed.sticks.tip[:, ::-1]
+        tips = _at_arms_length(drummed.sticks.tip[:, ::-1])
         directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
         poles = rotate(standing.world[:, self._chest, None], self._poles)
         sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
@@ -164,6 +167,19 @@ class DrumsBody:
         roots[:, 0] = standing.hips
         roots[:, 2:] = sticks.fulcrums
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
+
+
+def _at_arms_length(tips: FloatArray) -> FloatArray:
+    """Tips that go round the body on their way; where they strike, they are far enough from it, ``(F, 2, 3)``."""
+    away = tips[..., [0, 2]] - SHOULDER_PLACES
+    distance = np.sqrt(np.einsum("...i,...i->...", away, away))
+    near = np.maximum(NEAREST_M - distance, 0.0)
+    if not near.any():
+        return tips
+    share = near * near / ((near + YIELDING_M) * np.maximum(distance, 1e-6))
+    result = tips.copy()
+    result[..., [0, 2]] += away * share[..., None]
+    return result
 
 
 def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:
