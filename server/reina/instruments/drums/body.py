@@ -135,6 +135,15 @@ class DrumsBody:
         head = HEAD_TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
         return SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
 
+    def _seated(self, stance: FloatArray | None) -> FloatArray | None:
+        """What is left of a way of standing for who sits: the hips stay on the stool, the feet on the pedals."""
+        if stance is None:
+            return None
+        joints = len(self._body.trunk)
+        kept = stance[:, : joints + 1].copy()
+        kept[:, [0, joints]] = 0.0
+        return kept
+
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
         times = motion.times_s
@@ -145,7 +154,7 @@ class DrumsBody:
         }
         for column, name in enumerate((*REACHING, "head_turn")):
             signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
-        standing = self._body.stand(signals, motion.stance)
+        standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
         tips = _at_arms_length(drummed.sticks.tip[:, ::-1])
         directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
