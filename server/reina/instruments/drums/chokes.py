@@ -80,8 +80,9 @@ def find_chokes(
         if struck_by is None:
             continue
         # The hand that did not strike is nearer to free.
-        order: tuple[Hand, ...] = HANDS if struck_by != HANDS[0] else HANDS[::-1]
-        free = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
+        right, left = HANDS
+        order: tuple[Hand, Hand] = (left, right) if struck_by == right else (right, left)
+        free: Hand | None = next((hand for hand in order if _is_free(busy[hand], at_s)), None)
         if free is not None:
             chokes.append(Choke(at_s, PIECES[int(piece[hit])], free))
             choked.append(hit)

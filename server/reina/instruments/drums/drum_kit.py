@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.body import KIT, STICKS, DrumsBody
+from reina.instruments.drums.drum_map import drum_map, kit_of
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
 from reina.instruments.drums.motion.kit_pose import PARAMETERS
@@ -38,6 +39,8 @@ NO_DRUMS: Final = -12.0
 
 MIDDLE_KEY: Final = 45
 """On drums no key asks for more effort than another."""
+STRUCK: Final = 4.0
+"""What speaks for the part with the most notes that are struck on the kit; for others in proportion."""
 
 MAX_TOLD: Final = 200
 """How many notes that are not mimed are told of one by one."""
@@ -56,17 +59,19 @@ class Drums(Instrument):
         return {KIT: self.rig, **{stick: stick for stick in STICKS}}
 
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
-        """Rank the parts of a score: drums first, the one with the most notes of the kit before others."""
-        most = max(len(score.note_indices(part.index)) for part in score.parts)
+        """Rank the parts of a score: drums first, and of them the one with the most notes for the kit."""
+        struck = {part.index: _struck(score, part.index) for part in score.parts if part.is_drums}
+        most = max(struck.values(), default=0)
         ranked: list[PartRanking] = []
         for ranking in rank_parts(score, SUITABILITY):
             if not score.parts[ranking.part].is_drums:
                 reasons = (f"no drums ({NO_DRUMS:+.1f})", *ranking.reasons)
                 ranked.append(replace(ranking, score=round(ranking.score + NO_DRUMS, 3), reasons=reasons))
                 continue
-            share = len(score.note_indices(ranking.part)) / most
-            reasons = (*ranking.reasons, f"{share:.0%} as many notes as the fullest part ({share:+.1f})")
-            ranked.append(replace(ranking, score=round(ranking.score + share, 3), reasons=reasons))
+            count = struck[ranking.part]
+            weight = STRUCK * count / most if most else 0.0
+            reasons = (*ranking.reasons, f"{count} of its notes are struck on the kit ({weight:+.1f})")
+            ranked.append(replace(ranking, score=round(ranking.score + weight, 3), reasons=reasons))
         return tuple(sorted(ranked, key=lambda ranking: (-ranking.score, ranking.part)))
 
     def play(
@@ -111,6 +116,13 @@ class Drums(Instrument):
     def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:  # noqa: ARG002
         """What turns strokes into poses."""
         return DrumsBody(engagement)
+
+
+def _struck(score: Score, part: int) -> int:
+    """How many notes of a part are struck on the kit."""
+    keys: list[int] = score.notes.sounding_pitch[score.note_indices(part)].tolist()
+    kit = drum_map(kit_of(score, part, set(keys)))
+    return sum(key in kit and bool(kit[key].piece) for key in keys)
 
 
 def _line(score: Score, indices: IntArray) -> Line:

@@ -225,11 +225,11 @@ def _pedal(
     for hit, said in enumerate(strikes):
         if said.piece != "hi_hat" or technique[hit] not in ("open", "closed", "chick"):
             continue
-        place = int(np.searchsorted(at, onset_s[hit] + 1e-3, side="right")) - 1
+        place = int(np.searchsorted(at, float(onset_s[hit]) + 1e-3, side="right")) - 1
         if place < 0:
             continue
         if technique[hit] == "chick":
-            soon = int(np.searchsorted(at, onset_s[hit] + SPLASH_S)) - 1
+            soon = int(np.searchsorted(at, float(onset_s[hit]) + SPLASH_S)) - 1
             if soon >= place and closed[soon] < HALF_OPEN[0]:
                 technique[hit] = "splash"
         elif HALF_OPEN[0] <= closed[place] <= HALF_OPEN[1]:

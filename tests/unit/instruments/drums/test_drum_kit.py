@@ -1,5 +1,7 @@
 """A part of drums as the instrument plays it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.unit.instruments.drums.scores import drum_score, hands, played
@@ -27,6 +29,15 @@ def test_drums_go_before_what_sounds_and_after_nothing() -> None:
     ranked = Drums().rank_parts(score)
     assert next(ranking.part for ranking in ranked) == 1
     assert ranked[0].score > 0 > ranked[1].score
+
+
+def test_of_two_parts_of_drums_the_one_for_the_kit_goes_first() -> None:
+    congas = [(0.1 * k, 0.1 * k + 0.05, 62) for k in range(40)]
+    score = score_of(congas, [(0.5 * k, 0.5 * k + 0.1, 38) for k in range(8)], drums=0)
+    both = replace(score, parts=tuple(replace(part, is_drums=True) for part in score.parts))
+    ranked = Drums().rank_parts(both)
+    assert ranked[0].part == 1
+    assert any("8 of its notes are struck on the kit" in reason for reason in ranked[0].reasons)
 
 
 def test_a_rock_beat_on_the_wire() -> None:
@@ -129,7 +140,8 @@ def test_hands_that_stand_under_the_notes_are_kept() -> None:
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("Double paradiddle", "RLRLRRLRLRLL"), ("Paradiddle", "RLRRLRLLRLRR"), ("Double Strokes", "RRLLRRLLRRLL"),
+        ("Double paradiddle", "RLRLRRLRLRLL"), ("Paradiddle", "RLRRLRLLRLRR"),
+        ("Double Strokes", "RRLLRRLLRRLL"),
         ("Paradiddle-diddle", "RLRRLLRLRRLL"), ("Six Stroke Roll", "RLLRRLRLLRRL"), ("Drums", "RLRLRLRLRLRL"),
     ],
 )  # fmt: skip

@@ -56,7 +56,7 @@ class DrummerMotion:
         hits = fingering.hits
         stands = places.mirrored() if is_left else places
         feet = [replace(hit, limb=MIRRORED[hit.limb]) for hit in hits] if is_left else hits
-        self._answers = KitAnswers(hits, fingering.chokes)
+        self._answers = KitAnswers(hits, fingering.chokes, mirrored=is_left)
         self._sticks = StickPaths(hits, stands, self._answers, hi_hat_travel=hi_hat_travel)
         self._feet = FootPaths(feet, self._answers, beats_s)
 

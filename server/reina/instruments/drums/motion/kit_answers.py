@@ -82,10 +82,14 @@ class KitAnswers:
     Args:
         hits: By time.
         chokes: Cymbals that are gripped, by time.
+        mirrored: Whether it is a left-handed player's kit.
     """
 
-    def __init__(self, hits: Sequence[DrumHit], chokes: Sequence[Choke] = ()) -> None:
-        self._swings = [_swing(piece, hits, chokes) for piece in SWINGS]
+    def __init__(
+        self, hits: Sequence[DrumHit], chokes: Sequence[Choke] = (), *, mirrored: bool = False
+    ) -> None:
+        side = -SIDE_SHARE if mirrored else SIDE_SHARE
+        self._swings = [_swing(piece, hits, chokes, side) for piece in SWINGS]
         self._heads = [_head(piece, hits) for piece in HEADS]
         self._hi_hat = MotionCurves({"hi_hat": (hi_hat_movements(hits), CLOSED)})
 
@@ -106,7 +110,9 @@ class KitAnswers:
         return KitFrames(self.tilt(times_s), self.hi_hat(times_s), np.clip(heads, 0.0, 1.0))
 
 
-def _swing(piece: str, hits: Sequence[DrumHit], chokes: Sequence[Choke]) -> tuple[Ringing, Ringing]:
+def _swing(
+    piece: str, hits: Sequence[DrumHit], chokes: Sequence[Choke], side: float
+) -> tuple[Ringing, Ringing]:
     swing = SWINGS[piece]
     struck = [
         (hit.onset_s, hit.velocity * ZONE_PUSH.get(hit.zone, 1.0), False)
@@ -125,9 +131,9 @@ def _swing(piece: str, hits: Sequence[DrumHit], chokes: Sequence[Choke]) -> tupl
             frequency_hz=swing.frequency_hz * detune,
             decay=swing.decay,
             gripped=held,
-            most=FARTHEST_RAD * share,
+            most=FARTHEST_RAD * abs(share),
         )
-        for share, detune in ((1.0, 1.0), (SIDE_SHARE, SIDE_DETUNE))
+        for share, detune in ((1.0, 1.0), (side, SIDE_DETUNE))
     ]
     return about[0], about[1]
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.hit import PIECES
+from reina.instruments.drums.sticking.beat import FORCED
 from reina.instruments.drums.sticking.figures import TRIPLES
 from reina.instruments.drums.sticking.habits import (
     BOUNCE_COST,
@@ -51,7 +52,8 @@ SKIP: Final = 1.6
 SKIP_COST: Final = 0.2
 MIN_GAP_S: Final = 0.07
 
-FORCED: Final = 40.0
+LOUDER: Final = 1.25
+"""So many times louder than its first stroke the second of a double may be, unless it is part of a roll."""
 
 _KEEPS: Final = np.array([piece in TIMEKEEPERS for piece in PIECES])
 _DRUMS: Final = np.array(
@@ -184,7 +186,7 @@ def _costs(
         & _DRUMS[pieces[:, RIGHT]]
         & (gap >= BOUNCE_S[0])
         & (gap <= BOUNCE_S[1])
-        & (loud <= 1.25 * loud[before])
+        & ((loud <= LOUDER * loud[before]) | (setting.turn < 0))
     )
     for run in range(LONGEST_RUN):
         other = index - 2 - run

@@ -27,7 +27,7 @@ GRACE_S: Final = (0.012, 0.062)
 DRAG_S: Final = 0.085
 """How far a drag's notes are apart at most."""
 
-APART: Final = 1.7
+APART: Final = 2.3
 """How many times farther a figure's first grace note is from the note before it than from the next."""
 
 SOFTER: Final = 0.85
@@ -36,8 +36,11 @@ loud."""
 
 ALWAYS_GRACE_S: Final = 0.045
 
-EVEN: Final = 0.2
-"""Gaps that differ by less, as a part of their median, are even."""
+EVEN: Final = 0.25
+"""Gaps that differ by less, as a part of what is usual, are even."""
+
+LATE_S: Final = 0.024
+"""And so are those that differ by less than this: hands are not exact."""
 
 ACCENT: Final = 1.12
 """The softest accent is so many times louder than the loudest note that is none."""
@@ -173,7 +176,12 @@ def is_even(onset_s: FloatArray) -> bool:
     if not len(gaps):
         return False
     median = float(np.median(gaps))
-    return bool(np.all(np.abs(gaps - median) <= EVEN * median))
+    return all(is_gap_even(gap, median) for gap in gaps.tolist())
+
+
+def is_gap_even(gap_s: float, usual_s: float) -> bool:
+    """Return whether a gap is one of an even row, played by hand."""
+    return abs(gap_s - usual_s) <= max(EVEN * usual_s, LATE_S)
 
 
 def named_rudiment(text: str) -> Rudiment | None:

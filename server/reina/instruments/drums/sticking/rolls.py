@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.sticking.beat import FORCED, LEAD_FIRST, RUN_GAP_S, SNARE
-from reina.instruments.drums.sticking.figures import SINGLES, is_even, stretch_rudiment
+from reina.instruments.drums.sticking.figures import SINGLES, is_even, is_gap_even, stretch_rudiment
 from reina.instruments.drums.sticking.habits import FASTEST_SINGLES, LEFT, LONG_ROLL
 
 if TYPE_CHECKING:
@@ -31,9 +31,9 @@ def _stretches(beats: Sequence[Beat]) -> list[range]:
             gap = 0.0
             while end < len(beats) and _is_plain_snare(beats[end]) and not beats[end].after_kick:
                 next_gap = beats[end].onset_s - beats[end - 1].onset_s
-                if next_gap > RUN_GAP_S or (gap and abs(next_gap - gap) > 0.25 * gap):
+                if next_gap > RUN_GAP_S or (gap and not is_gap_even(next_gap, gap)):
                     break
-                gap = gap or next_gap
+                gap = (beats[end].onset_s - beats[begin].onset_s) / (end - begin)
                 end += 1
             if end - begin >= 2:
                 stretches.append(range(begin, end))
