@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import httpx
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Sequence
 
     from playwright.sync_api import Browser, Page
 
@@ -69,11 +69,20 @@ class GalleryPage:
     """A gallery page of one session, without its controls."""
 
     def __init__(
-        self, browser: Browser, address: str, session: str, *, size: tuple[int, int], tier: str
+        self,
+        browser: Browser,
+        address: str,
+        session: str,
+        *,
+        size: tuple[int, int],
+        tier: str,
+        rigs: Sequence[str] = (),
     ) -> None:
+        """`rigs` stand there alone, as their files have them at rest: `drumkit@0,0.2,-2.15`."""
         self.page: Page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         self.page.set_default_timeout(PATIENCE_MS)
-        self.page.goto(f"{address}/gallery?bare&session={session}&tier={tier}")
+        beside = "&alone" * bool(rigs) + "".join(f"&rig={rig}" for rig in rigs)
+        self.page.goto(f"{address}/gallery?bare&session={session}&tier={tier}{beside}")
         self.page.wait_for_function("window.gallery || document.querySelector('#word').textContent")
         word = self.page.locator("#word").inner_text()
         if word:

@@ -1,6 +1,6 @@
 """Draw the pictures of docs/images anew, or those that are named.
 
-`.venv/bin/python -m tests.pictures.renew [page] [sheet] [players] [editor]`.
+`.venv/bin/python -m tests.pictures.renew [page] [sheet] [players] [kit] [editor]`.
 
 Needs what `make test` sets up: the development packages, the built page and a Chromium.
 """
@@ -77,6 +77,19 @@ PORTRAITS: dict[str, tuple[View, ...]] = {
         ([0.85, 1.5, 1.5], [0.05, 1.4, 0.3], 0.45, {"light": "concert", "values": {"trumpet/mute": [1.0]}}),
     ),
 }
+KIT_AT = (0.0, 0.2, -2.15)
+"""On the platform behind the players."""
+KIT_SIZE = (640, 420)
+KIT_VIEWS: tuple[View, ...] = (
+    ([1.5, 1.5, 1.35], [-0.1, 0.78, -1.6], 0.62, {}),
+    ([0.0, 1.52, -2.4], [-0.1, 0.8, -1.35], 1.15, {}),
+    ([-0.1, 3.1, -1.75], [-0.1, 0.6, -1.6], 0.7, {}),
+    ([-0.75, 1.75, -2.3], [-0.7, 1.2, -1.63], 0.5, {}),
+    ([-1.0, 0.75, 0.15], [-0.1, 0.75, -1.55], 0.5, {}),
+    ([0.9, 1.3, -2.05], [0.38, 1.02, -1.55], 0.45, {}),
+    ([1.2, 1.6, 1.6], [-0.1, 0.8, -1.6], 0.6, {"light": "concert"}),
+    ([-1.4, 1.5, 1.5], [-0.1, 0.8, -1.6], 0.6, {"style": "toon"}),
+)
 EDITED = "prince-of-denmarks-march"
 EDITOR_SIZE = (1440, 900)
 EDITOR_MOMENT_S = 30.0
@@ -151,6 +164,25 @@ def draw_players(browser: Browser, server: Running) -> None:
             gallery.page.close()
 
 
+def draw_kit(browser: Browser, server: Running) -> None:
+    """The drum kit from the hall, from the stool, from above and from near, as the rigs' readme shows it."""
+    with httpx.Client(base_url=server.address, timeout=60.0) as client, vite(server.address) as address:
+        session = upload(client, (ROOT / "examples/scores" / PORTRAYED).read_bytes(), PORTRAYED)
+        stood = f"drumkit@{','.join(str(metres) for metres in KIT_AT)}"
+        gallery = GalleryPage(browser, address, session.id, size=KIT_SIZE, tier="full", rigs=[stood])
+        columns = len(KIT_VIEWS) // 2
+        size = (columns * (KIT_SIZE[0] + GAP) - GAP, 2 * (KIT_SIZE[1] + GAP) - GAP)
+        sheet = Image.new("RGB", size, INK)
+        for number, (position, target, fov, rest) in enumerate(KIT_VIEWS):
+            values = {"camera/position": position, "camera/target": target, "camera/fov": [fov]}
+            png = gallery.picture({**PORTRAIT_VIEW, **rest, "values": values})
+            row, column = divmod(number, columns)
+            place = (column * (KIT_SIZE[0] + GAP), row * (KIT_SIZE[1] + GAP))
+            sheet.paste(Image.open(io.BytesIO(png)).convert("RGB"), place)
+        sheet.save(IMAGES / "drumkit.webp", quality=86, method=6)
+        gallery.page.close()
+
+
 def draw_editor(browser: Browser, server: Running) -> None:
     """The show's editor over its own example, some of the camera's keyframes chosen."""
     with httpx.Client(base_url=server.address, timeout=60.0) as client:
@@ -177,7 +209,13 @@ def draw_editor(browser: Browser, server: Running) -> None:
     Image.open(io.BytesIO(png)).convert("RGB").save(IMAGES / "editor.webp", quality=86, method=6)
 
 
-PICTURES = {"page": draw_page, "sheet": draw_sheet, "players": draw_players, "editor": draw_editor}
+PICTURES = {
+    "page": draw_page,
+    "sheet": draw_sheet,
+    "players": draw_players,
+    "kit": draw_kit,
+    "editor": draw_editor,
+}
 
 
 def main() -> None:

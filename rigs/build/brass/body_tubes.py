@@ -8,8 +8,8 @@ import numpy as np
 
 from brass import measures as m
 from brass.paths import arc_length, at_lengths, bezier, joined_path, line
-from common.turning import Workpiece
 from brass.wraps import WRAPS
+from common.turning import Workpiece
 
 if TYPE_CHECKING:
     from brass.measures import Horn

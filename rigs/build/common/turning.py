@@ -60,6 +60,11 @@ class Workpiece:
                 placed = vertices @ rotation.T + np.asarray(at, dtype=np.float64)
                 self._pieces.setdefault(material, []).append((placed, normals @ rotation.T, faces, uv))
 
+    def settle(self, step_m: float) -> None:
+        """Put every vertex on a grid so fine that nobody sees it: its coordinates then take fewer bytes."""
+        for material, pieces in self._pieces.items():
+            self._pieces[material] = [(np.round(v / step_m) * step_m, n, f, uv) for v, n, f, uv in pieces]
+
     def surfaces(self) -> dict[int, Turned]:
         """Vertices (V, 3), normals (V, 3) and faces (F, 3) by material."""
         return {
@@ -72,7 +77,10 @@ class Workpiece:
         for material, pieces in self._pieces.items():
             starts = np.cumsum([0] + [len(v) for v, _, _, _ in pieces[:-1]])
             faces = np.vstack([f + start for (_, _, f, _), start in zip(pieces, starts, strict=True)])
-            vertices, normals = np.vstack([piece[0] for piece in pieces]), np.vstack([piece[1] for piece in pieces])
+            vertices, normals = (
+                np.vstack([piece[0] for piece in pieces]),
+                np.vstack([piece[1] for piece in pieces]),
+            )
             uv = np.vstack([piece[3] for piece in pieces])
             used = np.unique(faces)
             index = np.full(len(vertices), -1)
@@ -100,7 +108,9 @@ class Workpiece:
         for material, (vertices, normals, faces, uv) in self._joined().items():
             colours = None
             if cells is not None:
-                stood, out = (vertices, normals) if rotation is None else (vertices @ rotation.T, normals @ rotation.T)
+                stood, out = (
+                    (vertices, normals) if rotation is None else (vertices @ rotation.T, normals @ rotation.T)
+                )
                 light = openness(cells, stood + np.asarray(place, dtype=np.float64), out)
                 colours = tinted(light[:, None], shades[material])
             places = uv if material in pictured else None
@@ -211,7 +221,7 @@ class Workpiece:
         axes: Array | None = None,
         taper: tuple[float, float] = (1.0, 1.0),
     ) -> None:
-        """A box with bevelled edges that shade as round ones; `axes` are its directions as a matrix's columns.
+        """A box with bevelled edges that shade as round ones; `axes` are its directions, a matrix's columns.
 
         `taper` is what is left of its x and z sizes at its upper end.
         """

@@ -81,7 +81,14 @@ def wing_nut(piece: Workpiece, materials: KitMaterials, y: float) -> None:
 def stand_top(detail: float, materials: KitMaterials) -> Workpiece:
     """The top of a stand in the cymbal's frame at rest: seat, felts, sleeve, rod and wing nut."""
     piece = Workpiece(detail)
-    cup = [(-0.022, 0.0), (-0.022, 0.0095), (-0.0165, 0.0130), (-0.0145, 0.0170), (-0.0130, 0.0170), (-0.0130, 0.003)]
+    cup = [
+        (-0.022, 0.0),
+        (-0.022, 0.0095),
+        (-0.0165, 0.0130),
+        (-0.0145, 0.0170),
+        (-0.0130, 0.0170),
+        (-0.0130, 0.003),
+    ]
     piece.lathe(materials.chrome, (0, 0, 0), (0, 1, 0), cup, 20)
     felt(piece, materials, -0.0130, -m.CYMBAL_THICKNESS - 0.0004, 0.0185)
     felt(piece, materials, 0.0006, 0.0105, 0.0165)

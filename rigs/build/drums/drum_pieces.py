@@ -1,10 +1,12 @@
-"""Drums: shells, hoops with lugs and rods, heads, and what holds the floor tom and the bass drum on the floor.
+"""Drums: shells, hoops with lugs and rods, heads, the snare drum's gear.
 
-Each is made in the drum's own frame: the origin in the middle of the batter head, +Y out of it, −Z toward the player.
+Each is made in the drum's own frame: the origin in the middle of the batter head, +Y out of it, −Z toward
+the player.
 """
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -71,9 +73,7 @@ def head(detail: float, materials: KitMaterials, drum: Drum) -> Workpiece:
     r = drum.radius
     rings = np.r_[np.linspace(0.0, r - 0.012, 7), r - 0.004, r + 0.0015, r + 0.0035]
     drop = np.r_[np.zeros(7), -0.0001, -0.0016, -0.0065]
-    piece.lathe(
-        materials.skin, [0, 0, 0], [0, 1, 0], np.c_[drop, rings][::-1], 56, smooth=True
-    )
+    piece.lathe(materials.skin, [0, 0, 0], [0, 1, 0], np.c_[drop, rings][::-1], 56, smooth=True)
     return piece
 
 
@@ -117,7 +117,7 @@ def metal_hoop(piece: Workpiece, materials: KitMaterials, drum: Drum, head_y: fl
         (m.HOOP_OVER, out - wall),
     ]
     piece.lathe(materials.chrome, [0, head_y, 0], [0, sign, 0], profile, 56)
-    piece.ring(materials.chrome, [0, head_y + sign * m.HOOP_OVER, 0], [0, 1, 0], out, m.HOOP_BEAD, 56, 7)
+    piece.ring(materials.chrome, [0, head_y + sign * m.HOOP_OVER, 0], [0, 1, 0], out, m.HOOP_BEAD, 56, 8)
 
 
 def wooden_hoop(piece: Workpiece, materials: KitMaterials, drum: Drum, head_y: float, sign: float) -> None:
@@ -137,7 +137,7 @@ def wooden_hoop(piece: Workpiece, materials: KitMaterials, drum: Drum, head_y: f
     sides = piece.facets(84, 24)
     turn = np.linspace(0, 2 * np.pi, sides + 1)
     spoke = np.stack([np.sin(turn), np.zeros(sides + 1), -np.cos(turn)], axis=1)
-    for k, ((y0, r0), (y1, r1)) in enumerate(zip(profile[:-1], profile[1:], strict=True)):
+    for k, ((y0, r0), (y1, r1)) in enumerate(itertools.pairwise(profile)):
         normal = spoke * (y0 - y1) + np.array([0.0, sign * (r1 - r0), 0.0])
         normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
         rings = np.stack([spoke * r + [0, head_y + sign * y, 0] for y, r in ((y0, r0), (y1, r1))])
@@ -159,7 +159,12 @@ def lug(detail: float, materials: KitMaterials, length: float) -> Workpiece:
     piece = Workpiece(detail)
     piece.block(materials.chrome, (0, 0, 0.0015), (0.019, 0.9 * length, 0.003), 0.001)
     piece.block(materials.chrome, (0, 0, 0.007), (0.0125, 0.62 * length, 0.012), 0.003)
-    ends = [(-length / 2, 0.0048), (-length / 2 + 0.002, 0.0062), (length / 2 - 0.002, 0.0062), (length / 2, 0.0048)]
+    ends = [
+        (-length / 2, 0.0048),
+        (-length / 2 + 0.002, 0.0062),
+        (length / 2 - 0.002, 0.0062),
+        (length / 2, 0.0048),
+    ]
     closed = [(-length / 2, 0.0), *ends, (length / 2, 0.0)]
     piece.lathe(materials.chrome, (0, 0, 0.0125), (0, 1, 0), closed, 12)
     return piece
@@ -187,14 +192,12 @@ def lugs_and_hoops(detail: float, materials: KitMaterials, drum: Drum) -> Workpi
             over = m.KICK_HOOP_OVER + 0.003 if wooden else m.HOOP_OVER - m.HOOP_DEPTH + 0.001
             top, low = y + sign * over, y - sign * 0.036
             at = rod_at + (0.004 if wooden else 0.0)
-            piece.sweep(
-                materials.chrome, np.array([polar(at, turn, low), polar(at, turn, top)]), ROD, 7
-            )
+            piece.sweep(materials.chrome, np.array([polar(at, turn, low), polar(at, turn, top)]), ROD, 7)
             if wooden:
                 claw(piece, materials, drum, turn, y, sign)
             else:
                 nut = [(0.0, 0.0062), (0.0014, 0.0062), (0.0016, 0.0042), (0.0100, 0.0036), (0.0100, 0.0)]
-                piece.lathe(materials.chrome, polar(at, turn, top), [0, sign, 0], nut, 10)
+                piece.lathe(materials.chrome, polar(at, turn, top), [0, sign, 0], nut, 8)
     return piece
 
 

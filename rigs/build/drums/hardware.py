@@ -35,7 +35,9 @@ def tube(piece: Workpiece, material: int, start: Array, end: Array, radius: floa
     piece.sweep(material, np.array([start, end], dtype=np.float64), radius, sides, caps=True)
 
 
-def lock(piece: Workpiece, materials: KitMaterials, at: Array, along: Array, radius: float, turn: float) -> None:
+def lock(
+    piece: Workpiece, materials: KitMaterials, at: Array, along: Array, radius: float, turn: float
+) -> None:
     """A clamp about a tube with its wing bolt, as memory locks are."""
     along = unit(along)
     side = unit(np.cross(along, [np.sin(turn), 0.13, np.cos(turn)]))
@@ -48,7 +50,7 @@ def lock(piece: Workpiece, materials: KitMaterials, at: Array, along: Array, rad
         (0.012, out - 0.002),
         (0.012, radius),
     ]
-    piece.lathe(materials.chrome, at, along, profile, 18)
+    piece.lathe(materials.chrome, at, along, profile, 14)
     axes = np.column_stack([np.cross(along, side), along, side])
     piece.block(materials.chrome, at + side * (out + 0.004), (0.012, 0.018, 0.014), 0.003, axes)
     bolt = at + side * (out + 0.004)
@@ -106,7 +108,9 @@ def cymbal_stand(piece: Workpiece, materials: KitMaterials, stand: Stand) -> Non
     tube(piece, materials.chrome, stand.base + UP * 0.055, joint, TUBE_LOW)
     tube(piece, materials.chrome, joint, upper, TUBE_MIDDLE)
     tube(piece, materials.chrome, upper, neck - UP * 0.01, TUBE_HIGH)
-    piece.lathe(materials.rubber, stand.base + UP * 0.048, UP, [(0, 0), (0, 0.012), (0.012, 0.0155), (0.012, 0)], 14)
+    piece.lathe(
+        materials.rubber, stand.base + UP * 0.048, UP, [(0, 0), (0, 0.012), (0.012, 0.0155), (0.012, 0)], 14
+    )
     for k, (at, radius) in enumerate(((joint, TUBE_LOW), (upper, TUBE_MIDDLE))):
         lock(piece, materials, at - UP * 0.008, UP, radius, 0.8 + 2 * k)
     boom = stand.boom
@@ -115,7 +119,9 @@ def cymbal_stand(piece: Workpiece, materials: KitMaterials, stand: Stand) -> Non
     start, end = boom
     way = unit(end - start)
     tube(piece, materials.chrome, start, end - way * 0.020, 0.0072, 12)
-    piece.lathe(materials.rubber, start, -way, [(-0.012, 0.0085), (0.004, 0.0085), (0.006, 0.006), (0.006, 0)], 12)
+    piece.lathe(
+        materials.rubber, start, -way, [(-0.012, 0.0085), (0.004, 0.0085), (0.006, 0.006), (0.006, 0)], 12
+    )
     tilter(piece, materials, neck, way)
     tilter(piece, materials, end - way * 0.016, way, small=True)
 
@@ -137,7 +143,7 @@ def tilter(piece: Workpiece, materials: KitMaterials, at: Array, way: Array, *, 
         (half, size - 0.002),
         (half, 0.0),
     ]
-    piece.lathe(materials.chrome, at, side, wheel, 20)
+    piece.lathe(materials.chrome, at, side, wheel, 16)
     grip = at + side * (half + 0.012)
     tube(piece, materials.chrome, at + side * half, grip, 0.0032, 8)
     across = np.cross(side, way)
@@ -182,7 +188,12 @@ def hat_stand(piece: Workpiece, materials: KitMaterials, stand: Stand) -> None:
         for s in (-1, 1):
             top = base + UP * stand.hub + out * 0.017 + side * s * 0.0075
             piece.sweep(
-                materials.chrome, np.array([top, foot + side * s * 0.0075]), 0.0042, 8, caps=True, oval=(0.62, 1.0)
+                materials.chrome,
+                np.array([top, foot + side * s * 0.0075]),
+                0.0042,
+                8,
+                caps=True,
+                oval=(0.62, 1.0),
             )
             near = base + UP * 0.09 + out * 0.017 + side * s * 0.0105
             far = foot + (base + UP * stand.hub - foot) * 0.42 + side * s * 0.0105
@@ -224,7 +235,9 @@ def tom_mount(piece: Workpiece, materials: KitMaterials) -> None:
     lock(piece, materials, top, UP, 0.0135, 1.0)
     for drum, height in ((m.TOM_HIGH, POST_TOP - 0.065), (m.TOM_MID, POST_TOP - 0.115)):
         start = np.array([POST_FOOT[0], height, POST_FOOT[2]])
-        out = unit((start - np.array(drum.centre)) - drum.axis * ((start - np.array(drum.centre)) @ drum.axis))
+        out = unit(
+            (start - np.array(drum.centre)) - drum.axis * ((start - np.array(drum.centre)) @ drum.axis)
+        )
         at = np.array(drum.centre) - drum.axis * 0.5 * drum.depth + out * (drum.radius + 0.024)
         middle = (start + at) / 2
         piece.sweep(materials.chrome, np.array([start, middle, at]), 0.0075, 12, caps=True)

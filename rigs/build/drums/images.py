@@ -14,7 +14,7 @@ from body.images import jpeg
 Picture = NDArray[np.floating[Any]]
 INK, PAPER = (0.078, 0.090, 0.122), (0.957, 0.937, 0.902)
 RED, BLUE, BRASS = (0.761, 0.231, 0.231), (0.298, 0.416, 0.604), (0.851, 0.643, 0.255)
-STAIN_LIGHT, STAIN_DARK = np.array([0.60, 0.15, 0.085]), np.array([0.23, 0.045, 0.04])
+STAIN_LIGHT, STAIN_DARK = np.array([0.50, 0.125, 0.085]), np.array([0.17, 0.035, 0.035])
 MAPLE = np.array([0.80, 0.60, 0.38])
 HOOP_ROWS = 0.125
 """The lowest share of the shell's image is the hoops' maple."""
@@ -47,7 +47,9 @@ def shell_image(detail: float) -> tuple[bytes, str]:
     place = (rows * 700 + drift[None] * 6) % 1024
     grain = np.interp(place.ravel(), np.arange(1025), np.r_[lines, lines[0]]).reshape(height, width)
     broad = waves(rng, 1024, 2, 14)
-    band = np.interp(((rows * 420 + drift[None] * 11) % 1024).ravel(), np.arange(1025), np.r_[broad, broad[0]])
+    band = np.interp(
+        ((rows * 420 + drift[None] * 11) % 1024).ravel(), np.arange(1025), np.r_[broad, broad[0]]
+    )
     band = band.reshape(height, width)
     # Curl: light across the grain, in soft vertical flames.
     curl = waves(rng, width, 18, 60)[None] * np.exp(-(((rows - 0.5) / 0.5) ** 2))
@@ -62,8 +64,11 @@ def shell_image(detail: float) -> tuple[bytes, str]:
     return jpeg(picture.astype(np.float32), 82)
 
 
-def bronze_images(detail: float) -> tuple[Picture, Picture, Picture]:
-    """Of a cymbal, by radius (v from the middle to the edge): its colour, roughness (green) and grooves."""
+def bronze_images(detail: float) -> tuple[Picture, Picture, Picture, Picture]:
+    """Of a cymbal, by radius (v from the middle to the edge).
+
+    Its colour, its roughness (green), its grooves as normals, and how far it spreads light across (blue).
+    """
     rows, columns = (512 if detail > 0.5 else 128), 16
     rng = np.random.default_rng(8)
     t: Picture = np.linspace(0, 1, rows)
@@ -71,24 +76,44 @@ def bronze_images(detail: float) -> tuple[Picture, Picture, Picture]:
     bands = np.interp(t, np.linspace(0, 1, 90), rng.standard_normal(90))
     broad = np.interp(t, np.linspace(0, 1, 15), rng.standard_normal(15))
     lathed = np.clip((t - 0.24) / 0.03, 0, 1)  # the bell is left as it was cast and polished
-    tone = 1 + lathed * (0.035 * fine + 0.065 * bands + 0.05 * broad) - 0.10 * (1 - lathed)
-    bronze = np.array([0.905, 0.745, 0.435])
+    tone = 1 + lathed * (0.020 * fine + 0.024 * bands + 0.022 * broad) - 0.09 * (1 - lathed)
+    bronze = np.array([0.900, 0.768, 0.520])
     colour = np.clip(tone[:, None] * bronze, 0, 1)
-    rough = np.clip(0.27 + lathed * (0.035 * bands + 0.03 * broad) + 0.03 * fine * lathed, 0.12, 0.6)
+    rough = np.clip(
+        0.30 + lathed * (0.030 * bands + 0.025 * broad) + 0.02 * fine * lathed - 0.08 * (1 - lathed),
+        0.12,
+        0.6,
+    )
     groove = lathed * (0.5 * np.sin(2 * np.pi * rows / 4.2 * t + 2.5 * broad) + 0.45 * fine + 0.35 * bands)
     out = np.stack([np.zeros(rows), 0.55 * groove, np.ones(rows)], axis=1)
     out /= np.linalg.norm(out, axis=1, keepdims=True)
     shape = (rows, columns, 3)
+    across = np.stack([np.full(rows, 0.5), np.ones(rows), 0.12 + 0.88 * lathed], axis=1)
     packed = np.stack([np.zeros(rows), rough, np.ones(rows)], axis=1)
     return (
         np.broadcast_to(colour[:, None], shape),
         np.broadcast_to(packed[:, None], shape),
         np.broadcast_to((0.5 + 0.5 * out)[:, None], shape),
+        np.broadcast_to(across[:, None], shape),
     )
 
 
+def skin_image() -> tuple[bytes, str]:
+    """A coated head that is played: u about it, v from its edge to its middle, greyer where sticks land."""
+    width, height = 256, 128
+    rng = np.random.default_rng(33)
+    v: Picture = np.linspace(0, 1, height)[:, None]
+    blots = sum(
+        waves(rng, width, k, 3 * k)[None] * np.sin(np.pi * (k * v + rng.uniform(0, 2))) for k in (2, 3, 5, 9)
+    )
+    worn = np.exp(-(((v - 0.86) / 0.20) ** 2)) * (0.55 + 0.16 * blots)
+    specks = rng.standard_normal((height, width)) * 0.012
+    grey = np.clip(1.0 - 0.13 * np.clip(worn, 0, 1) + specks, 0, 1)
+    return jpeg((grey[..., None] * np.array([0.845, 0.835, 0.795])).astype(np.float32), 80)
+
+
 def front_head_image(detail: float) -> tuple[bytes, str]:
-    """The bass drum's front head, seen from the front: ink, a thin ring, three dots."""
+    """The bass drum's front head, seen from the front: ink, a thin ring, three dots in a row."""
     size = 512 if detail > 0.5 else 256
     steps: Picture = (np.arange(size) + 0.5) / size * 2 - 1
     x, y = np.meshgrid(steps, steps)
@@ -102,7 +127,6 @@ def front_head_image(detail: float) -> tuple[bytes, str]:
 
     r = np.hypot(x, y)
     over(np.abs(r - 0.90) - 0.006, PAPER, 0.85)
-    for row, colour in ((-0.34, RED), (0.0, BLUE), (0.34, BRASS)):
-        over(np.hypot(x, y - row) - 0.115, colour)
+    for column, colour in ((-0.19, RED), (0.0, BLUE), (0.19, BRASS)):
+        over(np.hypot(x - column, y) - 0.062, colour)
     return png(picture)
-

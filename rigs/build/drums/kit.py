@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 NAME = "drumkit"
 SIDES = ("left", "right")
 DETAIL = {"full": 1.0, "medium": 0.62, "low": 0.36}
+GRID_M = 2.0**-14
 KIT = Grain(0.005, 0.009, 0.14)
 
 
@@ -45,9 +46,7 @@ def build_stick(raw: Path, rig_folder: Path, side: str) -> None:
         wood = writer.material("hickory", metallic=0.0, roughness=0.48, colour=linear((0.80, 0.63, 0.42)))
         mesh = writer.mesh("stick", stick(detail, wood).primitives(writer, {}, None))
         model = writer.node("stick", mesh=mesh)
-        writer.save(
-            raw / f"{side}_stick.{tier}.glb", [writer.node(f"{side}Stick", children=[model])]
-        )
+        writer.save(raw / f"{side}_stick.{tier}.glb", [writer.node(f"{side}Stick", children=[model])])
     write_json(rig_folder / "rig.json", stick_content(side))
 
 
@@ -95,6 +94,8 @@ def write_kit(path: Path, detail: float) -> None:
         if pedal is m.KICK_PEDAL:
             board_chain(piece, materials)
         pieces[pedal.name] = (piece, pedal.rotation, pedal.hinge)
+    for piece, _, _ in pieces.values():
+        piece.settle(GRID_M)
     surfaces = [
         (vertices @ turn.T + at, faces)
         for piece, turn, at in pieces.values()
@@ -116,8 +117,6 @@ def write_kit(path: Path, detail: float) -> None:
         )
         mesh = writer.mesh(name, primitives)
         children.append(
-            writer.node(
-                name, mesh=mesh, translation=[float(x) for x in at], rotation=quaternion(turn)
-            )
+            writer.node(name, mesh=mesh, translation=[float(x) for x in at], rotation=quaternion(turn))
         )
     writer.save(path, [writer.node("kit", children=children)])

@@ -68,9 +68,10 @@ def joints() -> list[dict[str, Any]]:
         result.append(joint(cymbal.name, "kit", np.array(cymbal.pivot), cymbal.rotation, swing))
     forward = float(np.degrees(m.beater_contact_rad())) - m.BEATER_REST_DEG
     result.append(joint("kick_beater", "kit", m.AXLE, about_x(m.BEATER_REST_DEG), about((0.0, forward))))
-    for pedal in m.PEDALS:
-        result.append(joint(pedal.name, "kit", pedal.hinge, pedal.rotation, about((0.0, pedal.down_deg))))
-    return result
+    return result + [
+        joint(pedal.name, "kit", pedal.hinge, pedal.rotation, about((0.0, pedal.down_deg)))
+        for pedal in m.PEDALS
+    ]
 
 
 def parts() -> list[dict[str, Any]]:

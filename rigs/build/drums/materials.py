@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from common.glb import linear
-from drums.images import bronze_images, front_head_image, png, shell_image
+from drums.images import bronze_images, front_head_image, png, shell_image, skin_image
 
 if TYPE_CHECKING:
     from common.glb import GlbWriter
@@ -44,7 +44,7 @@ class KitMaterials:
     @property
     def pictured(self) -> tuple[int, ...]:
         """Those with an image."""
-        return (self.shell, self.bronze, self.front)
+        return (self.shell, self.bronze, self.skin, self.front)
 
     @classmethod
     def into(cls, writer: GlbWriter, detail: float) -> KitMaterials:
@@ -54,12 +54,17 @@ class KitMaterials:
         lacquer: dict[str, Any] = {}
         if fine:
             lacquer = {"extensions": {clearcoat: {"clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.06}}}
-        colour, rough, normal = bronze_images(detail)
+        colour, rough, normal, across = bronze_images(detail)
         grain: dict[str, Any] = {}
         if fine:
             grain = {
-                "normalTexture": {"index": writer.texture(*png(normal), "lathing"), "scale": 0.35},
-                "extensions": {anisotropy: {"anisotropyStrength": 0.55, "anisotropyRotation": 1.570796}},
+                "normalTexture": {"index": writer.texture(*png(normal), "lathing"), "scale": 0.18},
+                "extensions": {
+                    anisotropy: {
+                        "anisotropyStrength": 0.55,
+                        "anisotropyTexture": {"index": writer.texture(*png(across), "across")},
+                    }
+                },
             }
         bronze = writer.material(
             "bronze",
@@ -80,9 +85,14 @@ class KitMaterials:
                 **lacquer,
             ),
             bronze=bronze,
-            chrome=writer.material("chrome", metallic=1.0, roughness=0.12, colour=(0.80, 0.80, 0.81)),
-            steel=writer.material("steel", metallic=1.0, roughness=0.42, colour=(0.30, 0.30, 0.31)),
-            skin=writer.material("skin coated", metallic=0.0, roughness=0.62, colour=linear((0.88, 0.87, 0.83))),
+            chrome=writer.material("chrome", metallic=1.0, roughness=0.17, colour=(0.58, 0.58, 0.60)),
+            steel=writer.material("steel", metallic=1.0, roughness=0.46, colour=(0.17, 0.17, 0.175)),
+            skin=writer.material(
+                "coated head",
+                metallic=0.0,
+                roughness=0.62,
+                texture=writer.texture(*skin_image(), "coated head"),
+            ),
             front=writer.material(
                 "front head",
                 metallic=0.0,
@@ -90,6 +100,8 @@ class KitMaterials:
                 texture=writer.texture(*front_head_image(detail), "front head"),
             ),
             rubber=writer.material("rubber", metallic=0.0, roughness=0.72, colour=(0.012, 0.012, 0.013)),
-            felt=writer.material("felt", metallic=0.0, roughness=0.95, colour=linear((0.72, 0.68, 0.60))),
-            hickory=writer.material("hickory", metallic=0.0, roughness=0.48, colour=linear((0.80, 0.63, 0.42))),
+            felt=writer.material("felt", metallic=0.0, roughness=0.95, colour=linear((0.50, 0.47, 0.42))),
+            hickory=writer.material(
+                "hickory", metallic=0.0, roughness=0.48, colour=linear((0.80, 0.63, 0.42))
+            ),
         )

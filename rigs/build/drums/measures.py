@@ -1,7 +1,7 @@
 """Where everything of the kit stands and how large it is, metres.
 
-The kit's frame: the origin lies on the floor under the middle of the stool, +Z is where the player faces, +Y up, +X the
-player's left. The kit is a right-handed player's, and fits one of 1.6 m on a stool of 0.5 m.
+The kit's frame: the origin lies on the floor under the middle of the stool, +Z is where the player faces,
++Y up, +X the player's left. The kit is a right-handed player's, and fits one of 1.6 m on a stool of 0.5 m.
 """
 
 from __future__ import annotations
@@ -68,10 +68,9 @@ class Drum:
 
     @cached_property
     def toward_player(self) -> Array:
-        """In the head's plane, toward the player; downward on the bass drum, whose head looks at the player."""
-        over = np.array([0.0, 0.0, -1.0]) if abs(self.axis[2]) < 0.8 else np.array([0.0, -1.0, 0.0])
-        if abs(self.axis[2]) < 0.8:
-            over = HEAD_FROM - np.array(self.centre)
+        """In the head's plane, toward the player; down on the bass drum, whose head looks at the player."""
+        down = np.array([0.0, -1.0, 0.0])
+        over = down if abs(self.axis[2]) > 0.8 else HEAD_FROM - np.array(self.centre)
         return unit(over - self.axis * (over @ self.axis))
 
     @property
@@ -120,7 +119,9 @@ class Cymbal:
         """The upper surface over the hole's plane at distances from the axis."""
         r = np.asarray(radius, dtype=np.float64)
         bell = self.bell
-        on_bell = -self.bell_height * (np.clip(r / bell, 0, 1) ** 2.2)
+        # A dome that is steep where it meets the bow.
+        dome = 1.0 - np.sqrt(1.0 - BELL_ROUND * np.clip(r / bell, 0, 1) ** 2)
+        on_bell = -self.bell_height * dome / (1.0 - np.sqrt(1.0 - BELL_ROUND))
         t = np.clip((r - bell) / (self.radius - bell), 0, 1)
         if self.flange:
             turn = 0.74
@@ -162,6 +163,8 @@ CYMBALS = (
 )
 CYMBAL_THICKNESS = 0.0014
 HOLE = 0.0055
+BELL_ROUND = 0.80
+"""How much of a half sphere a bell is: 0 is a flat arc, 1 would end upright."""
 
 # The cowbell: a flattened cone, its mouth toward the player.
 COWBELL_MOUTH = np.array([-0.13, 0.945, 0.615])
@@ -174,8 +177,8 @@ COWBELL_BACK_SIZE = (0.062, 0.040)
 class Pedal:
     """A board that turns about the hinge at its heel; at rest it is as high as its spring holds it.
 
-    `toe` is where the board's end lies over on the floor (x, z), `heading_deg` where it points: 0 is ahead (+Z), positive
-    ones turn to the player's left.
+    `toe` is where the board's end lies over on the floor (x, z), `heading_deg` where it points: 0 is ahead
+    (+Z), positive ones turn to the player's left.
     """
 
     name: str

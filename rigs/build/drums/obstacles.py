@@ -1,4 +1,4 @@
-"""The kit as capsules and flat-ended cylinders, for collision tests: what sticks, hands and legs must not pass through."""
+"""The kit as capsules and flat-ended cylinders: what sticks, hands and legs must not pass through."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ def capsules() -> list[dict[str, Any]]:
         for turn in np.radians([60, 180, 300]):
             out = drum.at(-0.18, drum.radius + 0.02, turn)
             add(drum.name, "kit", out, np.array([out[0], 0.012, out[2]]), 0.0055)
-    top = np.array([0, m.BEATER_REACH, 0])
+    top, across = np.array([0, m.BEATER_REACH, 0]), np.array([0.016, 0, 0])
     add("kick_pedal", "kick_beater", np.zeros(3), top, 0.004)
-    add("kick_pedal", "kick_beater", top - [0.016, 0, 0], top + [0.016, 0, 0], m.BEATER_HALF)
+    add("kick_pedal", "kick_beater", top - across, top + across, m.BEATER_HALF)
     return result
 
 
@@ -120,7 +120,7 @@ def cylinders() -> list[dict[str, Any]]:
 
 
 def cymbal_steps(cymbal: Cymbal) -> list[tuple[float, float, float]]:
-    """A cymbal as flat steps, filled from its lowest point up: from, to (along its axis) and radius of each."""
+    """A cymbal as flat steps, filled from its lowest point up: from, to (along its axis) and radius."""
     radii = np.r_[cymbal.radius, np.linspace(cymbal.radius, cymbal.bell, CYMBAL_STEPS)[1:], 0.6 * cymbal.bell]
     floor = float(cymbal.height(np.linspace(0.0, cymbal.radius, 200)).min()) - m.CYMBAL_THICKNESS
     steps: list[tuple[float, float, float]] = []

@@ -53,7 +53,9 @@ def board(detail: float, materials: KitMaterials, pedal: Pedal) -> Workpiece:
     piece.add(materials.steel, vertices.reshape(-1, 3), out.reshape(-1, 3), faces)
     under = np.array([[s * w, -0.002, at] for s in (-1, 1) for w, at in zip(width, z, strict=True)])
     ends = np.arange(len(z) - 1)
-    flat = np.vstack([np.c_[ends, ends + 1, ends + len(z)], np.c_[ends + 1, ends + 1 + len(z), ends + len(z)]])
+    flat = np.vstack(
+        [np.c_[ends, ends + 1, ends + len(z)], np.c_[ends + 1, ends + 1 + len(z), ends + len(z)]]
+    )
     piece.add(materials.steel, under, np.tile([0.0, -1.0, 0.0], (len(under), 1)), flat)
     # Raised ribs, on which a sole holds.
     for k in range(RIBS if detail > 0.5 else 0):
@@ -82,7 +84,13 @@ def heel_plate(piece: Workpiece, materials: KitMaterials, pedal: Pedal) -> None:
     for side in (-1, 1):
         at = pedal.hinge + x * side * 0.037
         piece.block(materials.steel, at - UP * 0.006, (0.006, 0.026, 0.022), 0.002, axes)
-        piece.block(materials.rubber, at * [1, 0, 1] + UP * 0.0035 - pedal.ahead * 0.03, (0.014, 0.007, 0.05), 0.002, axes)
+        piece.block(
+            materials.rubber,
+            at * [1, 0, 1] + UP * 0.0035 - pedal.ahead * 0.03,
+            (0.014, 0.007, 0.05),
+            0.002,
+            axes,
+        )
 
 
 def beater(detail: float, materials: KitMaterials) -> Workpiece:
@@ -122,7 +130,7 @@ def beater(detail: float, materials: KitMaterials) -> Workpiece:
         at = np.array([0.0, np.sin(turn), np.cos(turn)]) * (radius - 0.002)
         link(piece, materials, at, np.array([0.0, np.cos(turn), -np.sin(turn)]), k)
     spring = np.array([0.048, 0.0, 0.0])
-    piece.block(materials.chrome, spring + [0, -0.004, -0.012], (0.006, 0.012, 0.030), 0.002)
+    piece.block(materials.chrome, (spring[0], -0.004, -0.012), (0.006, 0.012, 0.030), 0.002)
     return piece
 
 
@@ -146,7 +154,7 @@ def board_chain(piece: Workpiece, materials: KitMaterials) -> None:
     """The chain from the bass drum's board up to the sprocket, in the board's frame."""
     pedal = m.KICK_PEDAL
     low = np.array([0.0, 0.0, 0.985 * pedal.length])
-    top = pedal.rotation.T @ (m.AXLE + [0.0, 0.010, m.SPROCKET - 0.002] - pedal.hinge)
+    top = pedal.rotation.T @ (m.AXLE + np.array([0.0, 0.010, m.SPROCKET - 0.002]) - pedal.hinge)
     length = float(np.linalg.norm(top - low))
     along = unit(top - low)
     for k in range(int(length / LINK)):
@@ -165,7 +173,9 @@ def kick_frame(piece: Workpiece, materials: KitMaterials) -> None:
     for side in (-1, 1):
         foot = np.array([axle[0] + side * FRAME_HALF, 0.012, axle[2]])
         top = axle + x * side * FRAME_HALF
-        piece.block(materials.chrome, (foot + top) / 2, (0.013, top[1] - 0.012, 0.022), 0.003, taper=(1.0, 0.8))
+        piece.block(
+            materials.chrome, (foot + top) / 2, (0.013, top[1] - 0.012, 0.022), 0.003, taper=(1.0, 0.8)
+        )
         ball = [(-0.009, 0.0), (-0.009, 0.012), (0.009, 0.012), (0.009, 0.0)]
         piece.lathe(materials.chrome, top, x, ball, 18)
         piece.block(materials.steel, foot, (0.024, 0.018, 0.040), 0.004)
@@ -184,11 +194,27 @@ def kick_frame(piece: Workpiece, materials: KitMaterials) -> None:
     )
     # The spring hangs beside the right post, from the axle's rocker to the base.
     at = axle + x * -0.048
-    helix(piece, materials, at - UP * 0.016 - [0, 0, 0.024], at * [1, 0, 1] + UP * 0.052 - [0, 0, 0.024], 0.0058, 11)
-    tube(piece, materials.chrome, at * [1, 0, 1] + UP * 0.012 - [0, 0, 0.024], at * [1, 0, 1] + UP * 0.054 - [0, 0, 0.024], 0.0028, 8)
+    helix(
+        piece,
+        materials,
+        at - UP * 0.016 - [0, 0, 0.024],
+        at * [1, 0, 1] + UP * 0.052 - [0, 0, 0.024],
+        0.0058,
+        11,
+    )
+    tube(
+        piece,
+        materials.chrome,
+        at * [1, 0, 1] + UP * 0.012 - [0, 0, 0.024],
+        at * [1, 0, 1] + UP * 0.054 - [0, 0, 0.024],
+        0.0028,
+        8,
+    )
 
 
-def helix(piece: Workpiece, materials: KitMaterials, top: Array, low: Array, radius: float, turns: int) -> None:
+def helix(
+    piece: Workpiece, materials: KitMaterials, top: Array, low: Array, radius: float, turns: int
+) -> None:
     """A coil spring; a plain tube where detail is low."""
     if piece.detail < 0.5:
         tube(piece, materials.steel, top, low, radius, 8)
@@ -201,7 +227,7 @@ def helix(piece: Workpiece, materials: KitMaterials, top: Array, low: Array, rad
 
 
 def hat_base(piece: Workpiece, materials: KitMaterials) -> None:
-    """What of the hi-hat's pedal stands still: heel plate, the bars to the stand, the frame around the toe."""
+    """What of the hi-hat's pedal stands still: heel plate, bars to the stand, the frame around the toe."""
     pedal = m.HAT_PEDAL
     heel_plate(piece, materials, pedal)
     x = unit(np.cross(UP, pedal.ahead))
@@ -234,7 +260,14 @@ def hat_moving(detail: float, materials: KitMaterials) -> Workpiece:
     ):
         piece.lathe(materials.chrome, (0, 0, 0), y, profile, 20)
     for low_y, high_y in ((-0.0064, -0.0018), (0.0006, 0.0105)):
-        profile = [(low_y, 0.004), (low_y, 0.014), (low_y + 0.001, 0.0155), (high_y - 0.001, 0.0155), (high_y, 0.014), (high_y, 0.004)]
+        profile = [
+            (low_y, 0.004),
+            (low_y, 0.014),
+            (low_y + 0.001, 0.0155),
+            (high_y - 0.001, 0.0155),
+            (high_y, 0.014),
+            (high_y, 0.004),
+        ]
         piece.lathe(materials.felt, (0, 0, 0), y, profile, 18)
     tilter(piece, materials, np.array([0.0, 0.044, 0.0]), y, small=True)
     return piece

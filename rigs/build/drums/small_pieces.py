@@ -84,17 +84,23 @@ def floor_legs(piece: Workpiece, materials: KitMaterials, drum: Drum, to_kit: Ar
 def spurs(piece: Workpiece, materials: KitMaterials) -> None:
     """The bass drum's two spurs, in the kit's frame: out and forward to the floor."""
     drum = m.KICK
-    middle = np.array(drum.centre) + [0.0, 0.0, 0.78 * drum.depth]
+    middle = np.array(drum.centre) + np.array([0.0, 0.0, 0.78 * drum.depth])
     for side in (-1, 1):
         out = unit((side * 0.90, -0.44, 0.0))
         root = middle + out * (drum.radius + 0.012)
         foot = root * [1, 0, 1] + np.array([side * 0.105, 0.014, 0.10])
         tube(piece, materials.chrome, root - (foot - root) * 0.10, foot, 0.0055, 10)
         piece.lathe(
-            materials.rubber, foot, unit(foot - root), [(-0.02, 0.0), (-0.02, 0.009), (0.0, 0.0105), (0.012, 0.004), (0.012, 0)], 12
+            materials.rubber,
+            foot,
+            unit(foot - root),
+            [(-0.02, 0.0), (-0.02, 0.009), (0.0, 0.0105), (0.012, 0.004), (0.012, 0)],
+            12,
         )
         frame = np.column_stack([[0.0, 0.0, 1.0], np.cross(out, [0.0, 0.0, 1.0]), out])
-        piece.block(materials.chrome, middle + out * (drum.radius + 0.003), (0.055, 0.050, 0.006), 0.002, frame)
+        piece.block(
+            materials.chrome, middle + out * (drum.radius + 0.003), (0.055, 0.050, 0.006), 0.002, frame
+        )
         piece.block(materials.chrome, root, (0.030, 0.032, 0.026), 0.006, frame)
 
 

@@ -1,4 +1,4 @@
-"""What carries the pieces: stands with their booms and legs, as lines that are both drawn and kept clear of."""
+"""What carries the pieces: stands with their booms and legs, as lines, both drawn and kept clear of."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ FOOT = 0.012
 class Stand:
     """A tube on a tripod, with a boom to `top` where that does not lie over its foot.
 
-    `foot` is x, z on the floor; `legs_deg` say where the legs point, 0 is ahead (+Z), positive to the player's left.
-    `head` is the tube's upper end, y; the boom is held there and reaches `behind` to its other side.
+    `foot` is x, z on the floor; `legs_deg` say where the legs point, 0 is ahead (+Z), positive to the
+    player's left. `head` is the tube's upper end, y; the boom is held there and
+    reaches `behind` to its other side.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Where each piece is struck: points of its surface with the way out, and how far about them a tip may land."""
+"""Where each piece is struck: points of its surface with the way out, and how far off a tip may land."""
 
 from __future__ import annotations
 

@@ -97,7 +97,7 @@ class Capsule:
     """A solid part for collisions: a segment in a joint's frame with a radius, metres, and round ends.
 
     Attributes:
-        piece: What of an instrument it belongs to, `Zone.piece` where that is struck; None where nothing says.
+        piece: What of an instrument it belongs to, `Zone.piece` where that is struck; None if none.
     """
 
     joint: int

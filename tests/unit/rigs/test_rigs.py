@@ -15,7 +15,8 @@ from reina.instruments import INSTRUMENTS
 RIGS = Path(__file__).resolve().parents[3] / "rigs"
 PLAYERS = ("trumpeter", "soloist")
 HORNS = tuple(name for name, instrument in INSTRUMENTS.items() if instrument.rig)
-NAMES = (*PLAYERS, *HORNS)
+KIT = ("drumkit", "left_stick", "right_stick")
+NAMES = (*PLAYERS, *HORNS, *KIT)
 TIERS = ("full", "medium", "low")
 FINGERS = ("Index", "Middle", "Ring", "Little")
 PHALANGES = ("Proximal", "Intermediate", "Distal")

@@ -43,6 +43,25 @@ DOCUMENT: dict[str, Any] = {
         {"node": "key", "parameter": "oboe/key/1", "axis": [1, 0, 0], "angle": 0.2},
     ],
     "buttons": [{"valve": 1, "effector": "tip", "position": [0, 0.1, 0], "travel": [0, -0.0165, 0]}],
+    "cylinders": [{"piece": "drum", "joint": "a", "from": [0, 0, 0], "to": [0, 0.1, 0], "radius": 0.2}],
+    "zones": [
+        {
+            "piece": "drum",
+            "zone": "rim",
+            "joint": "a",
+            "position": [0, 0.1, 0.2],
+            "normal": [0, 1, 0],
+            "radius": 0,
+        },
+        {
+            "piece": "drum",
+            "zone": "edge",
+            "joint": "a",
+            "position": [0, 0.1, 0.1],
+            "normal": [0, 0, 1],
+            "radius": 0.1,
+        },
+    ],
 }
 
 
@@ -71,6 +90,15 @@ def test_everything_in_the_document_is_read() -> None:
     assert rig.capsules[0].radius == 0.1
     assert rig.parts[1].angle_rad == 0.2
     assert rig.buttons[0].travel.tolist() == [0, -0.0165, 0]
+    assert (rig.capsules[0].piece, rig.cylinders[0].piece) == (None, "drum")
+    assert rig.cylinders[0].end.tolist() == [0, 0.1, 0]
+    rim = rig.zone("drum", "rim")
+    assert (rim.joint, rim.position.tolist(), rim.normal.tolist(), rim.radius) == (
+        1,
+        [0, 0.1, 0.2],
+        [0, 1, 0],
+        0,
+    )
 
 
 BREAKS: list[tuple[list[Any], Any, str]] = [
@@ -89,6 +117,11 @@ BREAKS: list[tuple[list[Any], Any, str]] = [
     (["twists", 0, "fraction"], True, "twists/0/fraction: here belongs a number, not true or false"),
     (["parts", 1, "axis"], None, "parts/1: a part needs 'travel', or 'axis' and 'angle'"),
     (["buttons", 0, "valve"], 0, "buttons/0/valve: valves are numbered from 1"),
+    (["zones", 1, "zone"], "rim", "zones/1/zone: 'drum' has the zone 'rim' twice"),
+    (["zones", 1, "normal"], [0, 0, 2], "zones/1/normal: a normal has length 1, not 2"),
+    (["zones", 1, "radius"], -0.1, "zones/1/radius: a zone's radius is at least 0, not -0.1"),
+    (["zones", 1, "joint"], "d", "zones/1/joint: there is no joint 'd'"),
+    (["cylinders", 0, "to"], [0, 1], "cylinders/0/to: here belongs a list of 3 numbers, not of 2"),
     (["joints"], None, "at least one joint"),
     (["joints"], {}, "joints: here belongs a list, not an object"),
     (["name"], 3, "name: here belongs a string, not a number"),

@@ -77,12 +77,13 @@ async function open(): Promise<Gallery> {
   const stage = new Stage(canvas, { tier, reducedMotion: true, wholeParts: true });
   const frames = await SessionFrames.open(asked.get("session"));
   const { manifest, score } = frames;
-  // Rigs that no session plays yet: `?rig=drumkit@0,0.2,-2.15`.
+  // Rigs beside those of the session, or alone: `?alone&rig=drumkit@0,0.2,-2.15`.
+  const alone = asked.has("alone");
   const rigs = await RigAtRest.loadAll(asked.getAll("rig"), manifest);
-  const skeletons = [...manifest.skeletons, ...rigs.map(({ layout }) => layout)];
+  const skeletons = [...(alone ? [] : manifest.skeletons), ...rigs.map(({ layout }) => layout)];
   await stage.load({ ...manifest, skeletons }, (rig) => manifest.links.rigs[rig] ?? `/api/v1/rigs/${rig}`);
   const players = Math.max(...manifest.skeletons.map(({ player }) => player)) + 1;
-  stage.setScore(playedScore(score, players));
+  if (!alone) stage.setScore(playedScore(score, players));
   new ResizeObserver(() => stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio)).observe(canvas);
   stage.resize(canvas.clientWidth, canvas.clientHeight, devicePixelRatio);
 

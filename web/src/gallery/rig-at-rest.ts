@@ -9,10 +9,13 @@ interface Joints {
 }
 
 export class RigAtRest {
-  private constructor(
-    readonly layout: SkeletonLayout,
-    readonly floats: readonly number[],
-  ) {}
+  readonly layout: SkeletonLayout;
+  readonly floats: readonly number[];
+
+  private constructor(layout: SkeletonLayout, floats: readonly number[]) {
+    this.layout = layout;
+    this.floats = floats;
+  }
 
   /**
    * @param asked its name, and where it stands, metres: `drumkit@0,0.2,-2.15`.

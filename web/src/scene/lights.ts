@@ -17,6 +17,8 @@ const KEY_DISTANCE = 5;
  */
 const SHADOW_REACH = 1.35;
 const SHADOW_MARGIN = 0.75;
+const SHADOW_BIAS = -0.0004;
+const SHADOW_NORMAL_BIAS = 0.012;
 
 export class StageLights {
   readonly key = new DirectionalLight(0xffffff, 3);
@@ -56,8 +58,8 @@ export class StageLights {
       shadow.camera.right = shadow.camera.top = SHADOW_REACH;
       shadow.camera.near = 0.1;
       shadow.camera.far = 14;
-      shadow.bias = -0.0004;
-      shadow.normalBias = 0.012;
+      shadow.bias = SHADOW_BIAS;
+      shadow.normalBias = SHADOW_NORMAL_BIAS;
     }
   }
 
@@ -71,13 +73,21 @@ export class StageLights {
     for (const { light } of this.spots) light.visible = lit;
   }
 
-  /** Cast the shadows of everybody who stands here: the key's picture of them is as wide as they stand apart, metres. */
-  reach(stands: readonly { readonly x: number; readonly z: number }[]): void {
+  /**
+   * Cast the shadows of everybody who stands here: the key's picture of them is as wide as they stand apart, metres.
+   *
+   * @param beside how far from the middle there is anything else whose shadow counts.
+   */
+  reach(stands: readonly { readonly x: number; readonly z: number }[], beside = 0): void {
     // To the next ten centimetres: who only sways changes nothing.
     const spread = Math.ceil(10 * Math.max(0, ...stands.map(({ x }) => Math.abs(x - TARGET.x)))) / 10;
-    const reach = Math.max(SHADOW_REACH, spread + SHADOW_MARGIN);
+    const reach = Math.max(SHADOW_REACH, spread + SHADOW_MARGIN, beside);
     const { camera } = this.key.shadow;
     if (camera.right === reach) return;
+    // A map that is stretched for more than players has coarser texels, of which a cymbal would shade itself.
+    const coarser = beside > 0 ? reach / SHADOW_REACH : 1;
+    this.key.shadow.bias = SHADOW_BIAS * coarser;
+    this.key.shadow.normalBias = SHADOW_NORMAL_BIAS * coarser;
     camera.left = camera.bottom = -reach;
     camera.right = camera.top = reach;
     camera.updateProjectionMatrix();

@@ -26,7 +26,7 @@ import { overview, PictureSpace, type PicturePoint, type Place, type ShowCamera 
 import { Players } from "./players";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
-import { FOOT_JOINTS, RoomReflections, createRoom, type Room } from "./room";
+import { FOOT_JOINTS, KIT_RIG, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show-binding";
 import { StillShots } from "./still-shots";
@@ -193,6 +193,8 @@ export class Stage {
     this.#players = new Players(models.map((model, i) => ({ model, player: hello.skeletons[i]?.player ?? 0 })));
     this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
+    const kit = models.find(({ rig }) => rig === KIT_RIG);
+    this.#room.kit.set(kit?.findJoint(kit.jointNames[0] ?? "") ?? null);
     await this.#compile();
   }
 
@@ -245,10 +247,11 @@ export class Stage {
     this.#camera.follow();
     scene.updateMatrixWorld();
     this.#room.feet.follow();
+    this.#room.kit.follow();
     this.#players.readBells(this.#blocks.uniforms.bells.value);
     const stands = this.#players.stands();
     this.#blocks.arrange(stands.map(({ x }) => x));
-    this.#lights.reach(stands);
+    this.#lights.reach(stands, this.#room.kit.reach);
     const { camera } = this.#camera;
     if (this.#onlyModels || this.#transparent) this.#blocks.object.visible = false;
     if (this.#transparent) for (const { cone } of this.#lights.spots) cone.visible = false;

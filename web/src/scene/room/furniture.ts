@@ -12,20 +12,33 @@ type Place = readonly [x: number, z: number, heading: number, y?: number];
 
 const RISER = RISERS[0].height;
 
-const STANDS: readonly Place[] = [
+/** What stands in many places, last in those where a drum kit would, and in how many without them. */
+export interface WithRow {
+  readonly mesh: InstancedMesh;
+  readonly without: number;
+}
+
+/** The row where a drum kit would stand: put away for one. */
+const STANDS_OF_THE_ROW: readonly Place[] = [
   [-1.95, -2.52, 0.32, RISER],
   [-1.1, -2.5, 0.18, RISER],
   [-0.2, -2.56, 0.02, RISER],
+];
+
+const STANDS: readonly Place[] = [
   [3.55, -0.1, -0.9],
   [-3.6, -0.9, 0.9],
   [-3.15, -1.75, 0.65],
   [2.75, -1.7, -0.5],
 ];
 
-const CHAIRS: readonly Place[] = [
+const CHAIRS_OF_THE_ROW: readonly Place[] = [
   [-2.0, -3.1, 0.32, RISER],
   [-1.2, -3.12, 0.16, RISER],
   [-0.35, -3.16, -0.03, RISER],
+];
+
+const CHAIRS: readonly Place[] = [
   [4.0, -0.45, -0.9],
   [-4.0, -1.25, 0.9],
   [-3.55, -2.15, 0.65],
@@ -85,15 +98,24 @@ function place(geometry: BufferGeometry, material: Material, places: readonly Pl
   return mesh;
 }
 
-/** Music stands and chairs. */
-export function createFurniture(light: RoomLight): InstancedMesh[] {
+/** Music stands and chairs; the last of each are the row's. */
+export function createFurniture(light: RoomLight): readonly WithRow[] {
   const enamel = createSurface({ color: 0x2e2f33, roughness: 0.6, envMapIntensity: 0.5 }, light, {});
   const wood = createSurface({ color: 0x4a2c1a, roughness: 0.7, envMapIntensity: 0.5 }, light, {});
-  return [place(standGeometry(), enamel, STANDS), place(chairGeometry(), wood, [...CHAIRS, ...AUDIENCE])];
+  const chairs = [...CHAIRS, ...AUDIENCE];
+  return [
+    { mesh: place(standGeometry(), enamel, [...STANDS, ...STANDS_OF_THE_ROW]), without: STANDS.length },
+    { mesh: place(chairGeometry(), wood, [...chairs, ...CHAIRS_OF_THE_ROW]), without: chairs.length },
+  ];
+}
+
+function shadeOf(stands: readonly Place[], chairs: readonly Place[]): Patch[] {
+  return [
+    ...stands.map(([x, z, , y]): Patch => [x, z, 0.62, 0.62, y ?? 0]),
+    ...chairs.map(([x, z, , y]): Patch => [x, z, 0.78, 0.78, y ?? 0]),
+  ];
 }
 
 /** What lies in the shade of stands and chairs. */
-export const FURNITURE_SHADE: readonly Patch[] = [
-  ...STANDS.map(([x, z, , y]): Patch => [x, z, 0.62, 0.62, y ?? 0]),
-  ...[...CHAIRS, ...AUDIENCE].map(([x, z, , y]): Patch => [x, z, 0.78, 0.78, y ?? 0]),
-];
+export const FURNITURE_SHADE: readonly Patch[] = shadeOf(STANDS, [...CHAIRS, ...AUDIENCE]);
+export const ROW_SHADE: readonly Patch[] = shadeOf(STANDS_OF_THE_ROW, CHAIRS_OF_THE_ROW);

@@ -7,8 +7,9 @@ import { createFloor, type Floor } from "./floor";
 import { Feet } from "./feet";
 import { createContactShade, type Patch } from "./contact-shade";
 import { createFittings } from "./fittings";
-import { createFurniture, FURNITURE_SHADE } from "./furniture";
+import { createFurniture, FURNITURE_SHADE, ROW_SHADE } from "./furniture";
 import { RESTING_SHADE } from "./instruments-at-rest";
+import { KitPlace } from "./kit-place";
 import { FloorMirror } from "./mirror";
 import { RISERS } from "./plan";
 import { createShafts } from "./shafts";
@@ -16,6 +17,7 @@ import type { RoomLight } from "./surface";
 import { createWalls } from "./walls";
 
 export { FOOT_JOINTS } from "./feet";
+export { KIT_RIG } from "./kit-place";
 export { RoomReflections } from "./reflections";
 
 export interface Room {
@@ -23,6 +25,8 @@ export interface Room {
   readonly floor: Floor["mesh"];
   readonly mirror: FloorMirror | null;
   readonly feet: Feet;
+  /** What a drum kit stands on. */
+  readonly kit: KitPlace;
   /** How thick the air in the sun is, or null where it is not drawn. */
   readonly haze: { value: number } | null;
   /** The key's colour times its intensity: what the windows shine with. */
@@ -42,9 +46,19 @@ export function createRoom(light: RoomLight, tier: TierSettings): Room {
   const mirror = tier.mirrorScale > 0 ? new FloorMirror(tier.mirrorScale) : null;
   const { mesh: floor } = createFloor(light, mirror, feet);
   const object = new Group();
-  object.add(floor, createWalls(light, keyColor, daylight), createFittings(light), ...createFurniture(light));
-  object.add(createContactShade([...RISER_SHADE, ...RESTING_SHADE, ...FURNITURE_SHADE]));
+  const furniture = createFurniture(light);
+  object.add(
+    floor,
+    createWalls(light, keyColor, daylight),
+    createFittings(light),
+    ...furniture.map(({ mesh }) => mesh),
+  );
+  const staying = [...RISER_SHADE, ...RESTING_SHADE, ...FURNITURE_SHADE];
+  const shade = createContactShade([...staying, ...ROW_SHADE]);
+  object.add(shade);
+  const kit = new KitPlace(light, [...furniture, { mesh: shade, without: staying.length }]);
+  object.add(kit.object);
   const shafts = tier.shafts ? createShafts(light.toKey, keyColor) : null;
   if (shafts !== null) object.add(shafts.mesh);
-  return { object, floor, mirror, feet, haze: shafts?.density ?? null, keyColor, daylight };
+  return { object, floor, mirror, feet, kit, haze: shafts?.density ?? null, keyColor, daylight };
 }
