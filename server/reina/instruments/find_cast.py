@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from reina.instruments.casting import INSTRUMENT, MAX_PLAYERS, PLAYER, Cast, Casting
 from reina.instruments.drums.drum_kit import DRUMS as DRUM_KIT
+from reina.instruments.drums.drum_kit import struck_notes
 from reina.instruments.instrument import Instrument
 from reina.instruments.part_names import desk_of_name
 from reina.instruments.part_roles import Kind, PartNotes, family_part, role_of
@@ -79,7 +80,7 @@ def _drums_part(score: Score, instruments: Mapping[str, Instrument]) -> int | No
     if drums is None:
         return None
     best = drums.rank_parts(score)[0].part
-    return best if score.parts[best].is_drums and len(score.note_indices(best)) else None
+    return best if score.parts[best].is_drums and struck_notes(score, best) else None
 
 
 def _in_order(score: Score, parts: Sequence[int]) -> list[int]:

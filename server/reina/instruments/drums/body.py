@@ -136,7 +136,7 @@ class DrumsBody:
         return SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
 
     def _seated(self, stance: FloatArray | None) -> FloatArray | None:
-        """What is left of a way of standing for who sits: the hips stay on the stool, the feet on the pedals."""
+        """What is left of a way of standing for who sits: hips stay on the stool, feet on the pedals."""
         if stance is None:
             return None
         joints = len(self._body.trunk)

@@ -27,7 +27,7 @@ CUT_S: Final = (0.06, 0.5)
 CUT_SHARE: Final = 0.5
 """And it is at most this part of the usual length."""
 
-FREE_S: Final = (0.12, 0.2)
+FREE_S: Final = (0.25, 0.25)
 """A hand grips a cymbal if it strikes nothing this long before and after."""
 
 PRESSED: Final = 64

@@ -39,6 +39,7 @@ NO_DRUMS: Final = -12.0
 
 MIDDLE_KEY: Final = 45
 """On drums no key asks for more effort than another."""
+
 STRUCK: Final = 4.0
 """What speaks for the part with the most notes that are struck on the kit; for others in proportion."""
 
@@ -60,7 +61,7 @@ class Drums(Instrument):
 
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
         """Rank the parts of a score: drums first, and of them the one with the most notes for the kit."""
-        struck = {part.index: _struck(score, part.index) for part in score.parts if part.is_drums}
+        struck = {part.index: struck_notes(score, part.index) for part in score.parts if part.is_drums}
         most = max(struck.values(), default=0)
         ranked: list[PartRanking] = []
         for ranking in rank_parts(score, SUITABILITY):
@@ -118,7 +119,7 @@ class Drums(Instrument):
         return DrumsBody(engagement)
 
 
-def _struck(score: Score, part: int) -> int:
+def struck_notes(score: Score, part: int) -> int:
     """How many notes of a part are struck on the kit."""
     keys: list[int] = score.notes.sounding_pitch[score.note_indices(part)].tolist()
     kit = drum_map(kit_of(score, part, set(keys)))

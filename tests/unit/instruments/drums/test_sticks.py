@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.unit.instruments.drums.charted import charts, hits_of, kit_places
 
+from reina.instruments.drums.drum_part import Choke
 from reina.instruments.drums.hit import DrumHit
 from reina.instruments.drums.motion.kit_answers import SWINGS, KitAnswers
-from reina.instruments.drums.motion.stick_paths import GRIP_M, StickPaths, turned
-from reina.instruments.drums.motion.stick_plan import REST_TIP
+from reina.instruments.drums.motion.stick_paths import StickPaths, turned
+from reina.instruments.drums.motion.stick_plan import GRIP_M, REST_TIP
 from reina.rotations import rotate
 from reina.rotations.arrays import ArrayLike, FloatArray
 from reina.skeleton import RigError
@@ -174,6 +175,16 @@ def test_a_stroke_on_a_crash_goes_through_its_edge() -> None:
     tip = sticks(hits).evaluate(np.arange(1.0, 1.12, 0.01)).tip[:, 0] - zone.position
     assert (tip @ zone.outward).max() > 0.04
     assert tip[:, 1].min() < -0.005
+
+
+def test_a_hand_that_chokes_a_cymbal_holds_its_edge() -> None:
+    hits = strokes((1.0, 0.9), piece="crash_left", zone="edge")
+    choke = Choke(1.6, "crash_left", "left_hand")
+    answers = KitAnswers(hits, [choke])
+    frames = StickPaths(hits, PLACES, answers, chokes=[choke]).evaluate(np.array([0.8, 1.6, 1.7]))
+    away = np.linalg.norm(frames.grip[:, 1] - PLACES["crash_left", "edge"].position, axis=1)
+    assert away[0] > 0.2
+    assert away[1:].max() < 0.05
 
 
 def test_two_sticks_have_room_on_one_drum() -> None:

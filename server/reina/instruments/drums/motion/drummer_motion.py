@@ -57,7 +57,9 @@ class DrummerMotion:
         stands = places.mirrored() if is_left else places
         feet = [replace(hit, limb=MIRRORED[hit.limb]) for hit in hits] if is_left else hits
         self._answers = KitAnswers(hits, fingering.chokes, mirrored=is_left)
-        self._sticks = StickPaths(hits, stands, self._answers, hi_hat_travel=hi_hat_travel)
+        self._sticks = StickPaths(
+            hits, stands, self._answers, hi_hat_travel=hi_hat_travel, chokes=fingering.chokes
+        )
         self._feet = FootPaths(feet, self._answers, beats_s)
 
     def evaluate(self, times_s: FloatArray) -> DrummerFrames:

@@ -8,7 +8,7 @@ import numpy as np
 
 from reina.curves import Parameter
 from reina.instruments.drums.motion.kit_answers import HEADS, SWINGS
-from reina.instruments.drums.motion.kit_places import SWINGING, KitPlaces, ZonePlace
+from reina.instruments.drums.motion.kit_places import KitPlaces, ZonePlace
 from reina.instruments.drums.motion.stick_paths import turned
 from reina.rotations import about_axis, multiply, rotate, same_hemisphere
 from reina.skeleton import RigError, forward_kinematics
@@ -30,7 +30,7 @@ PARAMETERS: Final = (
     Parameter(
         path=HI_HAT,
         type="number",
-        default=0.0,
+        default=1.0,
         minimum=0.0,
         maximum=1.0,
         documentation="How far the hi-hat is closed: 0 open, 1 closed.",
@@ -100,7 +100,6 @@ class KitPose:
             raise RigError(f"a drum kit has a joint {lost[0]!r}", location="joints")
         joints = np.array([skeleton.index(name) for name in wanted], dtype=np.intp)
         self._swinging, self._hinged = joints[: len(SWINGS)], joints[len(SWINGS) :]
-        assert set(SWINGING) == set(SWINGS)
         self._outward: FloatArray = np.stack([places[piece, "edge"].outward for piece in SWINGS])
         limits = [kit.limits.get(int(joint)) for joint in self._hinged]
         self._farthest: FloatArray = np.array([0.0 if one is None else one.maximum[0] for one in limits])

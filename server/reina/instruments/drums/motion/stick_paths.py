@@ -7,26 +7,30 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from reina.instruments.drums.hit import HANDS
 from reina.instruments.drums.motion.kit_answers import SWINGS
 from reina.instruments.drums.motion.kit_places import UP
-from reina.instruments.drums.motion.stick_plan import FALL, GLIDE, RISE, plan_sticks
+from reina.instruments.drums.motion.stick_plan import (
+    CONTACT_RAD,
+    FALL,
+    GLIDE,
+    GRIP_M,
+    RISE,
+    Grip,
+    plan_sticks,
+)
 from reina.kinematics.motion_curves import minimum_jerk
 from reina.rotations import from_axis_angle, rotate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.hit import DrumHit
+    from reina.instruments.drums.drum_part import Choke
+    from reina.instruments.drums.hit import DrumHit, Limb
     from reina.instruments.drums.motion.kit_answers import KitAnswers
     from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.instruments.drums.motion.stick_plan import StickPlan
     from reina.rotations.arrays import FloatArray, IntArray
-
-GRIP_M: Final = 0.27
-"""From the tip to where the stick is held: about a third from the butt of 406 mm."""
-
-CONTACT_RAD: Final = 0.27
-"""How steeply the stick points down where it lands."""
 
 HAND_SHARE: Final = 0.3
 """How much of the tip's height the hand goes up itself; the wrist does the rest."""
@@ -70,6 +74,7 @@ class StickPaths:
         places: The kit as it stands, mirrored for a left-handed player.
         answers: What the kit does: tips land on cymbals where they are at that time.
         hi_hat_travel: (3,) from the open to the closed hi-hat, if its zones are those of the open one.
+        chokes: Cymbals that a hand grips, by time.
     """
 
     def __init__(
@@ -79,14 +84,13 @@ class StickPaths:
         answers: KitAnswers,
         *,
         hi_hat_travel: FloatArray | None = None,
+        chokes: Sequence[Choke] = (),
     ) -> None:
         self._answers = answers
         travel = np.zeros(3) if hi_hat_travel is None else hi_hat_travel
         self._sticks = [
-            _Stick(
-                plan_sticks([hit for hit in hits if hit.limb == limb], places, side, tuple(SWINGS)), travel
-            )
-            for side, limb in enumerate(("right_hand", "left_hand"))
+            _Stick(plan_sticks(_of_hand(limb, hits, chokes), places, side, tuple(SWINGS)), travel)
+            for side, limb in enumerate(HANDS)
         ]
 
     def evaluate(self, times_s: FloatArray) -> StickFrames:
@@ -95,6 +99,13 @@ class StickPaths:
         frames = [stick.evaluate(times_s, tilt, closed) for stick in self._sticks]
         tip, direction = (np.stack(parts, axis=1) for parts in zip(*frames, strict=True))
         return StickFrames(tip, direction, tip - GRIP_M * direction)
+
+
+def _of_hand(limb: Limb, hits: Sequence[DrumHit], chokes: Sequence[Choke]) -> list[DrumHit]:
+    """What one hand does, by time."""
+    own = [hit for hit in hits if hit.limb == limb]
+    own += [Grip(choke.at_s, 0.0, choke.piece, "edge", limb, 0.0) for choke in chokes if choke.limb == limb]
+    return sorted(own, key=lambda hit: hit.onset_s)
 
 
 class _Stick:

@@ -12,14 +12,23 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from reina.instruments.drums.hit import DrumHit
 from reina.instruments.drums.motion.kit_places import UP
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.hit import DrumHit
-    from reina.instruments.drums.motion.kit_places import KitPlaces
+    from reina.instruments.drums.motion.kit_places import KitPlaces, ZonePlace
     from reina.rotations.arrays import FloatArray
+
+GRIP_M: Final = 0.27
+"""From the tip to where the stick is held: about a third from the butt of 406 mm."""
+
+CONTACT_RAD: Final = 0.27
+"""How steeply the stick points down where it lands."""
+
+GRIP_S: Final = 0.18
+"""How long a hand holds a cymbal that it chokes, at most."""
 
 EARLY_S: Final = 0.0168
 """The tip is on the surface this long before the onset: so the last frame of a 60th
@@ -93,6 +102,11 @@ REST_TIP: Final = ((-0.075, 0.13, -0.05), (0.075, 0.13, -0.05))
 """Where the tips rest, from the middle of the snare."""
 
 
+@dataclass(frozen=True)
+class Grip(DrumHit):
+    """A hand goes to a cymbal's edge and holds it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Station:
     """Where a stick is for a while: over a zone, or at rest.
@@ -153,9 +167,13 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
         RigError: The kit lacks a piece.
     """
     maker = _PlanMaker(_rest(places, side))
+    known: dict[tuple[str, str, bool], Station] = {}
     for place, hit in enumerate(hits):
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
-        maker.strike(hit, _station(hit, places, side, swings), after)
+        key = (hit.piece, hit.zone, isinstance(hit, Grip))
+        if key not in known:
+            known[key] = _station(hit, places, side, swings)
+        maker.strike(hit, known[key], after)
     maker.finish()
     return StickPlan(
         maker.stations,
@@ -198,7 +216,8 @@ class _PlanMaker:
             self.heights.append((self._free_s, fall_s, lift, RISE))
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
-        self._free_s = hit.onset_s + min(CONTACT_S, CONTACT_SHARE * after_s)
+        held_s = (GRIP_S, 0.5 * after_s) if isinstance(hit, Grip) else (CONTACT_S, CONTACT_SHARE * after_s)
+        self._free_s = hit.onset_s + min(held_s)
         self._before = hit
 
     def finish(self) -> None:
@@ -257,12 +276,15 @@ def _rebound(hit: DrumHit) -> float:
 
 
 def _through(hit: DrumHit) -> float:
-    return hit.velocity if hit.piece in THROUGH and hit.zone == "edge" else 0.0
+    is_through = hit.piece in THROUGH and hit.zone == "edge" and not isinstance(hit, Grip)
+    return hit.velocity if is_through else 0.0
 
 
 def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) -> Station:
     zone = places[hit.piece, hit.zone]
     heading = _heading(zone.position, side)
+    if isinstance(hit, Grip):
+        return _grip(hit, zone, heading, swings)
     across = np.cross(UP, heading)  # to the stick's left
     across = across - zone.normal * float(across @ zone.normal)
     across = across / np.linalg.norm(across)
@@ -276,6 +298,16 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
         swings.index(hit.piece) if hit.piece in swings else -1,
         zone.pivot,
         hit.piece == "hi_hat",
+    )
+
+
+def _grip(hit: Grip, zone: ZonePlace, heading: FloatArray, swings: Sequence[str]) -> Station:
+    """The hand is at the edge, and the stick beside the cymbal, along its edge."""
+    along = np.cross(UP, zone.outward)
+    along = along if float(along @ heading) > 0.0 else -along
+    stick = along * np.cos(CONTACT_RAD) - UP * np.sin(CONTACT_RAD)
+    return Station(
+        zone.position + GRIP_M * stick, UP, along, np.zeros(3), swings.index(hit.piece), zone.pivot
     )
 
 

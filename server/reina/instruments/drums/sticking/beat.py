@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray, IntArray
 
 SNARE: Final = PIECES.index("snare")
+DRUMS: Final = tuple(PIECES.index(piece) for piece in ("snare", "tom_high", "tom_mid", "tom_floor"))
 
 FORCED: Final = 40.0
 """What it costs to leave a rudiment's sticking, or one that is written."""

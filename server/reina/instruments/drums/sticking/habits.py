@@ -18,22 +18,22 @@ if TYPE_CHECKING:
 RIGHT, LEFT = 0, 1
 """Columns of the tables: the leading hand first."""
 
-SIDES_M: Final = {
-    "snare": (-0.04, 0.40),
-    "kick": (0.19, 0.76),
-    "tom_high": (-0.045, 0.72),
-    "tom_mid": (0.305, 0.72),
-    "tom_floor": (0.63, 0.27),
-    "hi_hat": (-0.33, 0.48),
-    "ride": (0.60, 0.45),
-    "crash_left": (-0.28, 0.61),
-    "crash_right": (0.39, 0.57),
-    "china": (0.68, 0.24),
-    "splash": (0.12, 0.73),
-    "cowbell": (0.13, 0.67),
+PLACES_M: Final = {
+    "snare": (-0.04, 0.40, 0.64),
+    "kick": (0.19, 0.76, 0.30),
+    "tom_high": (-0.045, 0.72, 0.84),
+    "tom_mid": (0.305, 0.72, 0.84),
+    "tom_floor": (0.63, 0.27, 0.61),
+    "hi_hat": (-0.33, 0.48, 0.87),
+    "ride": (0.60, 0.45, 0.94),
+    "crash_left": (-0.28, 0.61, 1.06),
+    "crash_right": (0.39, 0.57, 1.09),
+    "china": (0.68, 0.24, 1.06),
+    "splash": (0.12, 0.73, 1.03),
+    "cowbell": (0.13, 0.67, 0.97),
 }
-"""About where each piece lies: to the player's right and ahead, metres; what travel and crossing are judged
-by."""
+"""About where each piece is struck, to the player's right, ahead and up, metres: by this travel and crossing
+are judged."""
 
 IN_GROOVE: Final = {
     "snare": (1.2, 0.0),
@@ -141,12 +141,12 @@ def _cost(table: FloatArray, gap_s: ArrayLike) -> FloatArray:
 
 
 def _distances() -> FloatArray:
-    places = np.array([SIDES_M[piece] for piece in PIECES])
+    places = np.array([PLACES_M[piece] for piece in PIECES])
     return np.linalg.norm(places[:, None] - places[None], axis=-1)
 
 
 def _crossings() -> FloatArray:
-    side = np.array([SIDES_M[piece][0] for piece in PIECES])
+    side = np.array([PLACES_M[piece][0] for piece in PIECES])
     over = np.maximum(side[None, :] - side[:, None] - 0.12, 0.0)
     cost = np.minimum(2.0 * over, 2.5)
     for right, left in FREE_CROSSINGS:

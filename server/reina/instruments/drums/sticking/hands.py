@@ -229,7 +229,7 @@ def _way_s(piece: int, other: int) -> float:
 def _strike_graces(struck: Struck, graces: Graces, hand: IntArray, reasons: list[str]) -> None:
     """The other hand strikes a stroke's grace notes, if it is free."""
     played = np.flatnonzero(hand >= 0)
-    last_s = [struck.onset_s[played[hand[played] == side]] for side in (RIGHT, LEFT)]
+    own = [played[hand[played] == side] for side in (RIGHT, LEFT)]
     for grace in np.flatnonzero(graces.main >= 0).tolist():
         main = int(graces.main[grace])
         name = "drag" if graces.drag[grace] else "flam"
@@ -237,13 +237,20 @@ def _strike_graces(struck: Struck, graces: Graces, hand: IntArray, reasons: list
             reasons[grace] = f"the stroke of this {name} cannot be played"
             continue
         other = 1 - int(hand[main])
-        at = float(struck.onset_s[grace])
-        place = int(np.searchsorted(last_s[other], at))
-        before = at - last_s[other][place - 1] if place else np.inf
-        after = last_s[other][place] - at if place < len(last_s[other]) else np.inf
-        if before < SOONEST_GRACE_S or after < 1.0 / HIGHEST_RATE:
+        if not _is_free(struck, own[other], grace):
             reasons[grace] = f"no hand is free for this grace note of a {name}"
             continue
         hand[grace] = other
         side, main_side = ("left", "right") if other == LEFT else ("right", "left")
         reasons[grace] = f"{side}: grace note of a {name}, before the {main_side} hand's stroke"
+
+
+def _is_free(struck: Struck, strokes: IntArray, grace: int) -> bool:
+    """Whether a hand that has strokes to make has the time for a grace note, and for the way there."""
+    at, piece = struck.onset_s, struck.piece
+    place = int(np.searchsorted(at[strokes], float(at[grace])))
+    for stroke in strokes[max(0, place - 1) : place + 1].tolist():
+        gap = abs(float(at[stroke] - at[grace]))
+        if gap < max(SOONEST_GRACE_S, _way_s(int(piece[stroke]), int(piece[grace]))):
+            return False
+    return True

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.hit import PIECES
-from reina.instruments.drums.sticking.beat import LEAD, LEAD_FIRST, RUN_GAP_S
+from reina.instruments.drums.sticking.beat import DRUMS, LEAD, LEAD_FIRST, RUN_GAP_S
 from reina.instruments.drums.sticking.grids import nearest_grid, wrong_hand
 from reina.instruments.drums.sticking.habits import IN_GROOVE, LEFT
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from reina.instruments.drums.sticking.beat import Beat, Setting
 
-_LED: Final = [PIECES.index(piece) for piece in ("snare", "tom_high", "tom_mid", "tom_floor")]
 _GROOVE: Final = [IN_GROOVE[piece] for piece in PIECES]
 
 GRACED_GAP_S: Final = 1.3
@@ -69,7 +68,7 @@ def lead(beats: Sequence[Beat], run: range, setting: Setting) -> None:
     gaps = np.where(gaps_s > SHORTEST_S, np.where(gaps < 0.02, 1.0, gaps), np.inf)
     for place, index in enumerate(run):
         setting.place[index] = "run"
-        if beats[index].pieces[0] not in _LED:
+        if beats[index].pieces[0] not in DRUMS:
             continue
         if place and gaps_s[place - 1] < ALTERNATE_S:
             setting.again[index] = ALTERNATE

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.hit import PIECES
-from reina.instruments.drums.sticking.beat import LEAD, SNARE
+from reina.instruments.drums.sticking.beat import DRUMS, LEAD, SNARE
 from reina.instruments.drums.sticking.grids import wrong_hand
 from reina.instruments.drums.sticking.habits import LEFT, LEFT_ON_FAST_HAT, LEFT_ON_FULL_HAT, TIMEKEEPERS
 
@@ -63,6 +63,7 @@ def find_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
     before, after = [-1] * count, [count] * count
     kept = [beat.onset_s for beat, is_kept in zip(beats, keeps, strict=True) if is_kept]
     place = (np.cumsum(keeps) - 1).tolist()
+    drums = np.cumsum([beat.pieces[0] in DRUMS for beat in beats]).tolist()
     last = -1
     for index in range(count):
         before[index] = last = index if keeps[index] else last
@@ -72,7 +73,9 @@ def find_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
     inside: list[bool] = []
     for index in range(count):
         first, second = before[index], after[index]
-        if first < 0 and second >= count:
+        if keeps[index]:
+            inside.append(True)
+        elif first < 0 and second >= count:
             inside.append(False)
         elif first < 0 or second >= count:
             # At the beginning and at the end of the time-keeping a stroke or two belong to it.
@@ -82,7 +85,8 @@ def find_groove(beats: Sequence[Beat], keeps: Sequence[bool]) -> list[bool]:
         else:
             span = beats[second].onset_s - beats[first].onset_s
             between = second - first - 1
-            leaves = between > 1 and span > LEAVES_OUT * _period(kept, place[first])
+            of_drums = drums[second - 1] - drums[first]
+            leaves = of_drums > 1 and span > LEAVES_OUT * _period(kept, place[first])
             inside.append(between <= GROOVE_BETWEEN and span <= GROOVE_SPAN_S and not leaves)
     return inside
 
