@@ -46,7 +46,7 @@ ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
 INWARD_RAD = np.radians([-20.0, 20.0])
 """How far a stick points inward from the line from elbow to tip, about +Y."""
 FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
-DEVIATION_RAD = np.radians([[-28.0, 10.0], [-10.0, 28.0]])
+DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
 
 SEATED, SWAYING = 0.35, ("sway_side", "sway_fore", "sway_turn", "lean", "turn")
@@ -179,7 +179,7 @@ class DrumsBody:
 
 
 def _at_arms_length(tips: FloatArray) -> FloatArray:
-    """Tips that go round the body on their way; where they strike, they are far enough from it, ``(F, 2, 3)``."""
+    """Tips that go round the body on their way; no piece is as near to it, ``(F, 2, 3)``."""
     away = tips[..., [0, 2]] - SHOULDER_PLACES
     distance = np.sqrt(np.einsum("...i,...i->...", away, away))
     near = np.maximum(NEAREST_M - distance, 0.0)
