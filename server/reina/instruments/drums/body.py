@@ -34,7 +34,7 @@ KIT = "drums"
 STICKS = ("left_stick", "right_stick")
 """The names of the sticks' skeletons."""
 
-DORSAL = np.array([[0.45, 1.0, -0.15], [-0.45, 1.0, -0.15]])
+DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
 ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
 """Where elbows point: down, out and a little back."""
