@@ -468,6 +468,132 @@ def amazing_grace(path: Path) -> None:
     write_json(path, document)
 
 
+SAINTS = """
+r:1 F4:1 A4:1 Bb4:1 | C5:3.5 r:.5 | r:1 F4:1 A4:1 Bb4:1 | C5:3.5 r:.5 | r:1 F4:1 A4:1 Bb4:1 | C5:2 A4:2 |
+F4:2 A4:2 | G4:3.5 r:.5 | A4:1 A4:1' G4:2 | F4:3 F4:1 | A4:2 C5:1 C5:1 | C5:1 Bb4:2.5 r:.5 | r:2 A4:1 Bb4:1 |
+C5:2 A4:2 | F4:2 G4:2 | F4:3 r:1 |"""
+SAINTS_JAZZ = """
+r:1 F4:.5 A4:.5 Bb4:.5 B4:.5 C5:1' | D5:.5 C5:1 A4:.5 C5:1' r:1 |
+r:.5 F4:.5 A4:.5 Bb4:.5 C5:.5 D5:.5 C5:1' | F5:1 D5:.5 C5:.5 A4:1' r:1 |
+r:1 F4:.5 A4:.5 Bb4:1 B4:1 | C5:1.5 D5:.5 C5:.5 A4:.5 F4:1' | A4:.5 C5:.5 A4:1 G4:.5 F4:.5 D4:1' |
+G4:1 r:.5 D5:.5 E5:.5 C5:.5 G4:1' |
+A4:.5 C5:.5 A4:1' G4:1.5 E4:.5 | F4:.5 A4:.5 C5:.5 D5:1 C5:.5 A4:1' | A4:.5 C5:.5 Eb5:1.5 D5:.5 C5:1' |
+Bb4:.5 D5:.5 F5:1 D5:.5 Bb4:.5 r:1 | r:1 Bb4:.5 A4:.5 G4:.5 A4:.5 Bb4:.5 B4:.5 |
+C5:1.5 D5:.5 C5:.5 A4:.5 F4:1' | G4:.5 A4:.5 Bb4:.5 A4:.5 G4:.5 F4:.5 E4:1' | F4:2.5 r:1.5 |"""
+SAINTS_LAST = """
+r:1 F5:1 A5:1 Bb5:1 | C6:3 A5:1' | r:1 F5:1 A5:1 Bb5:1 | C6:2.5 A5:.5 F5:1' | r:1 F5:1 A5:1 Bb5:1 |
+C6:2 A5:2 | F5:2 A5:2 | G5:2.5 E5:.5 C5:1' | A5:1 A5:1' G5:2 | F5:3 F5:1 | A5:2 C6:1 C6:1 |
+C6:1 Bb5:2.5 r:.5 | r:2 A5:1 Bb5:1 | C6:2 A5:2 | F5:2 G5:2 | F5:1' F5:1' r:.5 C5:.5 D5:.5 E5:.5 |
+F5:3.5 r:.5 |"""
+SAINTS_CHORDS = ["F", "F", "F", "F", "F", "F", "F", "C", "C", "F", "F7", "Bb", "Bb", "F", "C", "F"]
+SAINTS_VOICINGS = {"F": "A3 C4 F4", "F7": "A3 C4 Eb4", "Bb": "Bb3 D4 F4", "C": "G3 Bb3 E4"}
+SAINTS_BASS = {
+    "F": ("F2:2 C2:2", "F2:1 A2:1 C3:1 A2:1"),
+    "F7": ("F2:2 Eb2:2", "F2:1 G2:1 A2:1 F2:1"),
+    "Bb": ("Bb2:2 F2:2", "Bb2:1 A2:1 G2:1 F2:1"),
+    "C": ("C2:2 G2:2", "C2:1 D2:1 E2:1 G2:1"),
+}
+DRUM_KEYS = {"k": 36, "s": 38, "x": 37, "h": 42, "o": 46, "f": 44, "r": 51, "b": 53, "c": 49, "d": 57}
+DRUM_KEYS |= {"1": 50, "2": 47, "3": 43}
+STREET = {
+    # Two bars each, an eighth a place: capitals are accents, lower case lies under them.
+    "beat": {
+        "s": "SssSssSs ssSsSsss",
+        "k": "k..k..k. k.....K.",
+        "f": "..f...f. ..f...f.",
+    },
+    "ride": {
+        "r": "R.rrR.rr R.rrR.rr",
+        "s": "...s..S. .s....Ss",
+        "k": "k...k... k..k..K.",
+        "f": "..f...f. ..f...f.",
+    },
+    "hats": {
+        "h": "H.hhH.h. H.hhH...",
+        "o": "........ ......o.",
+        "x": "..x...x. ..x...x.",
+        "k": "k..kk... k..k..k.",
+    },
+    "fill": {
+        "s": "SssSssSs Sss.....",
+        "k": "k..k..k. k...k.K.",
+        "1": "........ ...1.1..",
+        "2": "........ ....2...",
+        "3": "........ ......33",
+    },
+}
+SWUNG = 2.0 / 3.0
+"""Where in its beat the second of two eighths falls."""
+
+
+def swing(beat: float) -> float:
+    """Return where a place in even eighths falls when it is swung."""
+    whole, part = divmod(beat, 1.0)
+    return whole + (part * 2.0 * SWUNG if part <= 0.5 else SWUNG + (part - 0.5) * 2.0 * (1.0 - SWUNG))
+
+
+def swung(notes: Iterable[Note]) -> list[Note]:
+    """Return notes with swung eighths, ends and all."""
+    return [
+        Note(swing(n.onset), swing(n.onset + n.duration) - swing(n.onset), n.pitch, n.velocity) for n in notes
+    ]
+
+
+def street_beat(groove: str, start: float, velocity: int = 88) -> list[Note]:
+    """Return two bars of a groove on the drums; every place has its own small weight, as hands have."""
+    notes: list[Note] = []
+    for piece, places in STREET[groove].items():
+        for place, letter in enumerate(places.replace(" ", "")):
+            if letter == ".":
+                continue
+            accent = 20 if letter.isupper() else (-40 if piece == "s" else 0)
+            weight = (3 * place + 5 * DRUM_KEYS[piece]) % 7 - 3
+            loudness = max(1, min(127, velocity + accent + weight))
+            notes.append(Note(start + 0.5 * place, 0.2, DRUM_KEYS[piece], loudness))
+    return notes
+
+
+def when_the_saints(path: Path) -> None:
+    """The hymn as a band takes it through the streets: a drummer's call, three choruses, a last word."""
+    call, bar = 16.0, 4.0
+    choruses = ((SAINTS, "beat", 92, 0), (SAINTS_JAZZ, "ride", 88, 1), (SAINTS_LAST, "beat", 104, 0))
+    trumpet: list[Note] = []
+    banjo: list[Note] = []
+    bass: list[Note] = []
+    drums = street_beat("beat", 0.0, 80) + street_beat("fill", 8.0, 92)
+    at = call
+    for melody, groove, velocity, walking in choruses:
+        trumpet += tune(melody, start=at, velocity=velocity)[0]
+        drums.append(Note(at, 0.2, DRUM_KEYS["c"], velocity + 10))
+        for pair in range(8):
+            kind = "fill" if pair in (3, 7) else "hats" if groove == "ride" and pair < 2 else groove
+            drums += street_beat(kind, at + 2 * bar * pair, velocity - 4)
+        drums.append(Note(at + 8 * bar, 0.2, DRUM_KEYS["d"], velocity + 6))
+        for place, chord in enumerate(SAINTS_CHORDS):
+            begin = at + bar * place
+            bass += tune(SAINTS_BASS[chord][walking], start=begin, velocity=velocity - 14, hold=0.8)[0]
+            banjo += [
+                Note(begin + beat, 0.35, pitch_of(voice), velocity - 30 + (8 if beat % 2 else 0))
+                for beat in range(4)
+                for voice in SAINTS_VOICINGS[chord].split()
+            ]
+        at = at + 16 * bar
+    drums += [
+        Note(at, 0.2, DRUM_KEYS[piece], loudness) for piece, loudness in (("c", 118), ("d", 116), ("k", 116))
+    ]
+    bass.append(Note(at, 3.4, pitch_of("F1"), 100))
+    banjo += [Note(at, 3.2, pitch_of(voice), 84) for voice in ["F3", "A3", "C4", "F4"]]
+    title = conductor("When the Saints Go Marching In", (0.0, metre(4, 4)), (0.0, tempo(196)))
+    save(
+        path,
+        title,
+        track("Trumpet", 0, 56, swung(trumpet), 64),
+        track("Banjo", 1, 105, swung(banjo), 44),
+        track("Sousaphone", 2, 58, swung(bass), 84),
+        track("Drums", 9, None, swung(drums), 64),
+    )
+
+
 def write_json(path: Path, document: dict[str, Any]) -> None:
     """Write a document, each of its innermost objects on one line."""
     text = json.dumps(document, indent=1, ensure_ascii=False)
@@ -483,6 +609,7 @@ SCORES = {
     "chromatic-scale.mid": chromatic_scale,
     "ode-to-joy.json": ode_to_joy,
     "amazing-grace.json": amazing_grace,
+    "when-the-saints.mid": when_the_saints,
 }
 """Each score's file and what writes it."""
 

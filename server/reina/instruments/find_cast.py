@@ -3,10 +3,14 @@
 from collections.abc import Mapping, Sequence
 
 from reina.instruments.casting import INSTRUMENT, MAX_PLAYERS, PLAYER, Cast, Casting
+from reina.instruments.drums.drum_kit import DRUMS as DRUM_KIT
+from reina.instruments.drums.drum_kit import struck_notes
 from reina.instruments.instrument import Instrument
 from reina.instruments.part_names import desk_of_name
 from reina.instruments.part_roles import Kind, PartNotes, family_part, role_of
 from reina.music.score import Score
+
+DRUMS = DRUM_KIT.name
 
 
 def find_cast(
@@ -20,7 +24,8 @@ def find_cast(
     """Find who plays a score.
 
     Every part for a trumpet, cornet or flugelhorn that is a line of its own gets a player, the best first,
-    `most` at most; of a score with one such part, or none, one trumpeter plays the part that suits best.
+    `most` at most; of a score with one such part, or none, one trumpeter plays the part that suits best. A
+    part of drums gets a drummer, who comes last; drums alone have one alone.
 
     Args:
         score: The score.
@@ -29,8 +34,14 @@ def find_cast(
         sequence: Which sequence of the file the score is, as `Cast` has it.
         most: How many play at once at most.
     """
+    drums = _drums_part(score, instruments)
     usual = instruments.get(INSTRUMENT) or next(iter(instruments.values()))
     ranking = [choice.part for choice in usual.rank_parts(score)]
+    if drums is not None:
+        if all(part.is_drums or not len(score.note_indices(part.index)) for part in score.parts):
+            player = (players.get(DRUMS) or (PLAYER,))[0]
+            return Cast((Casting(part=drums, instrument=DRUMS, player=player),), sequence, auto=True)
+        most -= 1
     chosen: list[int] = []
     joined: dict[int, list[int]] = {}
     notes_of = PartNotes(score)
@@ -45,17 +56,31 @@ def find_cast(
             joined.setdefault(owner, []).append(part)
         elif role.kind is Kind.OWN and len(chosen) < most:
             chosen.append(part)
-    if len(chosen) < 2:
-        return Cast((Casting(part=ranking[0], instrument=usual.name),), sequence, auto=True)
     castings: list[Casting] = []
-    for part in (chosen[0], *_in_order(score, chosen[1:])):
+    if len(chosen) < 2:
+        castings.append(Casting(part=ranking[0], instrument=usual.name))
+        chosen = []
+    for part in (*chosen[:1], *_in_order(score, chosen[1:])):
         found = family_part(score.parts[part])
         instrument = found.instrument if found else INSTRUMENT
         seen = [casting.player for casting in castings]
         player = min(players.get(instrument) or (PLAYER,), key=seen.count)
         joined_parts = tuple(sorted(joined.get(part, ())))
         castings.append(Casting(part=part, instrument=instrument, player=player, joined_parts=joined_parts))
+    if drums is not None:
+        seen = [casting.player for casting in castings]
+        player = min(players.get(DRUMS) or (PLAYER,), key=seen.count)
+        castings.append(Casting(part=drums, instrument=DRUMS, player=player))
     return Cast(tuple(castings), sequence, auto=True)
+
+
+def _drums_part(score: Score, instruments: Mapping[str, Instrument]) -> int | None:
+    """The part that a drummer plays, if there is one and somebody who can."""
+    drums = instruments.get(DRUMS)
+    if drums is None:
+        return None
+    best = drums.rank_parts(score)[0].part
+    return best if score.parts[best].is_drums and struck_notes(score, best) else None
 
 
 def _in_order(score: Score, parts: Sequence[int]) -> list[int]:

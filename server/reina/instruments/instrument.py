@@ -37,6 +37,8 @@ class Instrument(ABC):
     """What of it moves in every frame; the paths begin with its name."""
     handedness: tuple[str, ...] = ("right",)
     """With which hand leading it can be played: of `HANDEDNESS`."""
+    seat: str | None = None
+    """Where it stands by itself, whoever else plays; None where it stands with the others."""
     show_parameters: tuple[Parameter, ...] = ()
     """What a show may choose of it; the paths begin with ``player/``."""
 

@@ -13,11 +13,12 @@ from importlib.metadata import entry_points
 
 from reina.errors import ReinaError
 from reina.instruments.brass.family import FAMILY
+from reina.instruments.drums.drum_kit import DRUMS
 from reina.instruments.instrument import Instrument
 
 ENTRY_POINT_GROUP = "reina.instruments"
 
-BUILT_IN: Mapping[str, Instrument] = FAMILY
+BUILT_IN: Mapping[str, Instrument] = {**FAMILY, DRUMS.name: DRUMS}
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 

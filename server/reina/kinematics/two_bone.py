@@ -84,6 +84,8 @@ class TwoBoneLimbs:
         self._turned: FloatArray = multiply(axis_quaternions, self._rest)
         first = skeleton.rest_translations[lower]
         second = rotate(self._rest, skeleton.rest_translations[end])
+        self.lengths: FloatArray = np.stack([np.sqrt(dot(first, first)), np.sqrt(dot(second, second))])
+        """Of upper and lower bones, metres, ``(2, K)``."""
         along = self.hinge * dot(self.hinge, second)[:, None]
         self._c0: FloatArray = first + along
         self._c1: FloatArray = second - along

@@ -16,22 +16,33 @@ if TYPE_CHECKING:
     from reina.sessions.stage import Stage
 
 
-def seats_of(cast: Cast) -> tuple[Seat, ...]:
-    """Each player's seat: as asked for, or by how many play.
+def seats_of(stage: Stage, cast: Cast) -> tuple[Seat, ...]:
+    """Each player's seat: as asked for, its instrument's own, or by how many play without one of their own.
 
     Raises:
         CastError: There is no such seat, or two players have one.
     """
+    own = [_own_seat(stage, casting) for casting in cast.castings]
+    # Who comes second to an instrument's own seat stands with the others.
+    own = [None if seat in own[:number] else seat for number, seat in enumerate(own)]
+    together = iter(SEATS_FOR.get(own.count(None), ()))
     seats: list[Seat] = []
     for number, casting in enumerate(cast.castings):
         place = f"castings/{number}/seat" if len(cast.castings) > 1 else "seat"
-        name = casting.seat or SEATS_FOR[len(cast.castings)][number]
+        usual = own[number] or next(together)
+        name = casting.seat or usual
         if name not in SEATS:
             raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", location=place)
         if SEATS[name] in seats:
             raise CastError(f"the seat {name!r} is taken already", location=place)
         seats.append(SEATS[name])
     return tuple(seats)
+
+
+def _own_seat(stage: Stage, casting: Casting) -> str | None:
+    """Where its instrument stands by itself; None where it has no such place, or is not known."""
+    instrument = stage.kinds.get(casting.instrument)
+    return None if instrument is None else instrument.seat
 
 
 def complete_cast(

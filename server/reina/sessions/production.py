@@ -112,7 +112,7 @@ class Production:
         castings, played, rankings = complete_cast(stage, score, heard, cast)
         poses = stances or {}
         registry = stage.registry(tuple(casting.instrument for casting in castings), tuple(poses))
-        seats = seats_of(cast)
+        seats = seats_of(stage, cast)
         glances = plan_glances(played, seats)
         performers = [
             stage.performer(casting, number, seat, heard, part, registry, looks, poses)

@@ -26,8 +26,8 @@ from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
 from reina.skeleton import pose_of
 from reina.sound.alignment.aligner_process import Aligner
-from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
 from reina.sound.alignment.alignment import Alignment, MapPoint
+from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
 from reina.sound.recording.decoder import SongDecoder
 from reina.sound.recording.peaks import peaks_path
 from reina.sound.recording.probe import Conversion

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from reina.skeleton.document import Node, read_document
@@ -12,6 +12,21 @@ if TYPE_CHECKING:
 
     from reina.rotations.arrays import FloatArray
     from reina.skeleton.rig import Rig
+
+
+@dataclass(frozen=True, eq=False)
+class Attachment:
+    """Something that a joint carries along.
+
+    Attributes:
+        joint: The joint's name.
+        position: Where its root is in the joint's frame, metres, ``(3,)``.
+        rotation: How it is turned there, ``(4,)``.
+    """
+
+    joint: str
+    position: FloatArray
+    rotation: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +40,7 @@ class Hold:
         hips_position: The root in the world, metres, ``(3,)``; None where it is at rest.
         instrument_position: The instrument's root in the world, metres, ``(3,)``.
         instrument_rotation: Its rotation in the world, ``(4,)``.
+        attachments: What else is carried, by the name of its skeleton.
     """
 
     instrument: str
@@ -33,6 +49,7 @@ class Hold:
     hips_position: FloatArray | None
     instrument_position: FloatArray
     instrument_rotation: FloatArray
+    attachments: dict[str, Attachment] = field(default_factory=dict[str, Attachment])
 
     def rotations(self, rig: Rig) -> FloatArray:
         """Local rotations of all of the player's joints in this position, ``(J, 4)``.
@@ -59,6 +76,7 @@ def read_hold(document: Node) -> Hold:
     """The hold that a document describes; raises as `load_hold` does."""
     place = document["instrument_pose"]
     hips = document.get("hips")
+    carried = document.get("attachments")
     return Hold(
         instrument=document["instrument"].text(),
         player=document["player"].text(),
@@ -66,4 +84,8 @@ def read_hold(document: Node) -> Hold:
         hips_position=None if hips is None else hips.numbers(3),
         instrument_position=place["position"].numbers(3),
         instrument_rotation=place["rotation"].quaternion(),
+        attachments={
+            name: Attachment(one["joint"].text(), one["position"].numbers(3), one["rotation"].quaternion())
+            for name, one in (() if carried is None else carried.members())
+        },
     )

@@ -4,7 +4,7 @@ export { LayoutError, type DrawnFrame } from "./frame";
 export type { Insets } from "./framing";
 export { insetSide, type InsetPlace } from "./inset";
 export { measureTier } from "./measure-tier";
-export { playedScore, UNTOLD, type ScoreNote, type ScoreView } from "./score";
+export { playedScore, UNTOLD, type ScoreNote, type ScoreView, type Strike } from "./score";
 export { Stage, type StageOptions } from "./stage";
 export type { Tier } from "./tiers";
 export { RigError } from "../rig";

@@ -1,5 +1,13 @@
 /** The score as the stage draws it: the notes that are played and the bar lines. */
 
+/** How percussion plays a note: with a hand or with a foot; the other is null. */
+export interface Strike {
+  readonly type: "strike";
+  readonly hand: "left" | "right" | null;
+  readonly foot: "left" | "right" | null;
+  readonly piece: string;
+}
+
 export interface ScoreNote {
   /** Seconds from the start of the score. */
   readonly onset_s: number;
@@ -8,6 +16,8 @@ export interface ScoreNote {
   readonly written_pitch: number;
   /** The valves that are down; [] is open, null is not playable. */
   readonly valves: readonly number[] | null;
+  /** How it is played, by the kind of instrument; null where it is not. */
+  readonly fingering?: Strike | { readonly type: "valves" | "slide" | "keys" } | null;
   /** Who plays it: a place in the cast, 0 being the first; its block lies in that player's lane. */
   readonly player: number;
 }

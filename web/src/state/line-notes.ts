@@ -1,6 +1,14 @@
 import type { WireNote } from "../generated/protocol";
 
-type Sounding = Pick<WireNote, "onset_s" | "duration_s"> & { readonly valves: readonly number[] | null };
+type Sounding = Pick<WireNote, "onset_s" | "duration_s"> & {
+  readonly valves: readonly number[] | null;
+  readonly fingering?: { readonly type: string } | null;
+};
+
+/** Whether a note is played: on valves, or as another kind of instrument plays it. */
+export function isPlayed({ valves, fingering = null }: Pick<Sounding, "valves" | "fingering">): boolean {
+  return valves !== null || fingering !== null;
+}
 
 /**
  * Of a part's notes those that its player plays, one at a time: no chord's other notes, and none that the instrument
@@ -9,8 +17,10 @@ type Sounding = Pick<WireNote, "onset_s" | "duration_s"> & { readonly valves: re
  * @param notes by onset
  */
 export function lineNotes<T extends Sounding>(notes: readonly T[]): readonly T[] {
-  const played = notes.filter(({ valves }) => valves !== null);
+  const played = notes.filter(isPlayed);
   return played.map((note, index) => {
+    // Hits at one time are of several limbs.
+    if (note.fingering?.type === "strike") return note;
     const room = (played[index + 1]?.onset_s ?? Infinity) - note.onset_s;
     return note.duration_s > room ? { ...note, duration_s: room } : note;
   });
@@ -23,5 +33,5 @@ export function lineNotes<T extends Sounding>(notes: readonly T[]): readonly T[]
 export function blockNotes<T extends Sounding & { readonly player: number | null }>(notes: readonly T[]): readonly T[] {
   const players = [...new Set(notes.map(({ player }) => player))];
   const lines = players.flatMap((one) => lineNotes(notes.filter(({ player }) => player === one)));
-  return [...lines, ...notes.filter(({ valves }) => valves === null)];
+  return [...lines, ...notes.filter((note) => !isPlayed(note))];
 }

@@ -1,5 +1,5 @@
 import type { Score, WireNote } from "../generated/protocol";
-import { lineNotes } from "../state/line-notes";
+import { isPlayed, lineNotes } from "../state/line-notes";
 import { barNumberStep, pitchRange, type Phrase } from "../state/overview";
 import { firstBarNumber } from "../state/score-time";
 
@@ -51,7 +51,7 @@ const LINES_GAP = 90;
 
 /** @param followed place in the cast of the player whose notes stand out. */
 export function overviewNotes(score: Score, followed: number): OverviewNotes {
-  const others = score.notes.filter((note) => note.player === null || note.valves === null);
+  const others = score.notes.filter((note) => note.player === null || !isPlayed(note));
   const players = [...new Set(score.notes.flatMap(({ player }) => (player === null ? [] : [player])))];
   const lines = players
     .sort((a, b) => Number(a === followed) - Number(b === followed) || a - b)

@@ -3,4 +3,4 @@ export { decimalSign, list, number, row } from "./format";
 export { isLanguage, language, LANGUAGES, type Language } from "./language";
 export { keyName, noteName } from "./note-names";
 export { serverMessage } from "./server-message";
-export { serverWords } from "./server-words";
+export { limbName, pieceName, serverWords } from "./server-words";

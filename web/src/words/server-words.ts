@@ -4,6 +4,16 @@ import { named } from "./server/en";
 /** What the server names, told apart by what it is. */
 export type Kind = "instrument" | "player" | "seat" | "mood" | "problem" | "piece" | "limb";
 
+/** A piece of a drum kit. */
+export function pieceName(piece: string): string {
+  return (named as Readonly<Record<string, string>>)[`piece_${piece}`] ?? piece;
+}
+
+/** A drummer's hand or foot. */
+export function limbName(side: "left" | "right", isHand: boolean): string {
+  return named[`limb_${side}_${isHand ? "hand" : "foot"}`];
+}
+
 /**
  * A name or a title of the server's in the language that is shown.
  *

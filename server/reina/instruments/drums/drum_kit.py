@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from reina.curves import Parameter
+from reina.instruments.drums.body import KIT, STICKS, DrumsBody
 from reina.instruments.drums.drum_map import drum_map, kit_of
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
-from reina.instruments.drums.hit import SPOKEN
-from reina.instruments.drums.motion.kit_answers import HEADS
+from reina.instruments.drums.motion.kit_pose import PARAMETERS
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import BREATH_S
 from reina.instruments.played import Line
+from reina.instruments.player.phrasing import phrases_of, plan_breath, plan_phrasing
 from reina.instruments.ranking import PartRanking, Suitability, rank_parts
 from reina.music.arrays import read_only
 from reina.music.warnings import WarningLog
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from reina.instruments.played import PlayedPart
     from reina.instruments.player.engagement import Engagement
@@ -37,6 +37,9 @@ SUITABILITY: Final = Suitability(programs={}, names={}, lowest=0, highest=127, d
 NO_DRUMS: Final = -12.0
 """What speaks against a part whose pitches are tones."""
 
+MIDDLE_KEY: Final = 45
+"""On drums no key asks for more effort than another."""
+
 STRUCK: Final = 4.0
 """What speaks for the part with the most notes that are struck on the kit; for others in proportion."""
 
@@ -45,38 +48,20 @@ MAX_TOLD: Final = 200
 
 
 class Drums(Instrument):
-    """A drum kit and its player.
-
-    Its body is not there yet: `plan_gestures` and `body` say so.
-    """
+    """A drum kit and its player."""
 
     name, title, rig = "drums", "drum kit", "drumkit"
-    handedness = ("right", "left")
-    parameters = (
-        Parameter(
-            path="drums/hi_hat/pedal",
-            type="number",
-            default=1.0,
-            minimum=0.0,
-            maximum=1.0,
-            documentation="How far the hi-hat is closed: 0 open, 1 closed.",
-        ),
-        *(
-            Parameter(
-                path=f"drums/{head}/head",
-                type="number",
-                default=0.0,
-                minimum=0.0,
-                maximum=1.0,
-                documentation=f"How far the head of {SPOKEN[head]} is dented: 0 flat, 1 as far as it gives.",
-            )
-            for head in HEADS
-        ),
-    )
+    seat = "drums"
+    parameters = PARAMETERS
+
+    @property
+    def skeletons(self) -> Mapping[str, str]:
+        """The kit and both sticks."""
+        return {KIT: self.rig, **{stick: stick for stick in STICKS}}
 
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
         """Rank the parts of a score: drums first, and of them the one with the most notes for the kit."""
-        struck = {part.index: _struck(score, part.index) for part in score.parts if part.is_drums}
+        struck = {part.index: struck_notes(score, part.index) for part in score.parts if part.is_drums}
         most = max(struck.values(), default=0)
         ranked: list[PartRanking] = []
         for ranking in rank_parts(score, SUITABILITY):
@@ -124,15 +109,17 @@ class Drums(Instrument):
         return DrumPart(part, 0, _line(score, indices), fingering, log.warnings(), joined)
 
     def plan_gestures(self, played: PlayedPart, *, seed: int = 0) -> dict[str, Curve]:
-        """Not there yet."""
-        raise NotImplementedError("the drummer's body is not there yet")
+        """Breath and phrasing; what hands and feet do is planned by `body`."""
+        phrases = phrases_of(played)
+        phrased = plan_phrasing(played, phrases, middle_pitch=MIDDLE_KEY, seed=seed)
+        return {name: phrased[name] for name in ("playing", "lean", "turn")} | plan_breath(phrases)
 
-    def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:
-        """Not there yet."""
-        raise NotImplementedError("the drummer's body is not there yet")
+    def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:  # noqa: ARG002
+        """What turns strokes into poses."""
+        return DrumsBody(engagement)
 
 
-def _struck(score: Score, part: int) -> int:
+def struck_notes(score: Score, part: int) -> int:
     """How many notes of a part are struck on the kit."""
     keys: list[int] = score.notes.sounding_pitch[score.note_indices(part)].tolist()
     kit = drum_map(kit_of(score, part, set(keys)))
@@ -155,3 +142,6 @@ def _line(score: Score, indices: IntArray) -> Line:
         shortened=read_only(np.zeros(0, dtype=np.int64)),
         tongued=None,
     )
+
+
+DRUMS: Final = Drums()

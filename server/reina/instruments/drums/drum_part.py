@@ -6,7 +6,7 @@ from typing import Literal
 from reina.instruments.drums.hit import DrumHit, Hand
 from reina.instruments.played import Fingering, PlayedPart
 
-Handedness = Literal["right", "left"]
+Handedness = Literal["left", "right"]
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,8 @@ class PlayerBody:
         rig: The player's rig: a VRM humanoid with arms and legs as ``two_bone`` chains.
         held: The playing position; in it the feet keep their places, and elbows and knees their ways.
         points: Places on the trunk whose way is asked for.
-        signals: Signals beside `SIGNALS`, which `turns` and `shifts` name.
+        signals: Signals beside `SIGNALS`, which `joint_turns`, `turns` and `shifts` name.
+        joint_turns: As `body_matrix` takes them.
         turns: As `body_matrix` takes them.
         shifts: As `body_matrix` takes them.
         fingers: Joints that the instrument moves itself, ``(N,)``; what is not moved keeps its place in the
@@ -78,6 +79,7 @@ class PlayerBody:
         *,
         points: Sequence[Point] = (),
         signals: Sequence[str] = (),
+        joint_turns: Mapping[str, Mapping[str, Vector]] | None = None,
         turns: Sequence[Mapping[str, Vector]] = (),
         shifts: Sequence[Mapping[str, Vector]] = (),
         fingers: IntArray | None = None,
@@ -102,7 +104,9 @@ class PlayerBody:
         turned: IntArray = np.array([skeleton.index(name) for name in (*self.trunk, *eyes)], dtype=np.intp)
         self._held: FloatArray = held.rotations[turned]
         self._signals = (*SIGNALS, *signals)
-        self._matrix = body_matrix(rig, [*self.trunk, *eyes], self._signals, turns=turns, shifts=shifts)
+        self._matrix = body_matrix(
+            rig, [*self.trunk, *eyes], self._signals, joint_turns=joint_turns, turns=turns, shifts=shifts
+        )
         self._hips = len(turned) + len(turns)
         """Which of the matrix's columns is the hips'."""
         self._eyes = slice(len(self.trunk), len(turned)) if eyes else None
@@ -110,6 +114,8 @@ class PlayerBody:
         self._root = held.root
 
         feet = joints[2:, 2]
+        self.arm_reach: FloatArray = self._limbs.reach[:2]
+        """From shoulder to wrist at most, left and right, metres, ``(2,)``."""
         self._leg_reach: FloatArray = self._limbs.reach[2:] - SOFT_KNEE_M
         self._feet_rotations, self._feet_positions = world[feet], held.positions[feet]
         self._limb_parents = [

@@ -140,6 +140,7 @@ def body_matrix(
     joints: Sequence[str],
     signals: Sequence[str] = SIGNALS,
     *,
+    joint_turns: Mapping[str, Mapping[str, Vector]] | None = None,
     turns: Sequence[Mapping[str, Vector]] = (),
     shifts: Sequence[Mapping[str, Vector]] = (),
 ) -> FloatArray:
@@ -149,7 +150,8 @@ def body_matrix(
         rig: The player's rig.
         joints: The first columns: three for each of these joints' rotation vectors, in the joint's own rest
             frame.
-        signals: The rows: `SIGNALS`, and others that `turns` and `shifts` name.
+        signals: The rows: `SIGNALS`, and others that `joint_turns`, `turns` and `shifts` name.
+        joint_turns: More of what `TURNS` has, of other signals.
         turns: What else is turned, signal -> rotation vector, three columns each.
         shifts: What else than the hips is shifted, signal -> metres, three columns each, after the hips'.
 
@@ -158,9 +160,10 @@ def body_matrix(
     """
     _, rest_world = forward_kinematics(rig.skeleton, rig.skeleton.rest_rotations)
     others = (*turns, SHIFTS, *shifts)
+    table = {**TURNS, **(joint_turns or {})}
     matrix = np.zeros((len(signals), len(joints) + len(others), 3))
     for row, signal in enumerate(signals):
-        of_signal = TURNS.get(signal, {})
+        of_signal = table.get(signal, {})
         for column, joint in enumerate(joints):
             if joint in of_signal:
                 world_to_joint = conjugate(rest_world[rig.skeleton.index(joint)])

@@ -27,12 +27,14 @@ class Seat:
         name: What a casting calls it.
         x_m: To the left of the players, as the audience sees it to the right, metres from the middle.
         z_m: Toward the audience.
+        y_m: How high it lies over the floor.
         facing_rad: How far a player turns to the left from facing the audience.
     """
 
     name: str
     x_m: float = 0.0
     z_m: float = 0.0
+    y_m: float = 0.0
     facing_rad: float = 0.0
 
     @property
@@ -44,7 +46,7 @@ class Seat:
     def _turning(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Matrices that turn a row of coordinates and a row of a quaternion, and the seat's place."""
         turn = from_axis_angle(UP, np.array(self.facing_rad))
-        return rotate(turn, np.eye(3)), multiply(turn, np.eye(4)), np.array([self.x_m, 0.0, self.z_m])
+        return rotate(turn, np.eye(3)), multiply(turn, np.eye(4)), np.array([self.x_m, self.y_m, self.z_m])
 
     # One product for all rows: NumPy would take one for each of a stack of frames.
 
@@ -64,6 +66,7 @@ _SEATS = (
     Seat("right", x_m=-0.62, facing_rad=0.3),
     Seat("far left", x_m=1.55, z_m=0.35, facing_rad=-0.6),
     Seat("far right", x_m=-1.55, z_m=0.35, facing_rad=0.6),
+    Seat("drums", z_m=-2.15, y_m=0.2),
 )
 
 SEATS: Mapping[str, Seat] = MappingProxyType({seat.name: seat for seat in _SEATS})

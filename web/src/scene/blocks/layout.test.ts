@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 
 import { playedScore, type ScoreNote } from "../score";
-import { CHUNK_NOTES, layOut, UNPLAYABLE, valveMask } from "./layout";
+import { CHUNK_NOTES, layOut, STRUCK, UNPLAYABLE, valveMask } from "./layout";
 import { staffStep } from "./staff";
 
 function melody(count: number): ScoreNote[] {
@@ -39,6 +39,28 @@ describe("layOut", () => {
         valveMask(note.valves),
       ]);
     });
+  });
+
+  it("lays hits on the drum staff, short, with the limb's mark", () => {
+    const hit = (piece: string, hand: "left" | "right" | null, foot: "left" | "right" | null): ScoreNote => ({
+      onset_s: 1,
+      duration_s: 2,
+      written_pitch: 60,
+      valves: null,
+      fingering: { type: "strike", hand, foot, piece },
+      player: 0,
+    });
+    const hits = [
+      hit("snare", "left", null),
+      hit("hi_hat", "right", null),
+      hit("kick", null, "right"),
+      hit("hi_hat", null, "left"),
+    ];
+    const [chunk] = layOut({ notes: hits, bar_lines_s: [], players: 1 });
+    const columns = [...(chunk?.notes ?? [])];
+    expect([0, 1, 2, 3].map((at) => columns[4 * at + 2])).toEqual([5, 9, 1, -1]);
+    expect([0, 1, 2, 3].map((at) => columns[4 * at + 3])).toEqual([STRUCK + 2, STRUCK + 3, STRUCK + 1, STRUCK]);
+    expect(Math.max(...[0, 1, 2, 3].map((at) => columns[4 * at + 1] ?? 9))).toBeLessThan(0.2);
   });
 
   it("keeps every bar line once, on the staff's height", () => {

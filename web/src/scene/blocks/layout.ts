@@ -1,19 +1,25 @@
 /** The score as columns of numbers for the graphics card: built once, then only scrolled. */
 
 import type { ScoreNote, ScoreView } from "../score";
-import { ledgerSteps, staffStep } from "./staff";
+import { drumStep, ledgerSteps, staffStep } from "./staff";
 
 /** Notes drawn with one call; what is out of sight is left out by whole chunks. */
 export const CHUNK_NOTES = 64;
 
-/** Valves of a note that cannot be played. */
+/** Marks of a note that cannot be played. */
 export const UNPLAYABLE = -1;
+
+/** Marks of a hit; 1 is added for the right side, 2 for a hand. */
+export const STRUCK = 16;
+
+/** How long a hit is drawn at most, seconds: on drums the length of a note means nothing. */
+const HIT_S = 0.11;
 
 export interface Chunk {
   /** Seconds that the chunk's blocks and lines cover. */
   readonly startS: number;
   readonly endS: number;
-  /** onset s, duration s, staff step, valve mask of each note. */
+  /** onset s, duration s, staff step, marks of each note. */
   readonly notes: Float32Array<ArrayBuffer>;
   /** Whose lane each note lies in. */
   readonly noteLanes: Float32Array<ArrayBuffer>;
@@ -25,6 +31,18 @@ export interface Chunk {
 /** Bit v − 1 for each valve v that is down; 0 is open. */
 export function valveMask(valves: readonly number[] | null): number {
   return valves === null ? UNPLAYABLE : valves.reduce((mask, valve) => mask | (1 << (valve - 1)), 0);
+}
+
+/** Height on the staff, marks and length of a note's block. */
+function blockOf(note: ScoreNote): { step: number; marks: number; duration: number } {
+  const { fingering, duration_s: duration } = note;
+  if (fingering?.type !== "strike") {
+    return { step: staffStep(note.written_pitch), marks: valveMask(note.valves), duration };
+  }
+  const byHand = fingering.hand !== null;
+  const right = (fingering.hand ?? fingering.foot) === "right";
+  const marks = STRUCK + (right ? 1 : 0) + (byHand ? 2 : 0);
+  return { step: drumStep(fingering.piece, !byHand), marks, duration: Math.min(duration, HIT_S) };
 }
 
 /** Four numbers a mark, and the lane of each. */
@@ -50,9 +68,9 @@ class Columns {
   }
 }
 
-function addLedgerLines(lines: Columns, note: ScoreNote, step: number): void {
+function addLedgerLines(lines: Columns, note: ScoreNote, duration: number, step: number): void {
   for (const line of ledgerSteps(step)) {
-    lines.add(note.player, note.onset_s, note.onset_s + note.duration_s, line, line);
+    lines.add(note.player, note.onset_s, note.onset_s + duration, line, line);
   }
 }
 
@@ -73,9 +91,9 @@ export function layOut(score: ScoreView): Chunk[] {
     let startS = members[0]?.onset_s ?? Number.POSITIVE_INFINITY;
     let endS = startS === Number.POSITIVE_INFINITY ? Number.NEGATIVE_INFINITY : startS;
     for (const note of members) {
-      const step = staffStep(note.written_pitch);
-      columns.add(note.player, note.onset_s, note.duration_s, step, valveMask(note.valves));
-      addLedgerLines(lines, note, step);
+      const { step, marks, duration } = blockOf(note);
+      columns.add(note.player, note.onset_s, duration, step, marks);
+      addLedgerLines(lines, note, duration, step);
       endS = Math.max(endS, note.onset_s + note.duration_s);
     }
     for (let at = bars[bar]; at !== undefined && at < until; at = bars[++bar]) {

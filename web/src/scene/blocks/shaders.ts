@@ -145,7 +145,21 @@ void main() {
   vec2 fromColumn = vInside - vec2(min(0.0185, 0.5 * vLength), 0.0);
   vec2 overColumn = vec2(fromColumn.x, fromColumn.y - clamp(fromColumn.y, -0.0202, 0.0202));
   float plate = 1.0 - smoothstep(-pixel, pixel, length(overColumn) - radius - 0.0028);
-  if (marked) surface = mix(surface, INK, 0.94 * plate * facing);
+  bool struck = vMask > 15.5 && vMask < 31.5;
+  if (struck) {
+    // One disc for a hand, a ring for a foot; the right side gold, the left blue, as R and L have on a sheet.
+    float away = length(vInside - vec2(0.5 * vLength, 0.0));
+    float size = min(0.0135, 0.42 * vLength);
+    bool right = mod(vMask + 0.5, 2.0) > 1.0;
+    bool hand = mod(floor((vMask + 0.5) / 2.0), 2.0) > 0.5;
+    float ground = 1.0 - smoothstep(-pixel, pixel, away - size - 0.004);
+    float disc = 1.0 - smoothstep(-pixel, pixel, away - size);
+    float hole = hand ? 0.0 : 1.0 - smoothstep(-pixel, pixel, away - 0.55 * size);
+    surface = mix(surface, INK, 0.94 * ground * facing);
+    surface = mix(surface, right ? 1.35 * valveColor(2) : 2.6 * valveColor(1), disc * (1.0 - hole) * facing);
+  } else if (marked) {
+    surface = mix(surface, INK, 0.94 * plate * facing);
+  }
   for (int valve = 0; valve < 3; valve++) {
     float away = length(fromColumn - vec2(0.0, (1.0 - float(valve)) * 0.0202));
     bool down = mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
@@ -154,7 +168,7 @@ void main() {
     vec3 mark = down ? valveColor(valve) * (valve == 1 ? 2.2 : 1.35) : PAPER;
     // The rings of an open note are whole paper; beside a pressed valve they step back.
     float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.45);
-    if (marked) surface = mix(surface, mark, share * facing);
+    if (marked && !struck) surface = mix(surface, mark, share * facing);
   }
   // A line along the block for the second player, two for the third: hue does not speak alone.
   float grooves = floor(vLane + 0.5);

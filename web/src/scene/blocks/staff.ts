@@ -20,6 +20,30 @@ export function staffStep(pitch: number): number {
   return 7 * Math.floor(pitch / 12) + (STEPS[semitone] ?? 0) - BOTTOM_LINE;
 }
 
+/** Where each piece of a drum kit has its place, as a drummer reads it: feet below, cymbals above. */
+const DRUM_STEPS: Readonly<Record<string, number>> = {
+  kick: 1,
+  tom_floor: 3,
+  cowbell: 4,
+  snare: 5,
+  tom_mid: 6,
+  tom_high: 7,
+  ride: 8,
+  hi_hat: 9,
+  crash_right: 10,
+  crash_left: 11,
+  splash: 12,
+  china: 13,
+};
+
+/** Of the hi-hat where the foot plays it. */
+const HI_HAT_FOOT = -1;
+
+/** Height of a hit on the drum staff, in the same steps. */
+export function drumStep(piece: string, byFoot: boolean): number {
+  return byFoot && piece === "hi_hat" ? HI_HAT_FOOT : (DRUM_STEPS[piece] ?? 5);
+}
+
 /** Steps of the ledger lines that a note at `step` needs, from the staff outward. */
 export function ledgerSteps(step: number): number[] {
   const lines: number[] = [];

@@ -50,4 +50,5 @@ export const transport = words("transport", {
   nonePlayable: "None of this part's notes can be played",
   noNotes: "This part has no notes",
   closeWhy: "Close the explanation",
+  strike: filled("{limb}: {piece}"),
 });

@@ -1,0 +1,235 @@
+"""A drummer's body: sticks go where the strokes ask, arms follow by iteration, and the trunk helps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.instruments.drums.drum_part import drum_fingering
+from reina.instruments.drums.motion.drummer_motion import DrummerMotion
+from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
+from reina.instruments.player.body import LIMBS, PlayerBody
+from reina.instruments.player.body_table import SIGNALS
+from reina.instruments.player.held_pose import HeldPose
+from reina.instruments.player.instrument_body import BodyFrames
+from reina.instruments.player.trunk_reach import SHOULDERS, reach_out
+from reina.instruments.player.trunk_reach import SIGNALS as REACHING
+from reina.kinematics import TwoBoneLimbs
+from reina.kinematics.sampled_curves import SampledCurves
+from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
+from reina.rotations import conjugate, from_axis_angle, multiply, rotate
+from reina.skeleton import RigError, forward_kinematics
+
+if TYPE_CHECKING:
+    from reina.instruments.player.engagement import Engagement
+    from reina.instruments.player.instrument_body import BodyMotion
+    from reina.rotations.arrays import FloatArray
+    from reina.skeleton import Rig
+
+SIDES = ("left", "right")
+KIT = "drums"
+"""The name of the kit's skeleton."""
+STICKS = ("left_stick", "right_stick")
+"""The names of the sticks' skeletons."""
+
+DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
+"""Where the backs of the hands look: up, a little out and back."""
+ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
+"""Where elbows point: down, out and a little back."""
+SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
+NEAREST_M, YIELDING_M = 0.43, 0.03
+"""No tip comes nearer to its shoulder than about the first, seen from above; no piece is."""
+ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
+"""Where the elbows are at ease, across and ahead, metres."""
+INWARD_RAD = np.radians([-20.0, 20.0])
+"""How far a stick points inward from the line from elbow to tip, about +Y."""
+FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
+DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
+"""How far wrists may be bent before a stick gives way."""
+
+SEATED, SWAYING = 0.35, ("sway_side", "sway_fore", "sway_turn", "lean", "turn")
+"""How much of what turns a standing player's hips is left."""
+PLANNED_HZ = 10.0
+"""How often a second it is worked out how the trunk stands."""
+SAMPLED_HZ = 40.0
+SMOOTHING_S = 0.8
+"""The trunk follows where the hands are over this long."""
+HEAD_TURNED_TO = 0.4
+"""How much of the way to the middle of both hands the head turns beyond the trunk."""
+HEEL_RAD, HELD_HEEL = 0.26, 0.4
+"""How far a heel goes from down to up, and where on that way it is in the hold."""
+
+
+class DrumsBody:
+    """Solves whole poses of a drummer, the kit and the sticks.
+
+    Args:
+        engagement: Who plays a `DrumPart`; the hold has attachments `STICKS`, the kit zones and contacts
+            ``leftPedal`` and ``rightPedal``.
+
+    Raises:
+        RigError: Something that playing needs is not in the rigs.
+    """
+
+    def __init__(self, engagement: Engagement) -> None:
+        rig, kit = engagement.player_rig, engagement.instrument_rigs[KIT]
+        held = HeldPose(rig, engagement.hold)
+        beats = np.arange(int(np.ceil(engagement.score.tempo_map.beats(engagement.score.duration_s))) + 1)
+        self._beats: FloatArray = engagement.score.tempo_map.seconds(beats.astype(np.float64))
+        self._motion = DrummerMotion(
+            drum_fingering(engagement.played),
+            kit_places(kit),
+            beats_s=self._beats,
+            hi_hat_travel=part_travel(kit, HI_HAT),
+        )
+        self._kit = KitPose(kit)
+        self._body = PlayerBody(rig, held, signals=tuple(SHOULDERS), joint_turns=SHOULDERS)
+        self._attached = self._attachments(engagement)
+        self._arms = self._tool_arms(engagement, TwoBoneLimbs(rig, LIMBS[:2]))
+        self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
+        chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
+        self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
+        self._feet = _Feet(rig, kit, held)
+        sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
+        self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
+            np.float32
+        )
+        self._trunk = self._plan_trunk(
+            engagement.score.duration_s, held.positions[rig.skeleton.index("spine")]
+        )
+
+    def _attachments(self, engagement: Engagement) -> FloatArray:
+        lost = [name for name in STICKS if name not in engagement.hold.attachments]
+        if lost:
+            raise RigError(f"the hold carries no {lost[0]!r}", location="attachments")
+        return np.stack([engagement.hold.attachments[name].rotation for name in STICKS])
+
+    def _tool_arms(self, engagement: Engagement, arms: TwoBoneLimbs) -> ToolArms:
+        tools: list[Tool] = []
+        for name, side in zip(STICKS, SIDES, strict=True):
+            attached = engagement.hold.attachments[name]
+            tip = engagement.instrument_rigs[name].effector(f"{side}StickTip").offset
+            direction = rotate(attached.rotation, np.array([0.0, 0.0, 1.0]))
+            tools.append(Tool(attached.position, direction, rotate(attached.rotation, tip)))
+        return ToolArms(arms, tools, DORSAL, WristRange(FLEXION_RAD, DEVIATION_RAD))
+
+    def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
+        """How trunk and head follow the hands, over the whole piece."""
+        count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
+        sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
+        tips = _at_arms_length(sticks.tip[:, ::-1])
+        directions = _from_elbows(tips, sticks.direction[:, ::-1])
+        wrists = self._arms.wrists(tips, directions)
+        reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
+        window = np.hanning(2 * reach + 3)[1:-1]
+        padded = np.pad(wrists.reshape(count, -1), ((reach, reach), (0, 0)), mode="edge")
+        smooth = np.stack(
+            [np.convolve(column, window / window.sum(), mode="valid") for column in padded.T], axis=1
+        )
+        wrists = smooth[:: int(SAMPLED_HZ / PLANNED_HZ)].reshape(-1, 2, 3)
+        signals = {name: np.zeros(len(wrists)) for name in (*SIGNALS, *SHOULDERS)}
+        turned = reach_out(self._body, wrists, pivot, signals)
+        middle = wrists.mean(axis=1) - pivot
+        head = HEAD_TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
+        return SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
+
+    def _seated(self, stance: FloatArray | None) -> FloatArray | None:
+        """What is left of a way of standing for who sits: hips stay on the stool, feet on the pedals."""
+        if stance is None:
+            return None
+        joints = len(self._body.trunk)
+        kept = stance[:, : joints + 1].copy()
+        kept[:, [0, joints]] = 0.0
+        return kept
+
+    def solve(self, motion: BodyMotion) -> BodyFrames:
+        """The poses of F frames."""
+        times = motion.times_s
+        trunk = self._trunk.evaluate(times)
+        # Who sits sways from the waist; feet are on their pedals.
+        signals = {
+            name: SEATED * signal if name in SWAYING else signal for name, signal in motion.signals.items()
+        }
+        for column, name in enumerate((*REACHING, "head_turn")):
+            signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
+        standing = self._body.stand(signals, self._seated(motion.stance))
+        drummed = self._motion.evaluate(times)
+        tips = _at_arms_length(drummed.sticks.tip[:, ::-1])
+        directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
+        poles = rotate(standing.world[:, self._chest, None], self._poles)
+        sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
+        kit = self._kit.rotations(drummed)
+        feet, feet_rotations = self._feet.solve(kit, drummed.feet.heel[:, ::-1])
+        standing = replace(standing, feet=feet, feet_rotations=feet_rotations)
+        moving = self._body.reach(standing, sticks.wrists, sticks.hands, elbows=sticks.hinges)
+
+        frames, joints = len(times), len(self._body.still)
+        rotations = np.empty((frames, *self._still.shape), dtype=np.float32)
+        rotations[:] = self._still
+        rotations[:, self._body.moving] = moving
+        rotations[:, joints:-2] = kit
+        held = multiply(sticks.hands, self._attached)
+        rotations[:, -2:] = held * np.where(held[..., 3:] < 0.0, -1.0, 1.0)
+        roots = np.zeros((frames, 4, 3))
+        roots[:, 0] = standing.hips
+        roots[:, 2:] = sticks.fulcrums
+        return BodyFrames(rotations, roots, self._kit.parameters(drummed))
+
+
+def _at_arms_length(tips: FloatArray) -> FloatArray:
+    """Tips that go round the body on their way; no piece is as near to it, ``(F, 2, 3)``."""
+    away = tips[..., [0, 2]] - SHOULDER_PLACES
+    distance = np.sqrt(np.einsum("...i,...i->...", away, away))
+    near = np.maximum(NEAREST_M - distance, 0.0)
+    if not near.any():
+        return tips
+    share = near * near / ((near + YIELDING_M) * np.maximum(distance, 1e-6))
+    result = tips.copy()
+    result[..., [0, 2]] += away * share[..., None]
+    return result
+
+
+def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:
+    """Sticks as steep as they are asked to be, that come from where the elbows are, ``(F, 2, 3)``."""
+    ahead = tips[..., [0, 2]] - ELBOW_PLACES
+    ahead = ahead / np.sqrt(np.einsum("...i,...i->...", ahead, ahead))[..., None]
+    level = np.sqrt(np.maximum(1.0 - directions[..., 1] ** 2, 0.0))
+    result = np.empty_like(directions)
+    result[..., 0] = level * (ahead[..., 0] * np.cos(INWARD_RAD) + ahead[..., 1] * np.sin(INWARD_RAD))
+    result[..., 1] = directions[..., 1]
+    result[..., 2] = level * (ahead[..., 1] * np.cos(INWARD_RAD) - ahead[..., 0] * np.sin(INWARD_RAD))
+    return result
+
+
+class _Feet:
+    """The balls of the feet stay on the boards of the pedals; heels go up for what is loud."""
+
+    def __init__(self, rig: Rig, kit: Rig, held: HeldPose) -> None:
+        ankles = [rig.chain(leg).joints[-1] for leg in LIMBS[2:]]
+        contacts = [kit.contact(f"{side}Pedal") for side in SIDES]
+        self._boards = [contact.joint for contact in contacts]
+        self._offsets: FloatArray = np.stack([contact.offset for contact in contacts])
+        self._hinges: FloatArray = kit.skeleton.rest_translations[self._boards]
+        self._rotations: FloatArray = held.world[ankles]
+        _, boards = forward_kinematics(kit.skeleton, kit.skeleton.rest_rotations)
+        balls = self._hinges + rotate(boards[self._boards], self._offsets)
+        self._balls: FloatArray = rotate(conjugate(self._rotations), balls - held.positions[ankles])
+        # About the foot's own side, in its frame.
+        ahead = rotate(self._rotations, np.array([0.0, 0.0, 1.0]))
+        side = np.stack([ahead[:, 2], np.zeros(2), -ahead[:, 0]], axis=-1)
+        self._sideways: FloatArray = rotate(
+            conjugate(self._rotations), side / np.linalg.norm(side, axis=-1)[:, None]
+        )
+
+    def solve(self, kit: FloatArray, heels: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Where the ankles are ``(F, 2, 3)``, metres, and the feet's rotations ``(F, 2, 4)``.
+
+        Args:
+            kit: The kit's local rotations ``(F, N, 4)``; the boards hang on its root, which stands still.
+            heels: How far each heel is up, ``(F, 2)``: 0 down, 1 as far as it goes.
+        """
+        balls = self._hinges + rotate(kit[:, self._boards], self._offsets)
+        rotations = multiply(self._rotations, from_axis_angle(self._sideways, HEEL_RAD * (heels - HELD_HEEL)))
+        return balls - rotate(rotations, self._balls), rotations
