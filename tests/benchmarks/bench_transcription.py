@@ -2,8 +2,8 @@
 
 Run as ``python tests/benchmarks/bench_transcription.py``. The recordings are the trumpets' parts of the
 example scores, rendered alone, and lines by chance that are hard (tests/unit/sound/transcription/solos.py).
-A note is found if one of its pitch begins within 50 ms; F1 counts what is missing and what is too much alike. Processor
-time counts.
+A note is found if one of its pitch begins within 50 ms; F1 counts what is missing and what is too much
+alike. Processor time counts.
 """
 
 from __future__ import annotations

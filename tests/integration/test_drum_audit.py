@@ -1,4 +1,4 @@
-"""The drummer audited from frames alone: tips on pieces at every onset, nothing in anything, limits, speeds."""
+"""The drummer audited from frames alone: tips on their pieces, nothing in anything, limits, speeds."""
 
 from __future__ import annotations
 

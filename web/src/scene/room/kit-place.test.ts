@@ -51,8 +51,8 @@ describe("the place of a drum kit", () => {
       const mesh = place.object.getObjectByName(name) as Mesh;
       return new Box3().setFromObject(mesh).max.y;
     };
-    expect(top("kit rug")).toBeGreaterThan(top("kit platform"));
-    expect(top("kit rug")).toBeLessThanOrEqual(0.006);
+    expect(top("kit_rug")).toBeGreaterThan(top("kit_platform"));
+    expect(top("kit_rug")).toBeLessThanOrEqual(0.006);
   });
 });
 

@@ -80,8 +80,8 @@ function createPlatform(light: RoomLight): Object3D[] {
   const rug = new Mesh(slab(RUG, RUG_THICK, SUNK), cloth);
   for (const mesh of [platform, rug]) mesh.receiveShadow = true;
   platform.castShadow = true;
-  platform.name = "kit platform";
-  rug.name = "kit rug";
+  platform.name = "kit_platform";
+  rug.name = "kit_rug";
   const shade = createContactShade(SHADE);
   shade.position.y = SUNK;
   return [platform, rug, shade];
@@ -101,7 +101,7 @@ export class KitPlace {
   constructor(light: RoomLight, inTheWay: readonly WithRow[]) {
     this.#light = light;
     this.#inTheWay = inTheWay.map(({ mesh, without }) => ({ mesh, without, all: mesh.count }));
-    this.object.name = "kit place";
+    this.object.name = "kit_place";
     this.object.visible = false;
   }
 
