@@ -67,16 +67,16 @@ def hold_stick(rig: Rig, kit: Rig, stick: Rig, side: str, stance: Stance) -> tup
     arm = Arm(rig, side, rig.world(stance.pose, stance.hips)["upperChest"])
 
     def reach(x: Array) -> ArmPose:
-        aside, down = np.radians([x[0], STICKS_DOWN_DEG])
+        aside, down = float(np.radians(x[0])), float(np.radians(STICKS_DOWN_DEG))
         ahead = np.array(
             [-outward * np.sin(aside) * np.cos(down), -np.sin(down), np.cos(aside) * np.cos(down)]
         )
         up = np.array([0.0, 1.0, 0.0]) - ahead * ahead[1]
         up /= np.linalg.norm(up)
-        pointing = np.column_stack([np.cross(up, ahead), up, ahead])
-        hand = pointing @ held.T
+        pointing: Array = np.column_stack([np.cross(up, ahead), up, ahead])
+        hand: Array = pointing @ held.T
         fulcrum = tip - pointing @ stick.effector(f"{side}StickTip")[1]
-        return arm.reach(fulcrum - hand @ grip.fulcrum, hand, x[1], np.zeros(2))
+        return arm.reach(fulcrum - hand @ grip.fulcrum, hand, float(x[1]), np.zeros(2))
 
     def cost(x: Array) -> Array:
         best, width = np.array([STICKS_IN_DEG, SWIVEL_RAD]).T

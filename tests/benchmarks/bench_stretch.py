@@ -32,7 +32,7 @@ from reina.sound.font import find_soundfont
 from reina.sound.midi import write_midi
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator
 
     from numpy.typing import NDArray
     from playwright.sync_api import Page
@@ -141,7 +141,7 @@ def tones() -> NDArray[np.float32]:
     wav = midirenderer.render_wave_from(
         find_soundfont(ROOT / "data").read_bytes(), write_midi(events, end_tick=end)
     )
-    samples, _ = soundfile.read(io.BytesIO(wav), dtype="float32", always_2d=True)
+    samples, _ = soundfile.read(io.BytesIO(wav), always_2d=True)
     return np.ascontiguousarray(samples.mean(axis=1))
 
 
@@ -205,7 +205,7 @@ def through(
 
 
 @contextmanager
-def serving(files: dict[str, tuple[str, str]]) -> Iterator[str]:
+def serving(files: dict[str, tuple[str, str]]) -> Generator[str]:
     """Serve texts by their paths; the address of it all."""
 
     class Answer(BaseHTTPRequestHandler):
@@ -216,8 +216,8 @@ def serving(files: dict[str, tuple[str, str]]) -> Iterator[str]:
             self.end_headers()
             self.wfile.write(content.encode())
 
-        def log_message(self, *_: object) -> None:
-            return
+        def log_message(self, format: str, *args: object) -> None:  # noqa: A002
+            """Nobody reads it."""
 
     server = ThreadingHTTPServer(("127.0.0.1", 0), Answer)
     Thread(target=server.serve_forever, daemon=True).start()

@@ -81,7 +81,8 @@ def synctoolbox(recording: Recording, rate: int) -> Result:
     heard = ~np.isnan(recording.onset_s)
     at_song, at_score = (np.asarray(row, dtype=np.float64) for row in path)
     frames = np.interp(notes.onset_s[heard] * FRAMES_PER_S, at_score, at_song)
-    return Result(1000 * np.abs(frames / FRAMES_PER_S + first / rate - recording.onset_s[heard]))
+    errors_ms = 1000 * np.abs(frames / FRAMES_PER_S + first / rate - recording.onset_s[heard])
+    return Result(errors_ms, errors_ms)
 
 
 def parangonar(recording: Recording, rate: int) -> Result:
@@ -105,7 +106,8 @@ def parangonar(recording: Recording, rate: int) -> Result:
         if event.get("score_id") is not None and event.get("performance_time") is not None:
             at[int(str(event["score_id"])[1:])] = float(event["performance_time"])
     heard = ~np.isnan(recording.onset_s) & ~np.isnan(at)
-    return Result(1000 * np.abs(at[heard] - recording.onset_s[heard]))
+    errors_ms = 1000 * np.abs(at[heard] - recording.onset_s[heard])
+    return Result(errors_ms, errors_ms)
 
 
 OTHERS: dict[str, Callable[[Recording, int], Result]] = {

@@ -257,12 +257,8 @@ def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -
                 along = np.einsum("fi,fi->f", offset, axis)
                 out = np.linalg.norm(offset - along[:, None] * axis, axis=1) - radius
                 over = np.abs(along) - half
-                inside = np.where(
-                    (out < 0) & (over < 0),
-                    np.maximum(out, over),
-                    np.hypot(np.maximum(out, 0), np.maximum(over, 0)),
-                )
-                deep = thick - inside
+                outside: Points = np.hypot(np.maximum(out, 0), np.maximum(over, 0))
+                deep: Points = thick - outside - np.minimum(np.maximum(out, over), 0.0)
                 worst = int(deep.argmax())
                 assert deep[worst] <= INSIDE_M, (
                     f"{frames.song_time_s[worst]:.3f} s: the {side} {what} is {1000 * deep[worst]:.1f} mm"

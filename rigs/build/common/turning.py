@@ -182,11 +182,10 @@ class Workpiece:
             normals = spokes * step[:, 0, None, None] - along * step[:, 1, None, None]
             normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-9)
             length: Array = np.r_[0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
-            u, v = np.meshgrid(angle / (2 * np.pi), length / max(length[-1], 1e-9))
+            across: Array = np.tile(angle / (2 * np.pi), len(length))
+            down: Array = np.repeat(length / max(length[-1], 1e-9), len(angle))
             faces = grid_faces(len(points), columns)
-            self.add(
-                material, vertices.reshape(-1, 3), normals.reshape(-1, 3), faces, np.c_[u.ravel(), v.ravel()]
-            )
+            self.add(material, vertices.reshape(-1, 3), normals.reshape(-1, 3), faces, np.c_[across, down])
             return
         for (z0, r0), (z1, r1) in itertools.pairwise(points):
             normals = spokes * (z1 - z0) - along * (r1 - r0)
@@ -314,7 +313,8 @@ def _tangents(vertices: Array, normals: Array, faces: NDArray[np.int64], uv: Arr
     # Where u has no direction, any in the surface does.
     spare = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]))
     spare /= np.linalg.norm(spare, axis=1, keepdims=True)
-    unit_u: Array = np.where(length > 1e-12, total_u / np.maximum(length, 1e-12), spare)
+    directed: Array = total_u / np.maximum(length, 1e-12)
+    unit_u: Array = np.asarray(np.where(length > 1e-12, directed, spare), dtype=np.float64)
     hand = np.where((np.cross(normals, unit_u) * total_v).sum(axis=1) < 0, -1.0, 1.0)
     return np.c_[unit_u, hand]
 

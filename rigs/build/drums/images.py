@@ -45,12 +45,14 @@ def shell_image(detail: float) -> tuple[bytes, str]:
     drift = 3.2 * waves(rng, width, 1, 5) + 1.1 * waves(rng, width, 5, 14)
     lines = waves(rng, 1024, 20, 330)
     place = (rows * 700 + drift[None] * 6) % 1024
-    grain: Picture = np.interp(place.ravel(), np.arange(1025), np.r_[lines, lines[0]]).reshape(height, width)
+    grain: Picture = np.asarray(
+        np.interp(place.ravel(), np.arange(1025), np.r_[lines, lines[0]]), dtype=np.float64
+    ).reshape(height, width)
     broad = waves(rng, 1024, 2, 14)
-    band: Picture = np.interp(
-        ((rows * 420 + drift[None] * 11) % 1024).ravel(), np.arange(1025), np.r_[broad, broad[0]]
-    )
-    band = band.reshape(height, width)
+    band: Picture = np.asarray(
+        np.interp(((rows * 420 + drift[None] * 11) % 1024).ravel(), np.arange(1025), np.r_[broad, broad[0]]),
+        dtype=np.float64,
+    ).reshape(height, width)
     # Curl: light across the grain, in soft vertical flames.
     curl = waves(rng, width, 18, 60)[None] * np.exp(-(((rows - 0.5) / 0.5) ** 2))
     wood: Picture = np.clip(0.55 + 0.10 * grain + 0.13 * band + 0.09 * curl, 0, 1)

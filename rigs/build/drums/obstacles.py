@@ -125,7 +125,7 @@ def cymbal_steps(cymbal: Cymbal) -> list[tuple[float, float, float]]:
     floor = float(cymbal.height(np.linspace(0.0, cymbal.radius, 200)).min()) - m.CYMBAL_THICKNESS
     steps: list[tuple[float, float, float]] = []
     for radius in radii:
-        inside: Array = np.linspace(0.0, radius, 100)
+        inside: Array = np.linspace(0.0, float(radius), 100)
         steps.append((floor, max(float(cymbal.height(inside).min()), floor + 0.001), float(radius)))
     return steps
 

@@ -22,7 +22,7 @@ FLOOR_LEGS = tuple(np.radians([60.0, 180.0, 300.0]))
 def rounded(width: float, height: float, corner: float, steps: int) -> tuple[Array, Array]:
     """A rectangle with round corners about the origin: points (K, 2) and normals out of it."""
     turns: Array = np.concatenate(
-        [np.linspace(q, q + 0.5 * np.pi, steps) for q in np.arange(4) * 0.5 * np.pi]
+        [np.linspace(0.5 * np.pi * q, 0.5 * np.pi * (q + 1), steps) for q in range(4)]
     )
     out = np.stack([np.cos(turns), np.sin(turns)], axis=1)
     middle = np.repeat([[1, 1], [-1, 1], [-1, -1], [1, -1]], steps, axis=0)

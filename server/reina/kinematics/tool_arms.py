@@ -182,6 +182,6 @@ class ToolArms:
         return forearm / self._lower[..., None], nearer
 
 
-def _beyond(value: FloatArray, low: ArrayLike, high: ArrayLike) -> FloatArray:
+def _beyond(value: FloatArray, low: FloatArray | float, high: FloatArray | float) -> FloatArray:
     """How far values lie outside of low … high, signed."""
     return np.minimum(value - low, 0.0) + np.maximum(value - high, 0.0)

@@ -401,13 +401,13 @@ class SessionStore:
         await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
         if session.record.song is None and session.song.path is not None:
             songs.add(session.song.path)
-        for path in songs - self._songs_in_use():
+        for path in songs - self.songs_in_use():
             await asyncio.to_thread(self._renderer.discard, path)
 
     async def prune_songs(self) -> None:
         """Remove the rendered songs that were not asked for the longest until the rest is small enough."""
         freed = await asyncio.to_thread(
-            self._renderer.prune, self._song_cache_bytes, in_use=self._songs_in_use()
+            self._renderer.prune, self._song_cache_bytes, in_use=self.songs_in_use()
         )
         if freed:
             _log.info("removed %.0f MB of rendered songs", freed / 1e6)
@@ -585,7 +585,8 @@ class SessionStore:
         self._pruning.add(pruning)
         pruning.add_done_callback(self._pruning.discard)
 
-    def _songs_in_use(self) -> set[Path]:
+    def songs_in_use(self) -> set[Path]:
+        """Files of songs that sessions have open, as everybody and as single viewers hear them."""
         sessions = self._sessions.values()
         own = {session.song.path for session in sessions if session.song.path is not None}
         return own.union(*(session.heard.paths for session in sessions))

@@ -293,7 +293,7 @@ def test_what_a_viewer_hears_instead_of_the_song_is_their_own(tmp_path: Path, st
         assert len(paths | {own}) == 4
         assert session.song_state() == state_of_all, "for everybody else nothing has changed"
         # What is heard is in use; once another part is played, it is not.
-        await asyncio.to_thread(desk.renderer.prune, 0, in_use=desk.store._songs_in_use())
+        await asyncio.to_thread(desk.renderer.prune, 0, in_use=desk.store.songs_in_use())
         assert all(path.is_file() for path in paths)
         await choose(desk.store, session, transposition=2)
         assert session.heard.paths == set()

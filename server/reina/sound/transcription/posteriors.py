@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib.util
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -104,7 +104,7 @@ def hear(samples: NDArray[np.float32], tell: Callable[[float], None] = lambda _:
         NoRuntimeError: ONNX Runtime is not installed.
     """
     try:
-        import onnxruntime
+        onnxruntime: Any = importlib.import_module("onnxruntime")
     except ImportError as error:
         raise NoRuntimeError from error
     options = onnxruntime.SessionOptions()
@@ -117,10 +117,13 @@ def hear(samples: NDArray[np.float32], tell: Callable[[float], None] = lambda _:
     before = MARGIN_FRAMES * HOP
     padded = np.zeros((windows - 1) * KEPT_FRAMES * HOP + WINDOW + before, dtype=np.float32)
     padded[before : before + len(samples)] = samples[: len(padded) - before]
-    notes, onsets = [], []
+    notes: list[NDArray[np.float32]] = []
+    onsets: list[NDArray[np.float32]] = []
     for index in range(windows):
         begin = index * KEPT_FRAMES * HOP
-        heard = network.run([NOTE, ONSET], {INPUT: padded[None, begin : begin + WINDOW, None]})
+        heard: list[NDArray[np.float32]] = network.run(
+            [NOTE, ONSET], {INPUT: padded[None, begin : begin + WINDOW, None]}
+        )
         for kept, whole in zip((notes, onsets), heard, strict=True):
             kept.append(np.asarray(whole)[0, MARGIN_FRAMES:-MARGIN_FRAMES])
         tell((index + 1) / windows)

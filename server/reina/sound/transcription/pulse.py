@@ -124,11 +124,12 @@ def _smoothed(
     usual = float(np.median(np.diff(beats))) if len(beats) > 1 else DEFAULT_BEAT_S
     beats = _reaching(beats, usual, float(onset_s[0]), max(end_s, float(onset_s[-1])) + usual)
     numbers = np.arange(len(beats), dtype=np.float64)
-    for _ in range(2):
-        played = np.interp(onset_s, beats, numbers)
-        meant, off = _meant(played)
+    meant, off = _meant(np.interp(onset_s, beats, numbers))
+    for again in (True, False):
         beats = fit_beats(numbers, meant, onset_s, np.ones(len(onset_s)))
         beats = beats + np.arange(len(beats)) * 1e-9
+        if again:
+            meant, off = _meant(np.interp(onset_s, beats, numbers))
     return beats, meant, bool(np.mean(off) < UNCLEAR)
 
 

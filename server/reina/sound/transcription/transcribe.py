@@ -149,6 +149,7 @@ def _as_heard(samples: NDArray[np.float32], found: FoundLine) -> HeardNotes:
     earliest = onset_s + SHORTEST_S
     ends_s = np.clip(found.end[kept] / FRAME_RATE, earliest, np.append(onset_s[1:], np.inf))
     velocity = np.clip(LOUD_VELOCITY * np.sqrt(level[kept] / loud), SOFTEST, LOUDEST)
+    onset_s = np.asarray(onset_s, dtype=np.float64)
     return HeardNotes(onset_s, ends_s, found.pitch[kept], velocity)
 
 

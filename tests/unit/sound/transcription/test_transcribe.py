@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import numpy as np
 import pytest
@@ -60,7 +61,7 @@ def test_onsets_are_near_and_the_file_has_them() -> None:
         ("trumpet-duet", (2, 3), {}),
     ],
 )
-def test_mixes_are_refused(score: str, without: tuple[int, ...], spoilt: dict[str, float]) -> None:
+def test_mixes_are_refused(score: str, without: tuple[int, ...], spoilt: dict[str, Any]) -> None:
     recording = record(Rendition(score, without_parts=without, **spoilt))
     with pytest.raises(MixError, match="this is a mix"):
         transcribe(recording.samples, RATE, Line(), title=score)
