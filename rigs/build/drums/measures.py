@@ -159,7 +159,7 @@ CYMBALS = (
     Cymbal("crash_left", (0.35, 1.16, 0.77), 20.0, -24.0, 8 * INCH, 0.054, 0.016, 0.020),
     Cymbal("crash_right", (-0.49, 1.20, 0.74), 20.0, 32.0, 9 * INCH, 0.060, 0.017, 0.022),
     Cymbal("china", (-0.84, 1.15, 0.32), 20.0, 64.0, 8 * INCH, 0.050, 0.022, 0.022, 0.020),
-    Cymbal("splash", (-0.13, 1.09, 0.84), 18.0, 4.0, 5 * INCH, 0.038, 0.012, 0.010),
+    Cymbal("splash", (-0.13, 1.112, 0.853), 18.0, 4.0, 5 * INCH, 0.038, 0.012, 0.010),
 )
 CYMBAL_THICKNESS = 0.0014
 HOLE = 0.0055
@@ -167,8 +167,8 @@ BELL_ROUND = 0.80
 """How much of a half sphere a bell is: 0 is a flat arc, 1 would end upright."""
 
 # The cowbell: a flattened cone, its mouth toward the player.
-COWBELL_MOUTH = np.array([-0.13, 0.945, 0.615])
-COWBELL_BACK = np.array([-0.13, 0.935, 0.790])
+COWBELL_MOUTH = np.array([-0.13, 0.909, 0.765])
+COWBELL_BACK = np.array([-0.13, 0.899, 0.940])
 COWBELL_MOUTH_SIZE = (0.094, 0.058)
 COWBELL_BACK_SIZE = (0.062, 0.040)
 

@@ -23,6 +23,10 @@ from reina.rotations import conjugate, from_axis_angle, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reina.instruments.drums.hit import DrumHit
+    from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import BodyMotion
     from reina.rotations.arrays import FloatArray
@@ -40,11 +44,15 @@ ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
 """Where elbows point: down, out and a little back."""
 SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
 NEAREST_M, YIELDING_M = 0.43, 0.03
-"""No tip comes nearer to its shoulder than about the first, seen from above; no piece is."""
+"""No tip comes nearer to its shoulder than about the first, seen from above, unless it strikes there."""
+LANDING_M = 0.03
+"""Tips land within this of a zone's middle."""
 ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
 """Where the elbows are at ease, across and ahead, metres."""
 INWARD_RAD = np.radians([-20.0, 20.0])
 """How far a stick points inward from the line from elbow to tip, about +Y."""
+RAISED_M, RAISED_OUT = (0.95, 0.25), 4.0
+"""Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
 FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
 DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
@@ -78,9 +86,11 @@ class DrumsBody:
         held = HeldPose(rig, engagement.hold)
         beats = np.arange(int(np.ceil(engagement.score.tempo_map.beats(engagement.score.duration_s))) + 1)
         self._beats: FloatArray = engagement.score.tempo_map.seconds(beats.astype(np.float64))
+        fingering, places = drum_fingering(engagement.played), kit_places(kit)
+        self._nearest = _nearest_m(fingering.hits, places)
         self._motion = DrummerMotion(
-            drum_fingering(engagement.played),
-            kit_places(kit),
+            fingering,
+            places,
             beats_s=self._beats,
             hi_hat_travel=part_travel(kit, HI_HAT),
         )
@@ -91,6 +101,7 @@ class DrumsBody:
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
         self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
+        self._outward: FloatArray = rotate(conjugate(chest), ELBOWS * [RAISED_OUT, 0.0, 0.0])
         self._feet = _Feet(rig, kit, held)
         sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
         self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
@@ -119,7 +130,7 @@ class DrumsBody:
         """How trunk and head follow the hands, over the whole piece."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
         sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
-        tips = _at_arms_length(sticks.tip[:, ::-1])
+        tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
         directions = _from_elbows(tips, sticks.direction[:, ::-1])
         wrists = self._arms.wrists(tips, directions)
         reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
@@ -156,9 +167,10 @@ class DrumsBody:
             signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
         standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
-        tips = _at_arms_length(drummed.sticks.tip[:, ::-1])
+        tips = _at_arms_length(drummed.sticks.tip[:, ::-1], self._nearest)
         directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
-        poles = rotate(standing.world[:, self._chest, None], self._poles)
+        raised = np.minimum(np.maximum(tips[..., 1:2] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
+        poles = rotate(standing.world[:, self._chest, None], self._poles + raised * self._outward)
         sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
         kit = self._kit.rotations(drummed)
         feet, feet_rotations = self._feet.solve(kit, drummed.feet.heel[:, ::-1])
@@ -178,11 +190,22 @@ class DrumsBody:
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
 
 
-def _at_arms_length(tips: FloatArray) -> FloatArray:
-    """Tips that go round the body on their way; no piece is as near to it, ``(F, 2, 3)``."""
+def _nearest_m(hits: Sequence[DrumHit], places: KitPlaces) -> FloatArray:
+    """How near to their shoulders tips may come, from above: as near as what they strike, metres, ``(2,)``."""
+    nearest = np.full(2, NEAREST_M)
+    for piece, zone, limb in {(hit.piece, hit.zone, hit.limb) for hit in hits}:
+        if limb.endswith("hand"):
+            side = 0 if limb == "left_hand" else 1
+            away = places[piece, zone].position[[0, 2]] - SHOULDER_PLACES[side]
+            nearest[side] = min(nearest[side], float(np.hypot(*away)) - LANDING_M)
+    return nearest
+
+
+def _at_arms_length(tips: FloatArray, nearest_m: FloatArray) -> FloatArray:
+    """Tips that go round the body on their way to what they strike, ``(F, 2, 3)``."""
     away = tips[..., [0, 2]] - SHOULDER_PLACES
     distance = np.sqrt(np.einsum("...i,...i->...", away, away))
-    near = np.maximum(NEAREST_M - distance, 0.0)
+    near = np.maximum(nearest_m - distance, 0.0)
     if not near.any():
         return tips
     share = near * near / ((near + YIELDING_M) * np.maximum(distance, 1e-6))

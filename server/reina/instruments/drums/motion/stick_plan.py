@@ -70,6 +70,8 @@ REST_S: Final = 2.6
 
 GO_REST_S: Final = 0.9
 LEAVE_AFTER_S: Final = 0.45
+OVER_M: Final = 0.34
+"""On its way to rest a stick goes at least so high over what it leaves: the other may lie there already."""
 
 REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
 """How much of a stroke's height the stick gets back by itself; a loose head gives less."""
@@ -229,7 +231,8 @@ class _PlanMaker:
         leave_s = self._free_s + LEAVE_AFTER_S
         self.heights += [
             (self._free_s, self._free_s + RISE_S, _rebound(before), RISE),
-            (leave_s, leave_s + GO_REST_S, 0.0, GLIDE),
+            (leave_s, leave_s + 0.3, max(OVER_M, _rebound(before)), GLIDE),
+            (leave_s + 0.65, leave_s + 1.1, 0.0, GLIDE),
         ]
         self.moves.append((leave_s, leave_s + GO_REST_S))
         self.stations.append(self._rest)
