@@ -191,7 +191,7 @@ class DrumsBody:
 
 
 def _nearest_m(hits: Sequence[DrumHit], places: KitPlaces) -> FloatArray:
-    """How near to their shoulders tips may come, from above: as near as what they strike, metres, ``(2,)``."""
+    """How near to their shoulders tips may come, from above: as near as what they strike, m, ``(2,)``."""
     nearest = np.full(2, NEAREST_M)
     for piece, zone, limb in {(hit.piece, hit.zone, hit.limb) for hit in hits}:
         if limb.endswith("hand"):

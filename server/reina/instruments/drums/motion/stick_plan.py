@@ -70,7 +70,7 @@ REST_S: Final = 2.6
 
 GO_REST_S: Final = 0.9
 LEAVE_AFTER_S: Final = 0.45
-OVER_M: Final = 0.34
+OVER_M: Final = 0.16
 """On its way to rest a stick goes at least so high over what it leaves: the other may lie there already."""
 
 REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
