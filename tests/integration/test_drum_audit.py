@@ -61,7 +61,7 @@ EXAMPLES = ("when-the-saints.mid",)
 SCORES_FOLDER = Path(__file__).parents[2] / "examples" / "scores"
 
 TOUCH_M = 0.002
-INSIDE_M, GRAZED_M = 0.003, 0.005
+INSIDE_M, GRAZED_M = 0.003, 0.006
 """In the scores of `GRAZING` a stick goes by the other, or by the splash to the cowbell, a little nearer."""
 GRAZING = ("the whole kit at once", "a long rest")
 PEDAL_M = 0.002
