@@ -204,11 +204,13 @@ def test_of_what_nobody_plays_it_is_told_why(client: httpx.Client) -> None:
     assert [(one["part"], one["part_name"]) for one in cast["unplayed"]] == [
         (1, "Trumpet (muted)"),
         (2, "Flute"),
-        (3, "Drums"),
     ]
     reasons = [one["reason"] for one in cast["unplayed"]]
     assert "plays only where “Trumpet” rests" in reasons[0]
-    assert reasons[1:] == ["no player for flute yet; it is heard", "no player for drums yet; it is heard"]
+    assert reasons[1:] == ["no player for flute yet; it is heard"]
+    assert cast["castings"][1]["cast_because"] == ["a part for drums"]
+    alone = made.change("PUT", "/cast", json={"castings": [{"part": 0}]}).raise_for_status().json()
+    assert alone["unplayed"][2]["reason"] == "drums; nobody was cast for them; it is heard"
     made.change("DELETE")
 
 

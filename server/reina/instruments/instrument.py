@@ -92,6 +92,11 @@ class Instrument(ABC):
         return "treble"
 
     @property
+    def plays_drums(self) -> bool:
+        """Whether it plays parts whose keys are drums and no pitches."""
+        return False
+
+    @property
     def valve_count(self) -> int:
         """How many valves it has; an instrument of another kind has none."""
         return 0

@@ -52,6 +52,7 @@ class Drums(Instrument):
 
     name, title, rig = "drums", "drum kit", "drumkit"
     seat = "drums"
+    plays_drums = True
     parameters = PARAMETERS
 
     @property
