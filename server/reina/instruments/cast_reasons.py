@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from reina.instruments.casting import MAX_PLAYERS, Cast, Casting
-from reina.instruments.drums.drum_kit import DRUMS, struck_notes
 from reina.instruments.instrument import Instrument
 from reina.instruments.part_names import KINDS
 from reina.instruments.part_roles import FAMILY, Kind, PartNotes, family_part, role_of
@@ -101,8 +100,9 @@ def _of_casting(
 def _why_not(
     notes_of: PartNotes, part: Part, played: list[int], instruments: Mapping[str, Instrument], *, full: bool
 ) -> str:
-    if part.is_drums and DRUMS.name in instruments:
-        return _why_not_drums(notes_of.score, part, played, full=full)
+    drums = [instrument for instrument in instruments.values() if instrument.plays_drums]
+    if part.is_drums and drums:
+        return _why_not_drums(notes_of.score, part, played, drums[0], full=full)
     found = family_part(part)
     if found is None:
         return f"no player for {_kind(part)} yet"
@@ -114,8 +114,8 @@ def _why_not(
     return f"{found.reason}, {role.reason}; nobody was cast for it"
 
 
-def _why_not_drums(score: Score, part: Part, played: list[int], *, full: bool) -> str:
-    if not struck_notes(score, part.index):
+def _why_not_drums(score: Score, part: Part, played: list[int], drums: Instrument, *, full: bool) -> str:
+    if not drums.can_play_of(score, part.index):
         return "the drum kit has none of its sounds"
     if any(score.parts[other].is_drums for other in played):
         return "other drums are played"

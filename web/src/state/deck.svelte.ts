@@ -166,7 +166,7 @@ export class Deck {
   step(view: SessionView, direction: 1 | -1): void {
     const note = view.step(direction);
     // A drum's key is no pitch.
-    if (note !== null && note.valves !== null && this.reina.practice.tones) view.soundNote(note.sounding_pitch);
+    if (note?.valves && this.reina.practice.tones) view.soundNote(note.sounding_pitch);
   }
 
   /** Whether a note's fingering is not to be seen now. */

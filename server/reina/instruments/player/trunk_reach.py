@@ -76,7 +76,7 @@ def reach_out(
         lacking = 0.5 * (beyond + np.sqrt(beyond * beyond + SOFTNESS_M * SOFTNESS_M))
         jacobian = _jacobian(along, shoulders - pivot)
         square = jacobian @ jacobian.swapaxes(-1, -2) + DAMPING_M**2 * np.eye(2)
-        step = np.linalg.solve(square, lacking[..., None])
+        step: FloatArray = np.linalg.solve(square, lacking[..., None])
         turned = turned + np.matmul(jacobian.swapaxes(-1, -2), step)[..., 0]
     return np.minimum(np.maximum(turned, LIMITS[0]), LIMITS[1])
 

@@ -36,8 +36,8 @@ def assemble(
 ) -> Assembled:
     """Put stretches together.
 
-    Drums are not listened for. Where they play alone before the first tone or after the last, they are taken to
-    be heard in the tempo beside them, if the recording has the time for it.
+    Drums are not listened for. Where they play alone before the first tone or after the last, they are taken
+    to be heard in the tempo beside them, if the recording has the time for it.
 
     Args:
         stretches: At least one, in order.
@@ -105,7 +105,7 @@ def _gap(before: HeardStretch, after: HeardStretch) -> Gap:
 
 
 def _alone_s(stretch: HeardStretch, at: int, score_s: float) -> float:
-    """How long the recording takes from a stretch's first (0) or last (-1) beat out to a place of the score."""
+    """How long the recording takes from a stretch's first (0) or last (-1) beat out to a place outside it."""
     away_s = max(0.0, (score_s - float(stretch.knots_s[-1])) if at else float(stretch.knots_s[0]) - score_s)
     if away_s <= LONG_WAY_S:
         return _slope(stretch, at) * away_s
