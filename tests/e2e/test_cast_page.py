@@ -133,7 +133,8 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     cast.get_by_text("Nobody on the stage plays Organ, Basses").wait_for()
 
     own = page.get_by_role("group", name="Soloist, player 2")
-    own.get_by_role("combobox", name="Instrument").select_option("flugelhorn")
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
+        own.get_by_role("combobox", name="Instrument").select_option("flugelhorn")
     watcher.until("window.reina.rigs.includes('flugelhorn')")
     with page.expect_response(lambda answer: answer.request.method == "PUT"):
         own.get_by_role("combobox", name="Place").select_option("far left")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
+SAINTS = Path(__file__).parents[2] / "examples" / "scores" / "when-the-saints.mid"
 BAR_S = 2.0
 SCALE = ("scale.mid", "audio/midi", scale(40))
 """Eighths at 120, in bars of two seconds."""
@@ -106,6 +108,28 @@ def test_note_by_note_the_valves_are_held(visit: Visit, client: httpx.Client) ->
         held = panel.get_by_role("status")
         expect(held).to_contain_text(note["written_name"])
         expect(held).to_contain_text("-".join(map(str, note["valves"])) or "open")
+
+
+def test_a_drummer_has_strokes_note_by_note_and_a_part_of_their_own(visit: Visit) -> None:
+    opened = visit(size=(1000, 640)).open_files(("saints.mid", "audio/midi", SAINTS.read_bytes()))
+    page = opened.page
+    page.keyboard.press("t")
+    paper = page.get_by_role("region", name="The part on paper")
+    paper.get_by_text("B♭ trumpet").wait_for()
+    expect(paper.get_by_role("tab", name="Fingering chart")).to_be_visible()
+    page.get_by_role("button", name="These are player 1").click()
+    paper.get_by_text("drum kit").wait_for()
+    paper.get_by_text("Drums").wait_for()
+    expect(paper.get_by_role("tab", name="Fingering chart")).to_have_count(0)
+    page.keyboard.press("t")
+    panel = practice(opened, "Note by note")
+    held = panel.get_by_role("status")
+    expect(held).to_contain_text("snare")
+    expect(held).not_to_contain_text("×")
+    expect(held.get_by_role("img")).not_to_have_count(0)
+    expect(panel.get_by_role("checkbox", name="Let each note be heard")).to_have_count(0)
+    expect(panel.get_by_role("button", name="Fingering chart")).to_have_count(0)
+    assert opened.errors == []
 
 
 def answer(opened: Opened, valves: list[int]) -> None:

@@ -88,6 +88,20 @@ def test_each_player_plays_exactly_wherever_they_stand(pair: Owned) -> None:
                 assert excess(joint, turned) <= 3e-5, joint["name"]
 
 
+def test_who_chose_no_seat_gives_way_to_who_did(client: httpx.Client) -> None:
+    made = upload(client, relay(), **SONG)
+    drums: dict[str, Any] = {"part": 3, "instrument": "drums"}
+    for castings, seats in (
+        ([{"part": 0}, drums], ["middle", "drums"]),
+        ([{"part": 0}, {**drums, "seat": "middle"}], ["right", "middle"]),
+        ([{"part": 0, "seat": "drums"}, drums], ["drums", "middle"]),
+        ([{"part": 0, "seat": "left"}, {"part": 2}], ["left", "middle"]),
+    ):
+        cast = made.change("PUT", "/cast", json={"castings": castings}).raise_for_status().json()
+        assert [one["seat"] for one in cast["castings"]] == seats
+    made.change("DELETE")
+
+
 def test_a_second_player_changes_nothing_for_the_first_but_the_seat(client: httpx.Client) -> None:
     castings = [{"part": 1, "seat": "middle"}, {"part": 0, "seat": "left", "transposition": -12}]
     rest: dict[str, Any] = {"show": ("show.json", b'{"version": 1, "tracks": []}')}
@@ -204,11 +218,13 @@ def test_of_what_nobody_plays_it_is_told_why(client: httpx.Client) -> None:
     assert [(one["part"], one["part_name"]) for one in cast["unplayed"]] == [
         (1, "Trumpet (muted)"),
         (2, "Flute"),
-        (3, "Drums"),
     ]
     reasons = [one["reason"] for one in cast["unplayed"]]
     assert "plays only where “Trumpet” rests" in reasons[0]
-    assert reasons[1:] == ["no player for flute yet; it is heard", "no player for drums yet; it is heard"]
+    assert reasons[1:] == ["no player for flute yet; it is heard"]
+    assert cast["castings"][1]["cast_because"] == ["a part for drums"]
+    alone = made.change("PUT", "/cast", json={"castings": [{"part": 0}]}).raise_for_status().json()
+    assert alone["unplayed"][2]["reason"] == "drums; nobody was cast for them; it is heard"
     made.change("DELETE")
 
 

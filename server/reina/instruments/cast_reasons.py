@@ -78,7 +78,9 @@ def _of_casting(
     found = family_part(parts[casting.part])
     reasons: list[str] = []
     if found is None:
-        reasons.append(f"a part for {_kind(parts[casting.part])}, played on the {casting.instrument}")
+        kind = _kind(parts[casting.part])
+        played_on = "" if kind == casting.instrument else f", played on the {casting.instrument}"
+        reasons.append(f"a part for {kind}{played_on}")
     elif found.instrument == casting.instrument:
         reasons.append(f"{found.reason}: a part for the {found.instrument}")
     else:
@@ -98,6 +100,9 @@ def _of_casting(
 def _why_not(
     notes_of: PartNotes, part: Part, played: list[int], instruments: Mapping[str, Instrument], *, full: bool
 ) -> str:
+    drums = [instrument for instrument in instruments.values() if instrument.plays_drums]
+    if part.is_drums and drums:
+        return _why_not_drums(notes_of.score, part, played, drums[0], full=full)
     found = family_part(part)
     if found is None:
         return f"no player for {_kind(part)} yet"
@@ -107,6 +112,14 @@ def _why_not(
     if full:
         return f"{MAX_PLAYERS} play at once at most"
     return f"{found.reason}, {role.reason}; nobody was cast for it"
+
+
+def _why_not_drums(score: Score, part: Part, played: list[int], drums: Instrument, *, full: bool) -> str:
+    if not drums.can_play_of(score, part.index):
+        return "the drum kit has none of its sounds"
+    if any(score.parts[other].is_drums for other in played):
+        return "other drums are played"
+    return f"{MAX_PLAYERS} play at once at most" if full else "drums; nobody was cast for them"
 
 
 def _kind(part: Part) -> str:

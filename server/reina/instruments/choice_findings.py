@@ -35,7 +35,7 @@ def choice_findings(
     )
     lead = castings[0]
     spoken = spoken_name(lead.instrument)
-    if all(part.is_drums for part in score.parts):
+    if not instruments[lead.instrument].plays_drums and all(part.is_drums for part in score.parts):
         return (told_finding("drums_alone", 1, {"instrument": spoken}, player=0, details=details),)
     if len(castings) == 1:
         played = " and ".join(map(_name, _parts(score, [lead])))
@@ -66,8 +66,8 @@ def _is_for(part: Part, instrument: Instrument) -> bool:
     if instrument.name in FAMILY:
         found = family_part(part)
         return found is not None and found.instrument == instrument.name
-    if part.is_drums:
-        return False
+    if part.is_drums or instrument.plays_drums:
+        return part.is_drums and instrument.plays_drums
     kinds = kinds_of_name(part.name) if part.named else frozenset[str]()
     return instrument.name in kinds or (not kinds and part.program == instrument.program)
 

@@ -37,6 +37,8 @@ class Instrument(ABC):
     """What of it moves in every frame; the paths begin with its name."""
     handedness: tuple[str, ...] = ("right",)
     """With which hand leading it can be played: of `HANDEDNESS`."""
+    plays_drums: bool = False
+    """Whether it plays parts whose keys are drums and no pitches."""
     seat: str | None = None
     """Where it stands by itself, whoever else plays; None where it stands with the others."""
     show_parameters: tuple[Parameter, ...] = ()
@@ -52,6 +54,11 @@ class Instrument(ABC):
     def can_play(self, sounding_pitch: int) -> bool:
         """Return whether it has a note, a MIDI number as it sounds; it has every one by default."""
         return 0 <= sounding_pitch <= MAX_PITCH
+
+    def can_play_of(self, score: Score, part: int) -> bool:
+        """Return whether it has any of a part's notes."""
+        pitches: set[int] = set(score.notes.sounding_pitch[score.note_indices(part)].tolist())
+        return any(map(self.can_play, pitches))
 
     @abstractmethod
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:

@@ -26,17 +26,26 @@ def seats_of(stage: Stage, cast: Cast) -> tuple[Seat, ...]:
     # Who comes second to an instrument's own seat stands with the others.
     own = [None if seat in own[:number] else seat for number, seat in enumerate(own)]
     together = iter(SEATS_FOR.get(own.count(None), ()))
+    chosen = [casting.seat for casting in cast.castings if casting.seat is not None]
     seats: list[Seat] = []
     for number, casting in enumerate(cast.castings):
         place = f"castings/{number}/seat" if len(cast.castings) > 1 else "seat"
         usual = own[number] or next(together)
-        name = casting.seat or usual
+        name = casting.seat or _free_seat(usual, chosen, seats)
         if name not in SEATS:
             raise CastError(f"there is no seat {name!r}; there are {', '.join(SEATS)}", location=place)
         if SEATS[name] in seats:
             raise CastError(f"the seat {name!r} is taken already", location=place)
         seats.append(SEATS[name])
     return tuple(seats)
+
+
+def _free_seat(usual: str, chosen: list[str], seats: list[Seat]) -> str:
+    """Where somebody stands who has not chosen: the usual seat, or another if somebody else has it."""
+    taken = {*chosen, *(seat.name for seat in seats)}
+    if usual not in taken:
+        return usual
+    return next((name for names in SEATS_FOR.values() for name in names if name not in taken), usual)
 
 
 def _own_seat(stage: Stage, casting: Casting) -> str | None:

@@ -54,6 +54,15 @@ def test_drums_alone_are_said_and_no_octave_is_offered():
     assert found["not_playable"].text == "Leaves out 2 notes below the trumpet's range"
 
 
+def test_a_drummer_has_a_part_of_her_own():
+    alone = score_of(melody([36, 38]), names=["Kit"], programs=[None], drums=0)
+    assert told(alone, Casting(part=0, instrument="drums")) == ["She plays Kit"]
+    both = score_of(melody([60]), melody([36, 38]), names=["Trumpet", "Kit"], programs=[56, None], drums=1)
+    assert told(both, Casting(part=1, instrument="drums")) == ["She plays Kit, a part for drums"]
+    score = score_of(melody([60]), names=["Trumpet"], programs=[56])
+    assert told(score, Casting(part=0, instrument="drums")) == ["No drums in this file: she plays Trumpet"]
+
+
 def test_chords_are_counted_and_not_their_notes():
     triads = [(at * 1.0, at + 0.9, pitch) for at in range(3) for pitch in (60, 64, 67)]
     found = playing(score_of(triads, names=["Piano"], programs=[0]))

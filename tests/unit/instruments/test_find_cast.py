@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -11,6 +12,7 @@ from reina.instruments import (
     INSTRUMENTS,
     MAX_PLAYERS,
     Cast,
+    Casting,
     casting_reasons,
     find_cast,
     unplayed_parts,
@@ -155,3 +157,26 @@ def test_a_found_cast_says_that_it_was_found_and_of_which_sequence(sequence: int
     assert cast.found_anew().is_to_be_found
     # Of another sequence with a wish for the first player that one plays alone.
     assert len(cast.changed(sequence=5, transposition=2).castings) == 1
+
+
+@pytest.mark.parametrize(
+    ("key", "played", "why"),
+    [
+        (38, Casting(part=0), "drums; nobody was cast for them; it is heard"),
+        (82, Casting(part=0), "the drum kit has none of its sounds; it is heard"),
+        (38, Casting(part=2, instrument="drums"), "other drums are played; it is heard"),
+    ],
+)
+def test_why_nobody_plays_drums_is_said_as_it_is(key: int, played: Casting, why: str) -> None:
+    score = score_of(
+        HIGH, [(0.0, 0.1, key)], [(0.0, 0.1, 36)], names=["Trumpet", "Drums A", "Drums B"], drums=1
+    )
+    score = replace(score, parts=(*score.parts[:2], replace(score.parts[2], is_drums=True)))
+    told = {one.part: one.reason for one in unplayed_parts(score, Cast((played,)), INSTRUMENTS)}
+    assert told[1] == why
+
+
+def test_a_drummer_plays_a_part_for_drums() -> None:
+    score = score_of(HIGH, [(0.0, 0.1, 38)], names=["Trumpet", "Drums"], drums=1)
+    drummer = Cast((Casting(part=1, instrument="drums"),))
+    assert casting_reasons(score, drummer, INSTRUMENTS) == (("a part for drums",),)

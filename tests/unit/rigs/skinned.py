@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted((ROOT / "examples/scores").iterdir())
 PLAYERS = tuple(sorted(path.parents[1].name for path in (ROOT / "rigs").glob("*/holds/trumpet.json")))
-HORNS = tuple(name for name, instrument in INSTRUMENTS.items() if instrument.rig)
+HORNS = tuple(name for name, instrument in INSTRUMENTS.items() if instrument.rig and instrument.valve_count)
 HOLDS = tuple((player, horn) for player in PLAYERS for horn in HORNS)
 """Every player with every instrument."""
 

@@ -23,6 +23,12 @@ describe("bars of a loop", () => {
     expect(spanOfBars(score, { from: 4, to: 4 }, 7)).toEqual({ start: 6.5, end: 7 });
   });
 
+  it("are the nearest that are heard where a recording leaves them out", () => {
+    const cut = { ...score, bar_lines_s: [3, 3, 3, 5, 7, 7], tempi: [{ onset_beats: 0, onset_s: 3, bpm: 6e9 }] };
+    expect(spanOfBars(cut, { from: 1, to: 1 }, 7)).toEqual({ start: 3, end: 5 });
+    expect(spanOfBars(cut, { from: 4, to: 5 }, 7)).toEqual({ start: 5, end: 7 });
+  });
+
   it("are those that a span lies in, and the same again of their own span", () => {
     expect(barsAround(score, { start: 1, end: 3 })).toEqual({ from: 1, to: 2 });
     expect(barsAround(score, { start: 3, end: 3.1 })).toEqual({ from: 2, to: 2 });

@@ -13,6 +13,9 @@ export interface Bars {
 /** Nearer than this to a bar line, a time is on it, seconds. */
 const ON_LINE_S = 0.02;
 
+/** Shorter loops the server refuses, seconds. */
+const SHORTEST_S = 0.1;
+
 /** All the bars that there are. */
 export function allBars(score: ScoreGrid): Bars {
   const from = firstBarNumber(score);
@@ -20,7 +23,8 @@ export function allBars(score: ScoreGrid): Bars {
 }
 
 /**
- * The song time of bars, from the first one's bar line to the one behind the last.
+ * The song time of bars, from the first one's bar line to the one behind the last; where a recording leaves all of
+ * them out, that of the nearest bar that is heard.
  *
  * @param duration where the song ends, seconds.
  */
@@ -28,7 +32,10 @@ export function spanOfBars(score: ScoreGrid, { from, to }: Bars, duration: numbe
   const lines = score.bar_lines_s;
   const first = from - firstBarNumber(score);
   const last = to - firstBarNumber(score);
-  return { start: lines[first] ?? 0, end: Math.min(lines[last + 1] ?? endOfLastBar(score), duration) };
+  const start = lines[first] ?? 0;
+  const ends = [...lines.slice(last + 1), endOfLastBar(score)].map((line) => Math.min(line, duration));
+  const end = ends.find((line) => line - start >= SHORTEST_S) ?? duration;
+  return { start: lines.findLast((line) => line <= start && end - line >= SHORTEST_S) ?? 0, end };
 }
 
 /** The bars that a span of song time, seconds, lies in: whole ones, and at least one. */

@@ -20,7 +20,7 @@ export async function monoWav(song: AudioBuffer): Promise<Blob> {
 export function wavOf(samples: Float32Array, rate: number): Blob {
   const bytes = new DataView(new ArrayBuffer(HEADER_BYTES + 2 * samples.length));
   const text = (at: number, letters: string): void => {
-    for (const [index, letter] of [...letters].entries()) bytes.setUint8(at + index, letter.charCodeAt(0));
+    for (const [index, letter] of Array.from(letters).entries()) bytes.setUint8(at + index, letter.charCodeAt(0));
   };
   text(0, "RIFF");
   bytes.setUint32(4, bytes.byteLength - 8, true);

@@ -165,7 +165,8 @@ export class Deck {
   /** Stop at the followed player's next note (1) or the one before (-1), and let it be heard where that is wanted. */
   step(view: SessionView, direction: 1 | -1): void {
     const note = view.step(direction);
-    if (note !== null && this.reina.practice.tones) view.soundNote(note.sounding_pitch);
+    // A drum's key is no pitch.
+    if (note?.valves && this.reina.practice.tones) view.soundNote(note.sounding_pitch);
   }
 
   /** Whether a note's fingering is not to be seen now. */

@@ -49,6 +49,24 @@ describe("score time", () => {
     expect(barBeatAt(later, 0)).toEqual({ bar: -1, beat: 3 });
   });
 
+  it("counts back from the first bar that is heard where a recording leaves out the beginning", () => {
+    const cut = {
+      tempi: [
+        { onset_beats: 0, onset_s: 4, bpm: 6e9 },
+        { onset_beats: 3, onset_s: 4, bpm: 6e9 },
+        { onset_beats: 6, onset_s: 4, bpm: 60 },
+      ],
+      metres: [{ onset_beats: 0, onset_s: 4, numerator: 3, denominator: 4 }],
+      bar_lines_s: [4, 4, 4, 7],
+    };
+    expect(barBeatAt(cut, 4)).toEqual({ bar: 3, beat: 1 });
+    expect(barBeatAt(cut, 3.5)).toEqual({ bar: 2, beat: 3 });
+    expect(barBeatAt(cut, 0)).toEqual({ bar: 1, beat: 3 });
+    const pickup = { ...cut, tempi: [...cut.tempi.slice(0, 2), { onset_beats: 4, onset_s: 4, bpm: 60 }] };
+    expect(firstBarNumber(cut)).toBe(1);
+    expect(firstBarNumber(pickup)).toBe(0);
+  });
+
   it("goes from bar line to bar line", () => {
     expect(neighbouringBarLine(score, 1, 1, 12)).toBe(4);
     expect(neighbouringBarLine(score, 10.5, 1, 12)).toBe(12);

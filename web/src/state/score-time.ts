@@ -36,6 +36,12 @@ export function barIndexAt(barLines: readonly number[], songTime: number): numbe
 export function firstBarNumber(score: ScoreGrid): number {
   const [first, second] = score.bar_lines_s;
   if (first === undefined || second === undefined) return 1;
+  const leftOut = barIndexAt(score.bar_lines_s, first);
+  if (leftOut > 0) {
+    // The first bars take no time, which cannot tell how long they are.
+    const heard = beatsAt(score.tempi, first);
+    return beatsOfBars(score.metres, leftOut) > heard + 1e-6 ? 0 : 1;
+  }
   const length = beatsAt(score.tempi, second) - beatsAt(score.tempi, first);
   return length < barLength(metreAt(score.metres, second)) - 1e-6 ? 0 : 1;
 }
@@ -45,7 +51,8 @@ export function firstBarNumber(score: ScoreGrid): number {
  * own note values (eighths in 6/8).
  */
 export function barBeatAt(score: ScoreGrid, songTime: number): BarBeat {
-  const index = barIndexAt(score.bar_lines_s, songTime);
+  // Before the music it is the bar that is heard first: one that a recording leaves out takes no time.
+  const index = barIndexAt(score.bar_lines_s, Math.max(songTime, score.bar_lines_s[0] ?? 0));
   const barBegin = score.bar_lines_s[index] ?? 0;
   const quarters = beatsAt(score.tempi, songTime) - beatsAt(score.tempi, barBegin);
   const { numerator, denominator } = metreAt(score.metres, songTime);
@@ -83,6 +90,18 @@ export function barLength(metre: Metre): number {
   return (metre.numerator * 4) / metre.denominator;
 }
 
+/** How long a score's first bars are, quarter notes, if none of them is a pickup. */
+function beatsOfBars(metres: readonly Metre[], bars: number): number {
+  let beats = 0;
+  for (let bar = 0; bar < bars; bar += 1) {
+    const metre = metres.findLast(({ onset_beats }) => onset_beats <= beats + 1e-6) ?? metreAt([], 0);
+    beats += barLength(metre);
+  }
+  return beats;
+}
+
 function lastBegun<T extends { onset_s: number }>(entries: readonly T[], songTime: number): T | undefined {
-  return entries.findLast((entry) => entry.onset_s <= songTime + 1e-6) ?? entries[0];
+  // Before all of them it is the one that lasts: those that a recording leaves out begin and end with it.
+  const first = entries[0]?.onset_s ?? 0;
+  return entries.findLast((entry) => entry.onset_s <= Math.max(songTime, first) + 1e-6);
 }

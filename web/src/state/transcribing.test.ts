@@ -10,7 +10,7 @@ function server(states: readonly object[]): { api: ReinaApi; asked: string[] } {
   const asked: string[] = [];
   const waiting = [...states];
   const api = new ReinaApi("/api/v1", (address, init) => {
-    const path = String(address);
+    const path = address instanceof Request ? address.url : address.toString();
     asked.push(`${init?.method ?? "GET"} ${path}`);
     if (init?.method === "DELETE") return Promise.resolve(new Response(null, { status: 204 }));
     if (path.endsWith("score.mid")) return Promise.resolve(new Response("midi"));

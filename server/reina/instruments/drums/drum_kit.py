@@ -52,12 +52,17 @@ class Drums(Instrument):
 
     name, title, rig = "drums", "drum kit", "drumkit"
     seat = "drums"
+    plays_drums = True
     parameters = PARAMETERS
 
     @property
     def skeletons(self) -> Mapping[str, str]:
         """The kit and both sticks."""
         return {KIT: self.rig, **{stick: stick for stick in STICKS}}
+
+    def can_play_of(self, score: Score, part: int) -> bool:
+        """Return whether any of a part's notes is struck on the kit."""
+        return struck_notes(score, part) > 0
 
     def rank_parts(self, score: Score) -> tuple[PartRanking, ...]:
         """Rank the parts of a score: drums first, and of them the one with the most notes for the kit."""

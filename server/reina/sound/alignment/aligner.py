@@ -331,11 +331,13 @@ def _follow_finely(recording: Floats, notes: ScoreNotes, steady: _Followed, dura
 def _put_together(
     heard: list[HeardStretch], notes: ScoreNotes, duration_s: float, song_duration_s: float
 ) -> Alignment:
+    tones_s = notes.onset_s[~notes.is_drum]
     assembled = assemble(
         heard,
         first_onset_s=float(notes.onset_s[0]),
         last_onset_s=float(notes.onset_s[-1]),
         end_s=duration_s,
         song_duration_s=song_duration_s,
+        tones_s=(float(tones_s[0]), float(tones_s[-1])) if notes.is_drum.any() and len(tones_s) else None,
     )
     return Alignment(assembled.points, duration_s, song_duration_s, assembled.gaps)

@@ -13,6 +13,9 @@ from reina.sound.alignment.segments import SMALLEST_GAP_S
 CONFIDENCE_REACH_S = 2.5
 """How sure a place is, is the mean of the chords within so long on either side."""
 
+LONG_WAY_S = 2.0
+"""Over more than that a stretch goes on in the tempo of as long beside it."""
+
 
 @dataclass(frozen=True)
 class Assembled:
@@ -29,8 +32,12 @@ def assemble(
     last_onset_s: float,
     end_s: float,
     song_duration_s: float,
+    tones_s: tuple[float, float] | None = None,
 ) -> Assembled:
     """Put stretches together.
+
+    Drums are not listened for. Where they play alone before the first tone or after the last, they are taken
+    to be heard in the tempo beside them, if the recording has the time for it.
 
     Args:
         stretches: At least one, in order.
@@ -38,7 +45,14 @@ def assemble(
         last_onset_s: Where its last one begins.
         end_s: Where it ends.
         song_duration_s: Length of the recording.
+        tones_s: Where the first and the last note begin that are no drums; None if they are the score's.
     """
+    head, tail = stretches[0], stretches[-1]
+    if tones_s is not None and head.line_s[0] >= _alone_s(head, 0, first_onset_s) - SMALLEST_GAP_S:
+        first_onset_s = tones_s[0]
+    left_s = song_duration_s - float(tail.line_s[-1])
+    if tones_s is not None and left_s >= _alone_s(tail, -1, last_onset_s) - SMALLEST_GAP_S:
+        last_onset_s = tones_s[1]
     edges = _edges(stretches, first_onset_s, last_onset_s)
     trimmed = [
         stretch.trimmed(at_start=edges[index], at_end=edges[index + 1])
@@ -55,13 +69,12 @@ def assemble(
         gaps.insert(0, Gap(0.0, float(head.knots_s[0]), float(head.line_s[0]), float(head.line_s[0])))
         before = (0.0, float(head.line_s[0]))
     else:
-        before = (0.0, float(head.line_s[0]) - _slope(head, 0) * float(head.knots_s[0]))
+        before = (0.0, float(head.line_s[0]) - _alone_s(head, 0, 0.0))
     if edges[-1]:
         gaps.append(Gap(float(tail.knots_s[-1]), end_s, float(tail.line_s[-1]), float(tail.line_s[-1])))
         after = (end_s, float(tail.line_s[-1]))
     else:
-        left_s = max(0.0, end_s - float(tail.knots_s[-1]))
-        after = (max(end_s, float(tail.knots_s[-1])), float(tail.line_s[-1]) + _slope(tail, -1) * left_s)
+        after = (max(end_s, float(tail.knots_s[-1])), float(tail.line_s[-1]) + _alone_s(tail, -1, end_s))
     score_s = np.concatenate(([before[0]], score_s, [after[0]]))
     song_s = np.concatenate(([before[1]], song_s, [after[1]]))
     confidence = np.concatenate(([confidence[0]], confidence, [confidence[-1]]))
@@ -89,6 +102,17 @@ def _gap(before: HeardStretch, after: HeardStretch) -> Gap:
     score_from, score_to = float(before.knots_s[-1]), float(after.knots_s[0])
     song_from, song_to = float(before.line_s[-1]), float(after.line_s[0])
     return Gap(score_from, max(score_from, score_to), song_from, max(song_from, song_to))
+
+
+def _alone_s(stretch: HeardStretch, at: int, score_s: float) -> float:
+    """How long the recording takes from a stretch's first (0) or last (-1) beat out to a place outside it."""
+    away_s = max(0.0, (score_s - float(stretch.knots_s[-1])) if at else float(stretch.knots_s[0]) - score_s)
+    if away_s <= LONG_WAY_S:
+        return _slope(stretch, at) * away_s
+    # One beat says too little of a tempo that goes on for so long.
+    near = np.abs(stretch.knots_s - stretch.knots_s[at]) <= away_s
+    score, song = stretch.knots_s[near], stretch.line_s[near]
+    return float((song[-1] - song[0]) / max(score[-1] - score[0], 1e-9)) * away_s
 
 
 def _slope(stretch: HeardStretch, at: int) -> float:

@@ -14,6 +14,7 @@ from reina.sound.alignment import Alignment, align
 
 MEDIAN_MS, P95_MS = 10.0, 40.0
 ODE, TAPS, VENICE, MARCH = "ode-to-joy", "taps", "carnival-of-venice", "prince-of-denmarks-march"
+SAINTS = "when-the-saints"
 
 EXACT = Rendition(ODE)
 SMOOTH = Rendition(VENICE, (1.15, 0.12), lead_in_s=3.1, tail_s=4, noise_db=-25, seed=3)
@@ -182,3 +183,14 @@ def test_a_score_of_drums_alone_is_no_reason_to_fail():
     score = a_score([(0, 0.5 * at, 0.1, 38, 0.9) for at in range(20)], (a_part(0, is_drums=True),))
     recording = record(replace(MOVED))
     assert not align(recording.samples, RATE, score).is_same_music
+
+
+def test_drums_alone_before_the_first_tone_are_heard_where_there_is_time_for_them():
+    played = Rendition(SAINTS, (1.25, 0.08), lead_in_s=2.0, noise_db=-40)
+    _, alignment, result = aligned(played)
+    assert alignment.gaps == ()
+    assert alignment.begins_s == pytest.approx(2.0, abs=0.3)
+    assert result.median_ms <= MEDIAN_MS
+    _, alignment, _ = aligned(replace(played, lead_in_s=0.0, cut=(0.1, 6.0)))
+    assert [gap.score_from_s for gap in alignment.gaps] == [0.0]
+    assert alignment.gaps[0].score_to_s == pytest.approx(5.0, abs=0.4)
