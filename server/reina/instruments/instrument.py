@@ -37,6 +37,8 @@ class Instrument(ABC):
     """What of it moves in every frame; the paths begin with its name."""
     handedness: tuple[str, ...] = ("right",)
     """With which hand leading it can be played: of `HANDEDNESS`."""
+    pieces: tuple[str, ...] = ()
+    """What of it can be struck, by name, as the drums of a kit; empty where it is not struck."""
     seat: str | None = None
     """Where it stands by itself, whoever else plays; None where it stands with the others."""
     show_parameters: tuple[Parameter, ...] = ()

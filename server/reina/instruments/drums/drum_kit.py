@@ -11,6 +11,7 @@ from reina.instruments.drums.body import KIT, STICKS, DrumsBody
 from reina.instruments.drums.drum_map import drum_map, kit_of
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
+from reina.instruments.drums.hit import PIECES
 from reina.instruments.drums.motion.kit_pose import PARAMETERS
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
@@ -53,6 +54,7 @@ class Drums(Instrument):
     name, title, rig = "drums", "drum kit", "drumkit"
     seat = "drums"
     parameters = PARAMETERS
+    pieces = PIECES
 
     @property
     def skeletons(self) -> Mapping[str, str]:
