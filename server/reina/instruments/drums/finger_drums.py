@@ -116,7 +116,9 @@ def finger_drums(
         reasons = [_mirror_words(reason) for reason in reasons]
         chokes = tuple(choke.mirrored() for choke in chokes)
 
-    mimed = [(hit, limb) for hit, limb in enumerate(limbs) if limb is not None and one_with[hit] < 0]
+    mimed: list[tuple[int, Limb]] = [
+        (hit, limb) for hit, limb in enumerate(limbs) if limb is not None and one_with[hit] < 0
+    ]
     hits = tuple(
         DrumHit(
             onset_s=float(onset_s[hit]),
