@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from tests.integration.server import Owned
 
 SONG: dict[str, Any] = {"song": ("s.wav", song())}
-MARCH = Path(__file__).parents[2] / "examples" / "scores" / "prince-of-denmarks-march.mid"
+SCORES = Path(__file__).parents[2] / "examples" / "scores"
+MARCH = SCORES / "prince-of-denmarks-march.mid"
+SAINTS = SCORES / "when-the-saints.mid"
 
 
 def in_key(key: str, pitches: list[int]) -> bytes:
@@ -108,6 +110,47 @@ def test_each_player_has_a_part(client: httpx.Client) -> None:
     answer = client.get(f"{session.path}/part", params={"player": 2})
     assert (answer.status_code, answer.json()["type"]) == (404, "urn:reina:problem:unknown-player")
     assert "0 to 1, not 2" in answer.json()["detail"]
+
+
+def test_a_drummers_part_holds_every_hit_once(client: httpx.Client) -> None:
+    session = upload(client, SAINTS.read_bytes(), SAINTS.name, **SONG)
+    part, score = part_of(session, player=1), score_of(session)
+    assert (part["instrument"], part["clef"], part["written_above_sounding"]) == ("drums", "percussion", 0)
+    of_score = {note["index"]: note for note in score["notes"]}
+    assert len(part["notes"]) > 200
+    for own in part["notes"]:
+        note = of_score[own["index"]]
+        struck = note["fingering"]
+        limb = f"{struck['hand']}_hand" if struck["hand"] else f"{struck['foot']}_foot"
+        assert (own["piece"], own["limb"], own["onset_s"]) == (struck["piece"], limb, note["onset_s"])
+        assert own["reason"] == note["reason"] != ""
+    # The file's drums have no two sounds of one stroke: every note that is struck is one hit.
+    struck = [note["index"] for note in score["notes"] if (note["fingering"] or {}).get("type") == "strike"]
+    assert sorted(note["index"] for note in part["notes"]) == sorted(struck)
+    assert (part_of(session, player=0)["clef"], part_of(session)["instrument"]) == ("treble", "trumpet")
+    heads = [
+        head["note"]
+        for measure in part["measures"]
+        for entry in measure["entries"]
+        for head in (*entry["heads"], *(grace["head"] for grace in entry["graces"]))
+        if not entry["tied_from"]
+    ]
+    assert sorted(heads) == list(range(len(part["notes"]))), "each hit is one head"
+
+
+def test_two_sounds_of_one_stroke_are_one_head(client: httpx.Client) -> None:
+    track = mido.MidiTrack()
+    for _ in range(8):
+        for pitch, velocity in ((40, 60), (38, 100)):
+            track.append(mido.Message("note_on", channel=9, note=pitch, velocity=velocity, time=0))
+        track.append(mido.Message("note_off", channel=9, note=38, time=480))
+        track.append(mido.Message("note_off", channel=9, note=40, time=0))
+    buffer = io.BytesIO()
+    mido.MidiFile(tracks=[track]).save(file=buffer)
+    session = upload(client, buffer.getvalue(), **SONG)
+    part, score = part_of(session), score_of(session)
+    loud = [note["index"] for note in score["notes"] if note["velocity"] > 0.6]
+    assert (len(score["notes"]), [note["index"] for note in part["notes"]]) == (16, loud)
 
 
 def test_usual_fingerings_alone_are_chosen_and_kept(tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ from reina.instruments.note_names import NoteNames, spell_line
 from reina.instruments.parameters import cast_parameters, player_parameters, streamed_parameters
 from reina.instruments.performer import GESTURES, Performer, PerformerFrames
 from reina.instruments.pitch_names import pitch_name
-from reina.instruments.played import Fingering, Line, PlayedPart
+from reina.instruments.played import Fingering, Line, PlayedPart, Strokes
 from reina.instruments.ranking import PartRanking, Suitability, rank_parts
 from reina.instruments.registry import INSTRUMENTS
 from reina.instruments.tune import TunePassage, who_has_tune
@@ -57,6 +57,7 @@ __all__ = [
     "PlayedPart",
     "SlideFingering",
     "StrikeFingering",
+    "Strokes",
     "Suitability",
     "TunePassage",
     "UnplayedPart",

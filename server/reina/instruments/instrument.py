@@ -39,6 +39,8 @@ class Instrument(ABC):
     """With which hand leading it can be played: of `HANDEDNESS`."""
     plays_drums: bool = False
     """Whether it plays parts whose keys are drums and no pitches."""
+    pieces: tuple[str, ...] = ()
+    """What of it can be struck, by name, as the drums of a kit; empty where it is not struck."""
     seat: str | None = None
     """Where it stands by itself, whoever else plays; None where it stands with the others."""
     show_parameters: tuple[Parameter, ...] = ()

@@ -1,5 +1,6 @@
 """What an instrument makes of a part: the line that is played, and how it is fingered."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from reina.instruments.note_fingerings import NoteFingering
 from reina.music.arrays import BoolArray, FloatArray, IntArray
 from reina.music.warnings import ScoreWarning
+from reina.notation.drums import Struck
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +61,19 @@ class Fingering:
 
 
 @dataclass(frozen=True, eq=False)
+class Strokes:
+    """What of a line is struck.
+
+    Attributes:
+        hits: N strokes by their onset: one for several notes that are one stroke.
+        notes: (N,) of each stroke its note's place in the line.
+    """
+
+    hits: Sequence[Struck]
+    notes: Sequence[int]
+
+
+@dataclass(frozen=True, eq=False)
 class PlayedPart:
     """A part as an instrument plays it.
 
@@ -83,3 +98,8 @@ class PlayedPart:
     def parts(self) -> tuple[int, ...]:
         """Indices of all parts that are played, `part` first."""
         return (self.part, *self.joined_parts)
+
+    @property
+    def strokes(self) -> Strokes | None:
+        """What is struck; None of an instrument that is not written as drums are."""
+        return None

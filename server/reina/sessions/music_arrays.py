@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.instruments import ValvesFingering, who_has_tune
-from reina.show import TimeMap, Triggers
+from reina.instruments import StrikeFingering, ValvesFingering, who_has_tune
+from reina.show import LIMBS, TimeMap, Triggers
 from reina.stage import MusicForm
 
 if TYPE_CHECKING:
@@ -36,19 +36,23 @@ def time_map(score: Score) -> TimeMap:
 def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
     """All notes of a score as events that tracks may answer, those of the players' lines as they sound.
 
-    Notes that nobody plays on valves are not taken for open ones.
+    Notes that nobody plays on valves are not taken for open ones; those that a drummer does not strike have
+    neither piece nor limb.
     """
     notes = score.notes
     part = notes.part.astype(np.int64)
     joined_to = part.copy()
     pitch = notes.sounding_pitch.astype(np.int64)
     pressed: dict[int, tuple[int, ...]] = {}
+    struck: dict[int, StrikeFingering] = {}
     for one in played:
         line, fingering = one.line, one.fingering
         pitch[line.note_index] = line.sounding_pitch
         for note, played_so in zip(line.note_index.tolist(), fingering.notes, strict=True):
             if isinstance(played_so, ValvesFingering):
                 pressed[note] = played_so.valves
+            elif isinstance(played_so, StrikeFingering):
+                struck[note] = played_so
         joined_to[np.isin(part, one.joined_parts)] = one.part
     columns = max(map(max, filter(None, pressed.values())), default=0)
     valves = np.zeros((len(notes), columns), dtype=np.bool_)
@@ -56,6 +60,11 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
         valves[note, [valve - 1 for valve in down]] = True
     fingered = np.zeros(len(notes), dtype=np.bool_)
     fingered[list(pressed)] = True
+    pieces = tuple(sorted({stroke.piece for stroke in struck.values()}))
+    piece, limb = (np.full(len(notes), -1, dtype=np.int64) for _ in range(2))
+    for note, stroke in struck.items():
+        piece[note] = pieces.index(stroke.piece)
+        limb[note] = LIMBS.index(f"{stroke.hand}_hand" if stroke.hand else f"{stroke.foot}_foot")
     return Triggers(
         onset_s=notes.onset_s,
         part=part,
@@ -63,6 +72,9 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
         velocity=notes.velocity,
         valves=valves,
         fingered=fingered,
+        pieces=pieces,
+        piece=piece,
+        limb=limb,
         end_s=score.duration_s,
         joined_to=joined_to,
     )

@@ -84,9 +84,19 @@ def _beyond(unit: TimeUnit, time_map: TimeMap, duration_s: float) -> str:
 
 def _never_answers(production: Production) -> Iterator[ScoreWarning]:
     plan = production.show_plan
+    kit = tuple(
+        dict.fromkeys(piece for performer in production.performers for piece in performer.instrument.pieces)
+    )
     for track in production.show.tracks:
         if not isinstance(track, Track) or track.events is None:
             continue
+        pieces = track.events.where.pieces or ()
+        unknown = [piece for piece in pieces if piece not in kit]
+        if kit and unknown:
+            message = f"it answers strokes on {', '.join(unknown)}; the kit has {', '.join(kit)}"
+            yield ScoreWarning("show-unknown-piece", track.parameter, message)
+            if len(unknown) == len(pieces):
+                continue
         times, _ = track.events.events(plan.triggers, plan.time_map, track.time)
         if times.size:
             continue

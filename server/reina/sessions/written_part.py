@@ -24,6 +24,7 @@ from reina.notation import (
 from reina.protocol import written_part as wire
 from reina.protocol.resources import MusicKey
 from reina.sessions.part_measures import SAME_BEAT, TICKS_PER_QUARTER, joined, tempi
+from reina.sessions.written_drums import written_drum_part
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -70,6 +71,19 @@ def written_part(production: Production, title: str, player: int) -> wire.Writte
     performer = production.performers[player]
     played, instrument, score = performer.played, performer.instrument, production.score
     line, fingering = played.line, played.fingering
+    strokes = played.strokes
+    if strokes is not None:
+        return written_drum_part(
+            score,
+            strokes.hits,
+            note_index=line.note_index[list(strokes.notes)].tolist(),
+            reasons=[fingering.reasons[note] for note in strokes.notes],
+            title=title,
+            part_name=score.parts[played.part].name,
+            player=player,
+            instrument=instrument.name,
+            instrument_title=instrument.title,
+        )
     above = instrument.written_pitch(0)
     keys = keys_of(score)
     sounding = _reading(score, line, keys, played.transposition, 0)

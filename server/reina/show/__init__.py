@@ -10,11 +10,12 @@ from reina.show.show_plan import ShowPlan
 from reina.show.show_writer import keyframe_document, track_document
 from reina.show.time_map import TimeMap, TimeUnit
 from reina.show.track import Track, UnknownTrack
-from reina.show.triggers import Triggers
+from reina.show.triggers import LIMBS, Triggers
 from reina.show.unknown_choices import unknown_choices
 
 __all__ = [
     "EDITS",
+    "LIMBS",
     "EventResponse",
     "KeyNotFoundError",
     "Marker",

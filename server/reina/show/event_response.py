@@ -1,5 +1,6 @@
 """How a track answers events: a swell at each of them, or another value from each of them on."""
 
+import re
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -17,14 +18,32 @@ from reina.curves.arrays import BoolArray, FloatArray
 from reina.curves.value_types import LARGEST, Pair
 from reina.show.model import Count, Index, ShowModel
 from reina.show.time_map import TimeMap, TimeUnit
-from reina.show.triggers import Occasion, Triggers
+from reina.show.triggers import LIMBS, Limb, Occasion, Triggers
 
 Blend = Literal["replace", "add", "multiply", "max"]
+PIECE_NAME = "^[a-z][a-z0-9_]{0,39}$"
+SOME = Field(json_schema_extra={"minItems": 1})
 Length = Annotated[float, Field(ge=0.0, le=LARGEST)]
 
 
 def _in_order(valves: tuple[int, ...]) -> tuple[int, ...]:
     return tuple(sorted(valves))
+
+
+def _name(piece: str) -> str:
+    if re.fullmatch(PIECE_NAME, piece) is None:
+        raise ValueError("a piece's name is of small letters, digits and _, 40 at most, as snare or tom_high")
+    return piece
+
+
+PieceName = Annotated[str, AfterValidator(_name), Field(json_schema_extra={"pattern": PIECE_NAME})]
+
+
+def _some(names: tuple[str, ...]) -> tuple[str, ...]:
+    """A length that the type asks for would be missed, too, where a name is at fault."""
+    if not names:
+        raise ValueError("a list of one value at least is needed here; leave it out to let all through")
+    return names
 
 
 class NoteFilter(ShowModel):
@@ -38,6 +57,10 @@ class NoteFilter(ShowModel):
     """Least and greatest velocity, 0..1."""
     valves: Annotated[tuple[Count, ...], Strict(strict=False), AfterValidator(_in_order)] | None = None
     """Numbers of valves, from 1; those notes count that press exactly these, none for open notes."""
+    pieces: Annotated[tuple[PieceName, ...], Strict(strict=False), AfterValidator(_some), SOME] | None = None
+    """Pieces of a drum kit, as ``snare``; those notes count that strike one of these."""
+    limbs: Annotated[tuple[Limb, ...], Strict(strict=False), AfterValidator(_some), SOME] | None = None
+    """A drummer's hands and feet; those notes count that are struck with one of these."""
 
     def passes(self, triggers: Triggers) -> BoolArray:
         """Which of the notes count, ``(N,)``."""
@@ -53,6 +76,11 @@ class NoteFilter(ShowModel):
             wanted = np.array([valve in self.valves for valve in range(1, count + 1)], dtype=np.bool_)
             passed &= triggers.fingered & np.all(triggers.valves == wanted, axis=1)
             passed &= max(self.valves, default=0) <= count
+        if self.pieces is not None:
+            wanted = [index for index, piece in enumerate(triggers.pieces) if piece in self.pieces]
+            passed &= np.isin(triggers.piece, wanted)
+        if self.limbs is not None:
+            passed &= np.isin(triggers.limb, [LIMBS.index(limb) for limb in self.limbs])
         return passed
 
 

@@ -11,6 +11,8 @@ from reina.show.time_map import TimeMap
 
 Occasion = Literal["notes", "beats", "bars"]
 OCCASIONS: tuple[Occasion, ...] = get_args(Occasion)
+Limb = Literal["left_hand", "right_hand", "left_foot", "right_foot"]
+LIMBS: tuple[Limb, ...] = get_args(Limb)
 
 
 def _no_floats() -> FloatArray:
@@ -32,6 +34,9 @@ class Triggers:
         velocity: ``(N,)`` 0..1.
         valves: ``(N, V)`` which valves are down; V is 0 where nobody knows.
         fingered: ``(N,)`` which notes are played on valves at all; by default all.
+        pieces: The pieces that are struck, by name.
+        piece: ``(N,)`` index of what each note strikes among `pieces`, -1 where none is; by default so.
+        limb: ``(N,)`` index of what strikes it among `LIMBS`, or -1.
         end_s: Where beats and bars end.
         joined_to: ``(N,)`` index of the part that each note's part is joined to; its own part otherwise.
     """
@@ -42,6 +47,9 @@ class Triggers:
     velocity: FloatArray = field(default_factory=_no_floats)
     valves: BoolArray = field(default_factory=lambda: np.zeros((0, 0), dtype=np.bool_))
     fingered: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    pieces: tuple[str, ...] = ()
+    piece: IntArray = field(default_factory=_no_integers)
+    limb: IntArray = field(default_factory=_no_integers)
     end_s: float = 0.0
     joined_to: IntArray = field(default_factory=_no_integers)
 
@@ -53,7 +61,12 @@ class Triggers:
             object.__setattr__(self, "fingered", np.ones(self.onset_s.size, dtype=np.bool_))
         if self.joined_to.size == 0:
             object.__setattr__(self, "joined_to", self.part)
-        others = {self.valves.shape[0], self.fingered.shape[0], self.joined_to.shape[0]}
+        for name in ("piece", "limb"):
+            if getattr(self, name).size == 0:
+                object.__setattr__(self, name, np.full(self.onset_s.size, -1, dtype=np.int64))
+        others = {
+            column.shape[0] for column in (self.valves, self.fingered, self.joined_to, self.piece, self.limb)
+        }
         if counts | others != {self.onset_s.size}:
             raise ValueError("the columns of triggers are of one length, one entry a note")
         if np.any(np.diff(self.onset_s) < 0.0):

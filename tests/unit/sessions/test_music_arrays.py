@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from tests.integration.scores import duet, relay, scale
 
@@ -10,6 +12,8 @@ from reina.music import Score, read_score
 from reina.sessions.music_arrays import music_form, time_map, triggers
 from reina.show import EventResponse, NoteFilter
 from reina.stage import MusicForm
+
+SAINTS = Path(__file__).parents[3] / "examples" / "scores" / "when-the-saints.mid"
 
 
 def played(
@@ -55,6 +59,26 @@ def test_open_notes_are_those_that_are_fingered_open() -> None:
     for valves in ((1,), (1, 2), (1, 3)):
         expected = [line.line.onset_s[n] for n, pressed in enumerate(fingered) if pressed == list(valves)]
         assert onsets(score, line, NoteFilter(valves=valves)) == expected
+
+
+def test_strokes_are_told_apart_by_piece_and_limb() -> None:
+    score = read_score(SAINTS.read_bytes())
+    (part,) = (part.index for part in score.parts if part.is_drums)
+    line = INSTRUMENTS["drums"].play(score, part)
+    strokes = line.strokes
+    assert strokes is not None
+    for where, kept in (
+        (NoteFilter(pieces=("snare",)), {hit.onset_s for hit in strokes.hits if hit.piece == "snare"}),
+        (NoteFilter(limbs=("left_foot",)), {hit.onset_s for hit in strokes.hits if hit.limb == "left_foot"}),
+        (
+            NoteFilter(pieces=("snare",), limbs=("right_hand",)),
+            {hit.onset_s for hit in strokes.hits if (hit.piece, hit.limb) == ("snare", "right_hand")},
+        ),
+    ):
+        assert len(kept) > 10
+        assert onsets(score, line, where) == sorted(kept)
+    assert onsets(score, line, NoteFilter(limbs=("left_hand",), pieces=("kick",))) == []
+    assert onsets(score, line, NoteFilter(valves=())) == [], "a stroke is no open note"
 
 
 def test_notes_of_joined_parts_are_the_players_and_stay_their_own_parts() -> None:

@@ -18,6 +18,9 @@ TRIGGERS = Triggers(
     pitch=np.array([60, 62, 48, 64, 72]),
     velocity=np.array([1.0, 0.5, 0.8, 0.25, 1.0]),
     valves=np.array([[0, 0, 0], [1, 0, 1], [0, 0, 0], [1, 1, 0], [0, 0, 0]], dtype=np.bool_),
+    pieces=("kick", "snare"),
+    piece=np.array([1, -1, 0, 1, 1]),
+    limb=np.array([1, -1, 3, 0, 1]),
     end_s=4.0,
 )
 
@@ -62,6 +65,11 @@ def test_a_swell_rises_stays_and_fades() -> None:
         ({"valves": [3, 1]}, [0.5]),
         ({"valves": [1]}, []),
         ({"valves": [4]}, []),
+        ({"pieces": ["snare"]}, [0.0, 1.0, 2.0]),
+        ({"pieces": ["snare", "kick"], "limbs": ["left_hand", "right_foot"]}, [0.5, 1.0]),
+        ({"pieces": ["gong"]}, []),
+        ({"limbs": ["right_hand"]}, [0.0, 2.0]),
+        ({"limbs": ["left_foot"]}, []),
         ({"part": 0, "pitch": [61, 127], "velocity": [0.0, 0.6]}, [0.5, 1.0]),
     ],
 )
@@ -205,7 +213,8 @@ def test_swells_that_hang_over_every_note_take_little_memory() -> None:
 def test_what_a_track_does_at_events_comes_back_from_json() -> None:
     events = {
         "on": "notes",
-        "where": {"part": 0, "pitch": [60.0, 72.0], "velocity": [0.5, 1.0], "valves": [1, 2]},
+        "where": {"part": 0, "pitch": [60.0, 72.0], "velocity": [0.5, 1.0], "valves": [1, 2]}
+        | {"pieces": ["snare", "kick"], "limbs": ["right_hand"]},
         "every": 2,
         "attack": 0.01,
         "hold": 0.1,
@@ -245,6 +254,10 @@ SWELL: dict[str, Any] = {"on": "notes", "amount": 1, "hold": 1}
             "2 are needed",
         ),
         (SWELL | {"where": {"valves": 1}}, "events/where/valves", "list"),
+        (SWELL | {"where": {"pieces": "snare"}}, "events/where/pieces", "list"),
+        (SWELL | {"where": {"pieces": []}}, "events/where/pieces", "one value"),
+        (SWELL | {"where": {"pieces": ["The Snare"]}}, "events/where/pieces", "as snare or tom_high"),
+        (SWELL | {"where": {"limbs": ["hand"]}}, "events/where/limbs", "left_hand, right_hand"),
         (
             {"on": "notes", "amount": 1, "hold": 1, "where": {"colour": 1}},
             "events/where/colour",

@@ -213,6 +213,10 @@ export interface NoteFilter {
   readonly velocity?: readonly number[]
   /** Numbers of valves, from 1; those notes count that press exactly these, none for open notes. */
   readonly valves?: readonly number[]
+  /** Pieces of a drum kit, as snare; those notes count that strike one of these. */
+  readonly pieces?: readonly string[]
+  /** A drummer's hands and feet; those notes count that are struck with one of these. */
+  readonly limbs?: readonly ("left_hand" | "right_hand" | "left_foot" | "right_foot")[]
 }
 
 /** Fields of a show to change; null takes one back to its default. */

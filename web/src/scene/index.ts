@@ -4,6 +4,7 @@ export { LayoutError, type DrawnFrame } from "./frame";
 export type { Insets } from "./framing";
 export { insetSide, type InsetPlace } from "./inset";
 export { measureTier } from "./measure-tier";
+export { KIT_VIEWS } from "./kit-views";
 export { playedScore, UNTOLD, type ScoreNote, type ScoreView, type Strike } from "./score";
 export { Stage, type StageOptions } from "./stage";
 export type { Tier } from "./tiers";

@@ -3,10 +3,13 @@
 import { type Object3D, type Ray, Vector3 } from "three";
 
 import type { RigModel } from "../rig";
+import type { KitPlace } from "./kit-views";
 
 /** How near to a player's middle a ray has to pass, metres: an arm's breadth. */
 const REACH = 0.3;
 const BELL_NODE = "socket_bell";
+/** A drum kit's root. */
+const KIT_JOINT = "kit";
 
 /** The bell's mouth: a node, and the point in its frame. */
 interface Bell {
@@ -19,6 +22,7 @@ interface StandingPlayer {
   readonly head: Object3D | null;
   readonly feet: readonly Object3D[];
   readonly bell: Bell | null;
+  readonly kit: Object3D | null;
 }
 
 /** Where a player stands and which way, metres and radians about +Y from facing the audience. */
@@ -44,6 +48,7 @@ export class Players {
         head: findJoint(own, "head"),
         feet: ["leftFoot", "rightFoot"].flatMap((joint) => findJoint(own, joint) ?? []),
         bell: findBell(own),
+        kit: findJoint(own, KIT_JOINT),
       });
     }
   }
@@ -67,6 +72,15 @@ export class Players {
       ahead.setFromMatrixColumn(hips.matrixWorld, 2);
       return { x: low.x, z: low.z, facing: Math.atan2(ahead.x, ahead.z) };
     });
+  }
+
+  /** Where a player's drum kit stands; null of who has none. */
+  kit(player: number): KitPlace | null {
+    const kit = this.#players[player]?.kit ?? null;
+    if (kit === null) return null;
+    const { x, y, z } = low.setFromMatrixPosition(kit.matrixWorld);
+    ahead.setFromMatrixColumn(kit.matrixWorld, 2);
+    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z) };
   }
 
   /** The player whom a ray meets first, a place in the cast; null for none. */

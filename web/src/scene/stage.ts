@@ -16,6 +16,7 @@ import {
   VALVES,
 } from "./camera-presets";
 import { castView, playerView, viewAt } from "./cast-views";
+import { drummerView, kitView } from "./kit-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
 import { type InsetPlace, ValvesInset } from "./inset";
@@ -331,11 +332,17 @@ export class Stage {
   }
 
   /**
-   * Take the camera to a preset's view; returns false where there is none of that name.
+   * Take the camera to a preset's view, or one of a drummer's kit; returns false where there is none of that name.
    *
    * @param player of several, the one who is looked at: a place in the cast.
    */
   viewPreset(name: string, player = 0): boolean {
+    const kit = this.#players.kit(player);
+    const ofKit = kit === null ? null : kitView(name, kit);
+    if (ofKit !== null) {
+      this.#camera.view(ofKit);
+      return true;
+    }
     const preset = findPreset(name);
     if (preset === null) return false;
     this.#camera.view(this.#presetOf(preset, player));
@@ -355,8 +362,10 @@ export class Stage {
 
   /** Take the camera to one player, a place in the cast; where so many do not play it stays. */
   viewPlayer(player: number): void {
+    const kit = this.#players.kit(player);
     const stand = this.#players.stands()[player];
-    if (stand !== undefined) this.#camera.view(playerView(stand));
+    if (kit !== null) this.#camera.view(drummerView(kit));
+    else if (stand !== undefined) this.#camera.view(playerView(stand));
   }
 
   /**

@@ -206,7 +206,12 @@ export class Deck {
   /** @param index of a view, in the order in which they are offered. */
   viewPreset(index: number): void {
     const preset = CAMERA_PRESETS[index];
-    if (preset !== undefined) this.hands.viewPreset?.(preset.name, this.reina.view?.cast.followed ?? 0);
+    if (preset !== undefined) this.viewNamed(preset.name);
+  }
+
+  /** @param name of a view of the followed player, or of what the player sits at. */
+  viewNamed(name: string): void {
+    this.hands.viewPreset?.(name, this.reina.view?.cast.followed ?? 0);
   }
 
   showValvesInset(shown: boolean): void {

@@ -11,6 +11,7 @@ from reina.instruments.drums.body import KIT, STICKS, DrumsBody
 from reina.instruments.drums.drum_map import drum_map, kit_of
 from reina.instruments.drums.drum_part import DrumPart, Handedness
 from reina.instruments.drums.finger_drums import finger_drums
+from reina.instruments.drums.hit import PIECES
 from reina.instruments.drums.motion.kit_pose import PARAMETERS
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
@@ -54,6 +55,7 @@ class Drums(Instrument):
     seat = "drums"
     plays_drums = True
     parameters = PARAMETERS
+    pieces = PIECES
 
     @property
     def skeletons(self) -> Mapping[str, str]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from reina.instruments.drums.hit import DrumHit, Hand
-from reina.instruments.played import Fingering, PlayedPart
+from reina.instruments.played import Fingering, PlayedPart, Strokes
 
 Handedness = Literal["left", "right"]
 
@@ -34,11 +34,13 @@ class DrumFingering(Fingering):
 
     Attributes:
         hits: What is mimed, by time: each note that is playable, but one for several that are one stroke.
+        hit_notes: Of each hit its note's place among the M.
         chokes: Cymbals that are gripped.
         handedness: Which hand leads.
     """
 
     hits: tuple[DrumHit, ...]
+    hit_notes: tuple[int, ...]
     chokes: tuple[Choke, ...]
     handedness: Handedness
 
@@ -48,6 +50,11 @@ class DrumPart(PlayedPart):
     """A part as a drummer plays it."""
 
     fingering: DrumFingering
+
+    @property
+    def strokes(self) -> Strokes:
+        """What is mimed."""
+        return Strokes(self.fingering.hits, self.fingering.hit_notes)
 
 
 def drum_fingering(played: PlayedPart) -> DrumFingering:

@@ -116,6 +116,9 @@ def finger_drums(
         reasons = [_mirror_words(reason) for reason in reasons]
         chokes = tuple(choke.mirrored() for choke in chokes)
 
+    mimed: list[tuple[int, Limb]] = [
+        (hit, limb) for hit, limb in enumerate(limbs) if limb is not None and one_with[hit] < 0
+    ]
     hits = tuple(
         DrumHit(
             onset_s=float(onset_s[hit]),
@@ -126,8 +129,7 @@ def finger_drums(
             velocity=float(velocity[hit]),
             technique=technique[hit],
         )
-        for hit, limb in enumerate(limbs)
-        if limb is not None and one_with[hit] < 0
+        for hit, limb in mimed
     )
     _tell(score, indices, strikes, limbs, reasons, log)
     fingerings = tuple(
@@ -139,6 +141,7 @@ def finger_drums(
         playable=read_only(np.array([limb is not None for limb in limbs], dtype=np.bool_)),
         reasons=tuple(reasons),
         hits=hits,
+        hit_notes=tuple(hit for hit, _ in mimed),
         chokes=chokes,
         handedness=handedness,
     )

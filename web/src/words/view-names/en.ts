@@ -8,4 +8,8 @@ export const viewNames = words("view-names", {
   face: "Face",
   player: "Player's view",
   hall: "Hall",
+  kit_behind: "Behind the drummer",
+  kit_overhead: "Overhead",
+  kit_hi_hat: "Hi-hat",
+  kit_feet: "Feet",
 });
