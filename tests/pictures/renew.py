@@ -1,6 +1,6 @@
 """Draw the pictures of docs/images anew, or those that are named.
 
-`.venv/bin/python -m tests.pictures.renew [page] [sheet] [players] [kit] [editor]`.
+`.venv/bin/python -m tests.pictures.renew [page] [sheet] [players] [kit] [band] [editor]`.
 
 Needs what `make test` sets up: the development packages, the built page and a Chromium.
 """
@@ -90,6 +90,10 @@ KIT_VIEWS: tuple[View, ...] = (
     ([1.2, 1.6, 1.6], [-0.1, 0.8, -1.6], 0.6, {"light": "concert"}),
     ([-1.4, 1.5, 1.5], [-0.1, 0.8, -1.6], 0.6, {"style": "toon"}),
 )
+BAND = "when-the-saints"
+BAND_SIZE = (1280, 720)
+BAND_MOMENT_S = 46.2
+"""In the last chorus, where the show has both in one picture."""
 EDITED = "prince-of-denmarks-march"
 EDITOR_SIZE = (1440, 900)
 EDITOR_MOMENT_S = 30.0
@@ -183,6 +187,21 @@ def draw_kit(browser: Browser, server: Running) -> None:
         gallery.page.close()
 
 
+def draw_band(browser: Browser, server: Running) -> None:
+    """Trumpeter and drummer, as their example's own show has them."""
+    with httpx.Client(base_url=server.address, timeout=60.0) as client, vite(server.address) as address:
+        session = upload(
+            client,
+            (ROOT / f"examples/scores/{BAND}.mid").read_bytes(),
+            f"{BAND}.mid",
+            show=("show.json", (ROOT / f"examples/shows/{BAND}.json").read_bytes()),
+        )
+        gallery = GalleryPage(browser, address, session.id, size=BAND_SIZE, tier="full")
+        png = gallery.picture({"time": BAND_MOMENT_S, "camera": "the show's"})
+        Image.open(io.BytesIO(png)).convert("RGB").save(IMAGES / "band.webp", quality=86, method=6)
+        gallery.page.close()
+
+
 def draw_editor(browser: Browser, server: Running) -> None:
     """The show's editor over its own example, some of the camera's keyframes chosen."""
     with httpx.Client(base_url=server.address, timeout=60.0) as client:
@@ -214,6 +233,7 @@ PICTURES = {
     "sheet": draw_sheet,
     "players": draw_players,
     "kit": draw_kit,
+    "band": draw_band,
     "editor": draw_editor,
 }
 

@@ -248,7 +248,10 @@ def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat])
         return write_default_show(music_form(score, played[0]), title=score.title)
     tune = tune_of(score, played)
     cast = CastForm(
-        places=tuple(Place(seat.x_m, seat.z_m, seat.facing_rad) for seat in seats),
+        places=tuple(
+            Place(seat.x_m, seat.z_m, seat.facing_rad, seat.y_m, at_drums=seat.name == "drums")
+            for seat in seats
+        ),
         tune=tuple((passage.start_s, passage.player) for passage in tune),
     )
     return write_default_show(tune_form(score, played, tune), title=score.title, cast=cast)

@@ -11,23 +11,29 @@ from reina.stage.music_form import MusicForm, Passage
 
 @dataclass(frozen=True)
 class Place:
-    """Where somebody stands.
+    """Where somebody stands, or sits at the drums.
 
     Attributes:
         x_m: Metres from the middle, +x being the players' left.
         z_m: Toward the audience.
         facing_rad: How far they are turned to their left from facing the audience.
+        y_m: How high above the floor.
+        at_drums: Whether it is the place of the drums.
     """
 
     x_m: float
     z_m: float
     facing_rad: float
+    y_m: float = 0.0
+    at_drums: bool = False
 
     def put(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 3)`` of somebody in the middle who faces the audience, metres, as they are here."""
         sine, cosine = np.sin(self.facing_rad), np.cos(self.facing_rad)
         x, y, z = points[..., 0], points[..., 1], points[..., 2]
-        return np.stack([x * cosine + z * sine + self.x_m, y, z * cosine - x * sine + self.z_m], axis=-1)
+        return np.stack(
+            [x * cosine + z * sine + self.x_m, y + self.y_m, z * cosine - x * sine + self.z_m], axis=-1
+        )
 
 
 @dataclass(frozen=True)

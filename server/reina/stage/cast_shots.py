@@ -7,10 +7,14 @@ import numpy as np
 
 from reina.curves.arrays import FloatArray
 from reina.stage.cast_form import Place
+from reina.stage.drum_shots import DRUM_SHOTS, INSTEAD
 from reina.stage.shots import SHOTS, Point, Pose, Shot
 
 BODY: FloatArray = np.array([[x, y, z] for x in (-0.42, 0.42) for y in (0.35, 1.85) for z in (-0.25, 0.8)])
 """Corners of what a player and the instrument fill, from the knees up, metres."""
+
+KIT: FloatArray = np.array([[x, y, z] for x in (-1.0, 0.9) for y in (0.1, 1.45) for z in (-0.2, 1.3)])
+"""The same of a drummer on the stool and the kit."""
 
 FOV = 0.5
 """Vertical angle of view of the pictures of everybody, radians."""
@@ -31,21 +35,34 @@ AROUND = MappingProxyType(
 )
 """Where the camera stands around everybody: to the side, positive at the players' left, and up, radians."""
 
+OVER_CYMBALS = 0.2
+"""How much higher than `AROUND` for a drummer alone, so that the face is above the cymbals, radians."""
+
 HANDS = ("valves", "crane")
 """What shows the fingers: by the side where nobody stands, and from above where somebody does."""
 
 
 def cast_shot(name: str, lead: int, places: Sequence[Place]) -> Shot:
-    """A shot of `shot_choice.TOGETHER`.
+    """A shot of `shot_choice.TOGETHER` or `WITH_DRUMS`.
 
     Args:
         name: Its name.
         lead: The player who has the tune.
-        places: Where each player stands.
+        places: Where each player stands; one of them at the drums, if the shot is one of `DRUM_SHOTS`.
     """
     if name in AROUND:
-        return Shot(name, _everybody(*AROUND[name], places, FURTHER), _everybody(*AROUND[name], places, 1.0))
+        side_rad, up_rad = AROUND[name]
+        up_rad += OVER_CYMBALS if all(place.at_drums for place in places) else 0.0
+        start, end = (_everybody(side_rad, up_rad, places, further) for further in (FURTHER, 1.0))
+        return Shot(name, start, end)
+    if name in DRUM_SHOTS:
+        lead = next(player for player, place in enumerate(places) if place.at_drums)
     place = places[lead]
+    if place.at_drums:
+        shot = DRUM_SHOTS[INSTEAD.get(name, name)]
+        return Shot(
+            f"{shot.name} of player {lead + 1}", *(_placed(p, place, 1.0) for p in (shot.start, shot.end))
+        )
     if name == "hands":
         name = HANDS[any(abs(other.x_m) > abs(place.x_m) for other in places if other is not place)]
     shot = SHOTS[name]
@@ -63,7 +80,7 @@ def _placed(pose: Pose, place: Place, side: float) -> Pose:
 
 def _everybody(side_rad: float, up_rad: float, places: Sequence[Place], further: float) -> Pose:
     """As near as everybody is in the picture."""
-    corners = np.concatenate([place.put(BODY) for place in places])
+    corners = np.concatenate([place.put(KIT if place.at_drums else BODY) for place in places])
     middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
     back = np.array([np.sin(side_rad) * np.cos(up_rad), np.sin(up_rad), np.cos(side_rad) * np.cos(up_rad)])
     right = np.array([np.cos(side_rad), 0.0, -np.sin(side_rad)])

@@ -17,7 +17,7 @@ from reina.stage.cast_form import CastForm, leads_of
 from reina.stage.cast_lights import SideSpot, side_spots
 from reina.stage.cast_shots import cast_shot
 from reina.stage.music_form import MusicForm, Passage, passages
-from reina.stage.shot_choice import ALONE, TOGETHER, Piece, choose_shots
+from reina.stage.shot_choice import ALONE, TOGETHER, WITH_DRUMS, Piece, choose_shots
 from reina.stage.shots import SHOTS, Pose, Shot
 
 REST_BEFORE_CUT = 0.02
@@ -125,7 +125,8 @@ def write_default_show(form: MusicForm, *, title: str = "", cast: CastForm | Non
         shots = [SHOTS[name] for name, _ in chosen]
         spots: list[Track] = []
     else:
-        chosen = choose_shots(found, piece, TOGETHER)
+        at_drums = {place.at_drums for place in cast.places}
+        chosen = choose_shots(found, piece, WITH_DRUMS if len(at_drums) > 1 else TOGETHER)
         leads = leads_of(form, found, cast)
         shots = [cast_shot(name, lead, cast.places) for (name, _), lead in zip(chosen, leads, strict=True)]
         spots = _spots(found, side_spots(leads, cast.places))

@@ -1,7 +1,7 @@
 """Which shot a passage gets: what suits its music, else what was not just seen."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from reina.stage.music_form import Passage
 
@@ -111,6 +111,27 @@ TOGETHER = Direction(
     ),
 )
 """A cast: everybody, or the player who has the tune; names that `cast_shots.cast_shot` knows."""
+
+WITH_DRUMS = replace(
+    TOGETHER,
+    choices=(
+        Choice(("hi-hat side", "kit from above", "everybody"), "Rest", _rests),
+        Choice(("hands", "hi-hat side", "bell"), "Fast", _is_fast),
+        *TOGETHER.choices[2:],
+    ),
+    in_turn=(
+        "figure",
+        "everybody from the left",
+        "portrait",
+        "hi-hat side",
+        "everybody",
+        "bell",
+        "kit from above",
+        "everybody from above",
+        "ride side",
+    ),
+)
+"""Others before a drummer, who has the rests and some of the rest."""
 
 
 def choose_shots(found: Sequence[Passage], piece: Piece, direction: Direction) -> list[tuple[str, str]]:
