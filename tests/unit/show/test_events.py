@@ -255,7 +255,7 @@ SWELL: dict[str, Any] = {"on": "notes", "amount": 1, "hold": 1}
         ),
         (SWELL | {"where": {"valves": 1}}, "events/where/valves", "list"),
         (SWELL | {"where": {"pieces": "snare"}}, "events/where/pieces", "list"),
-        (SWELL | {"where": {"pieces": []}}, "events/where/pieces", "one value"),
+        (SWELL | {"where": {"pieces": list[str]()}}, "events/where/pieces", "one value"),
         (SWELL | {"where": {"pieces": ["The Snare"]}}, "events/where/pieces", "as snare or tom_high"),
         (SWELL | {"where": {"limbs": ["hand"]}}, "events/where/limbs", "left_hand, right_hand"),
         (
