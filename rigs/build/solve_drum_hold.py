@@ -74,7 +74,7 @@ def hold_stick(rig: Rig, kit: Rig, stick: Rig, side: str, stance: Stance) -> tup
         up = np.array([0.0, 1.0, 0.0]) - ahead * ahead[1]
         up /= np.linalg.norm(up)
         pointing: Array = np.stack([np.cross(up, ahead), up, ahead], axis=1).astype(np.float64)
-        hand: Array = pointing @ held.T
+        hand = np.asarray(np.matmul(pointing, held.T), dtype=np.float64)
         fulcrum = tip - pointing @ stick.effector(f"{side}StickTip")[1]
         return arm.reach(fulcrum - hand @ grip.fulcrum, hand, float(x[1]), np.zeros(2))
 
