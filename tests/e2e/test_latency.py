@@ -37,7 +37,8 @@ def test_the_delay_is_moved_by_keys_tried_by_ear_and_remembered(visit: Callable[
     opened.until("window.reina.soundLevel > 0.05")
     page.keyboard.press("Escape")
     panel.wait_for(state="hidden")
-    assert page.locator(".lamp").count() == 0, "nothing clicks behind a closed panel"
+    # Nothing clicks behind a closed panel.
+    opened.until("document.querySelector('.lamp') === null")
     page.reload()
     opened.until_drawn()
     page.get_by_role("button", name="Sound delay of the headphones").click()

@@ -123,8 +123,9 @@ def test_parts_are_joined_in_the_page(visit: Visit, client: httpx.Client) -> Non
     assert not client.get(f"{path}/transport").json()["playing"], "the key is the box's alone"
     assert blocks() > without + 0.002, "the blocks of the joined notes are in the picture"
     client.post(f"{path}/transport", json={"action": "seek", "song_time_s": 0.0}, headers=opened.headers)
-    opened.until("() => document.querySelectorAll('.notes .name').length === 4")
-    assert next_notes() == ["G4", "A4", "B4", "C5"]
+    # The drummer's part has a player too: whose notes these are takes the room of one.
+    opened.until("() => document.querySelectorAll('.notes .name').length === 3")
+    assert next_notes() == ["G4", "A4", "B4"]
 
     page.reload()
     opened.until_drawn()

@@ -62,6 +62,7 @@ FILLED = {
     "path": "camera/fov",
     "key": "k1",
     "rendering": "0123456789abcdef",
+    "transcription_id": "0123456789abcdef",
     "number": "0",
 }
 

@@ -72,7 +72,7 @@ BROKEN: dict[str, tuple[dict[str, Any], int, str, str]] = {
         {"score": ("a.mid", MIDI), "song": ("a.mp3", b"no audio at all")},
         422,
         "input-unusable",
-        "WAV, MP3",
+        "WAV, AIFF, MP3",
     ),
     "empty audio": ({"score": ("a.mid", MIDI), "song": ("a.mp3", b"")}, 422, "input-unusable", "empty"),
     "show that is no JSON": (

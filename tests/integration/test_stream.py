@@ -212,7 +212,7 @@ def test_every_change_reaches_every_viewer_under_its_own_epoch(server: Running, 
         told = watcher.of_type("transport")[:6]
         assert [message["epoch"] for message in told] == epochs
         assert [message["playing"] for message in told] == [True] * 5 + [False]
-        assert told[3]["loop"] == {"start_s": 0.5, "end_s": 1.5}
+        assert told[3]["loop"] == {"start_s": 0.5, "end_s": 1.5, "count_in_s": 0.0}
         frames = watcher.frames
         assert (np.diff(frames["epoch"].astype(int)) >= 0).all(), "no frame of an older epoch after a newer"
         sought = frames[frames["epoch"] == epochs[1] % 256]

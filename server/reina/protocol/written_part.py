@@ -6,7 +6,7 @@ from reina.protocol.model import WireModel
 from reina.protocol.resources import MusicKey
 
 Accidental = Literal["flat", "natural", "sharp"]
-Limb = Literal["right_hand", "left_hand", "right_foot", "left_foot"]
+Limb = Literal["left_hand", "right_hand", "left_foot", "right_foot"]
 Voice = Literal["hands", "feet"]
 HeadShape = Literal["plain", "cross", "circled_cross", "diamond", "triangle", "slashed"]
 HeadMark = Literal["accent", "open", "half_open", "closed", "choke"]

@@ -1077,7 +1077,7 @@ export interface PartNote {
   /** Of a drum part what is struck: snare, hi_hat. */
   piece: string | null
   /** And with what. */
-  limb: "right_hand" | "left_hand" | "right_foot" | "left_foot" | null
+  limb: "left_hand" | "right_hand" | "left_foot" | "right_foot" | null
 }
 
 /** Where a note stands on the staff. */

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-Limb = Literal["right_hand", "left_hand", "right_foot", "left_foot"]
+Limb = Literal["left_hand", "right_hand", "left_foot", "right_foot"]
 
 Technique = Literal[
     "ghost",
@@ -20,7 +20,7 @@ Technique = Literal[
     "choke",
 ]
 
-Hand = Literal["right_hand", "left_hand"]
+Hand = Literal["left_hand", "right_hand"]
 
 HANDS: tuple[Hand, Hand] = ("right_hand", "left_hand")
 """The leading hand of a right-handed player first."""
