@@ -63,8 +63,8 @@ SCORES_FOLDER = Path(__file__).parents[2] / "examples" / "scores"
 TOUCH_M = 0.002
 INSIDE_M = 0.003
 GRAZED_M = {"the whole kit at once": 0.010, "a long rest": 0.033}
-"""Known faults: a stick that goes from the splash to the cowbell beneath touches its edge, and the left arm that
-crosses to the floor tom lies over the right stick on the snare."""
+"""Known faults: a stick that goes from the splash to the cowbell beneath touches its edge, and the left arm
+that crosses to the floor tom lies over the right stick on the snare."""
 PEDAL_M = 0.002
 HAND_SPEED, STICK_SPEED = 15.0, 30.0
 LIMIT_DEG = 4.0
