@@ -91,8 +91,7 @@ def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) 
 
 
 def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, client: httpx.Client) -> None:
-    # A known fault: the sound of a part that is changed twice while it is made may be refused (502).
-    opened = visit(size=PHONE, touch=True, refusals=("502",)).open_files(("sung.mid", "audio/midi", sung()))
+    opened = visit(size=PHONE, touch=True).open_files(("sung.mid", "audio/midi", sung()))
     page, path = opened.page, f"/api/v1/sessions/{opened.session}"
     notice = page.locator(".notice")
     notice.get_by_text("No trumpet in this file: she plays Vocals").wait_for()
