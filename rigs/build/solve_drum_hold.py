@@ -19,6 +19,7 @@ from hold.arm import Arm, ArmPose
 from hold.rig import Rig
 from hold.seated import HEEL_UP_DEG, Footing, sit
 from hold.stick_grip import StickGrip, lacking
+from hold.stick_grips import HandGrips
 from solve_hold import RIGS, whole_pose
 
 if TYPE_CHECKING:
@@ -98,6 +99,38 @@ def hold_stick(rig: Rig, kit: Rig, stick: Rig, side: str, stance: Stance) -> tup
     return {**reached.local, **grip.pose}, attachment
 
 
+def both_hands(player: Rig) -> dict[str, list[dict[str, Any]]]:
+    """What hands do with sticks beside holding them as in the pose: keys of each grip, both hands together.
+
+    A joint that a key leaves out is as in the key before.
+    """
+    hands = {side: HandGrips(player, side).all() for side in ("left", "right")}
+    result: dict[str, list[dict[str, Any]]] = {}
+    for name, keys in hands["left"].items():
+        result[name] = []
+        before: dict[str, list[float]] = {}
+        for pair in zip(keys, hands["right"][name], strict=True):
+            by_side = dict(zip(("left", "right"), pair, strict=True))
+            local = {joint: turn for key in pair for joint, turn in key.pose.items()}
+            pose = {joint: Rotation.from_matrix(turn).as_quat().tolist() for joint, turn in local.items()}
+            entry: dict[str, Any] = {
+                "share": pair[0].share,
+                "pose": {joint: turn for joint, turn in pose.items() if before.get(joint) != turn},
+                "attachments": {f"{side}_stick": key.attachment(side) for side, key in by_side.items()},
+                "points": {f"{side}_stick": key.point.tolist() for side, key in by_side.items()},
+            }
+            faces = {f"{side}_stick": key.faces for side, key in by_side.items()}
+            if pair[0].faces is not None:
+                entry["faces"] = {
+                    side: {"along": both[0].tolist(), "out": both[1].tolist()}
+                    for side, both in faces.items()
+                    if both is not None
+                }
+            result[name].append(entry)
+            before = pose
+    return result
+
+
 def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -121,6 +154,7 @@ def main() -> None:
         "instrument_pose": {"position": [0.0, 0.0, 0.0], "rotation": [0.0, 0.0, 0.0, 1.0]},
         "attachments": attachments,
         "hips": stance.hips.tolist(),
+        "grips": both_hands(player),
     }
     write_json(holds / "drumkit.json", hold)
 

@@ -49,10 +49,10 @@ class StickGrip:
         pose: Pose = {}
         for name in FINGERS:
             finger = Finger.of(rig, f"{side}{name}")
-            angles = _close(finger, fulcrum, direction)
+            angles = close_finger(finger, fulcrum, direction)
             pose.update(finger.local_rotations(angles))
         thumb = Thumb.of(rig, side)
-        pose.update(thumb.local_rotations(_press(thumb, fulcrum, direction)))
+        pose.update(thumb.local_rotations(press_thumb(thumb, fulcrum, direction)))
         return cls(fulcrum, direction, pose)
 
 
@@ -61,7 +61,7 @@ def _stick(fulcrum: Array, direction: Array) -> Obstacles:
     return Obstacles([{"from": ends[0], "to": ends[1], "radius": STICK_RADIUS_M}])
 
 
-def _close(finger: Finger, fulcrum: Array, direction: Array) -> Array:
+def close_finger(finger: Finger, fulcrum: Array, direction: Array) -> Array:
     """Angles (4,) that lay a finger round the stick: its pad comes from below, no bone lies in the stick."""
     stick = _stick(fulcrum, direction)
     reach = (finger.knuckle[2] - fulcrum[2]) / direction[2]
@@ -78,7 +78,7 @@ def _close(finger: Finger, fulcrum: Array, direction: Array) -> Array:
             (x[3] - 0.4 * x[2]) * 1.0,
             x[0] * 8.0,
             np.maximum(x[1:] - [1.0, 0.0, 0.0], 0.0) * 20.0,
-            np.minimum(x[1:] - LEAST_RAD, 0.0) * 20.0,
+            np.minimum(x[1:] - LEAST_RAD, 0.0) * 120.0,
         ]
 
     best = min(
@@ -92,7 +92,7 @@ def _close(finger: Finger, fulcrum: Array, direction: Array) -> Array:
     return np.asarray(best.x)
 
 
-def _press(thumb: Thumb, fulcrum: Array, direction: Array) -> Array:
+def press_thumb(thumb: Thumb, fulcrum: Array, direction: Array) -> Array:
     """Angles (5,) that lay the thumb's pad on the stick, from above and from its own side."""
     stick = _stick(fulcrum, direction)
 
@@ -127,14 +127,14 @@ def lacking(rig: Rig, side: str, grip: StickGrip) -> list[str]:
     lines: list[str] = []
     for name in FINGERS:
         finger = Finger.of(rig, f"{side}{name}")
-        angles = _close(finger, grip.fulcrum, grip.direction)
+        angles = close_finger(finger, grip.fulcrum, grip.direction)
         centres, radii = finger.spheres(angles, 6)
         gap = (stick.clearance(centres) - radii) * MM
         lines.append(
             f"{finger.name}: pad {gap[-1]:.1f} mm, deepest {gap.min():.1f} mm, {np.degrees(angles).round()}"
         )
     thumb = Thumb.of(rig, side)
-    angles = _press(thumb, grip.fulcrum, grip.direction)
+    angles = press_thumb(thumb, grip.fulcrum, grip.direction)
     centres, radii = thumb.spheres(angles, 5)
     gap = (stick.clearance(centres) - radii) * MM
     lines.append(

@@ -117,7 +117,14 @@ class ToolArms:
         self._deviation = wrists.deviation
 
     def solve(
-        self, shoulders: FloatArray, tips: FloatArray, directions: FloatArray, poles: FloatArray
+        self,
+        shoulders: FloatArray,
+        tips: FloatArray,
+        directions: FloatArray,
+        poles: FloatArray,
+        held: FloatArray | None = None,
+        dorsal: FloatArray | None = None,
+        yielding: FloatArray | None = None,
     ) -> ToolPose:
         """Bring the tips to their places.
 
@@ -126,11 +133,17 @@ class ToolArms:
             tips: Where the tips are to be, ``(F, K, 3)``, metres.
             directions: Which way the tools are asked to point, from the hand on, ``(F, K, 3)``, unit.
             poles: Which way the elbows point, ``(F, K, 3)``; only what lies across shoulder-to-wrist counts.
+            held: What is to be at `tips` instead of the tools' tips, as `seen_from` gives it; hands then
+                turn as if the tools were held as ever.
+            dorsal: Which way the backs of the hands look, ``(F, K, 3)``; as ever by default.
+            yielding: How far the tools give way where arms cannot, 0 to 1, ``(F, K)``; 1 by default.
         """
         pointing = directions
+        wrist = self._wrist if held is None else held[..., None]
+        back_way = self._dorsal if dorsal is None else dorsal
         for _ in range(ROUNDS):
-            basis = self._basis(pointing)
-            wrists = tips + np.matmul(basis, self._wrist)[..., 0]
+            basis = self._basis(pointing, back_way)
+            wrists = tips + np.matmul(basis, wrist)[..., 0]
             forearms, stretched = self._forearms(shoulders, wrists, poles)
             hands = np.matmul(basis, self._to_basis)
             in_hand = np.matmul(hands.swapaxes(-1, -2), forearms[..., None])[..., 0]
@@ -141,10 +154,12 @@ class ToolArms:
             arm = wrists - tips
             back = cross(stretched, arm) / np.einsum("...i,...i->...", arm, arm)[..., None]
             turn = up * hands[..., 2] - aside * hands[..., 1] + back
+            if yielding is not None:
+                turn = turn * yielding[..., None]
             pointing = pointing + cross(turn, pointing)
             pointing = pointing / np.sqrt(np.einsum("...i,...i->...", pointing, pointing))[..., None]
-        basis = self._basis(pointing)
-        wrists = tips + np.matmul(basis, self._wrist)[..., 0]
+        basis = self._basis(pointing, back_way)
+        wrists = tips + np.matmul(basis, wrist)[..., 0]
         far = wrists - shoulders
         distance = np.sqrt(np.einsum("...i,...i->...", far, far))
         lacking = np.maximum(distance - self._reach, 0.0) + np.maximum(self._nearest - distance, 0.0)
@@ -153,14 +168,34 @@ class ToolArms:
         fulcrums = tips + np.matmul(basis, self._fulcrum)[..., 0]
         return ToolPose(wrists, hands, fulcrums, pointing, hinges, lacking)
 
-    def wrists(self, tips: FloatArray, directions: FloatArray) -> FloatArray:
+    def wrists(
+        self,
+        tips: FloatArray,
+        directions: FloatArray,
+        held: FloatArray | None = None,
+        dorsal: FloatArray | None = None,
+    ) -> FloatArray:
         """Where the wrists would be if no tool gave way, ``(F, K, 3)``, metres; arguments as `solve`."""
-        return tips + np.matmul(self._basis(directions), self._wrist)[..., 0]
+        basis = self._basis(directions, self._dorsal if dorsal is None else dorsal)
+        return tips + np.matmul(basis, self._wrist if held is None else held[..., None])[..., 0]
 
-    def _basis(self, pointing: FloatArray) -> FloatArray:
+    def seen_from(self, points: FloatArray) -> FloatArray:
+        """From points in the hands' frames ``(..., K, 3)`` to the wrists, as `solve` takes them, metres."""
+        return -self.in_basis(points)
+
+    def in_basis(self, vectors: FloatArray) -> FloatArray:
+        """Vectors in the hands' frames ``(..., K, 3)`` along tool, back of the hand, and across both."""
+        return np.matmul(self._to_basis, vectors[..., None])[..., 0]
+
+    @property
+    def dorsal(self) -> FloatArray:
+        """Which way the backs of the hands look as ever, ``(K, 3)``."""
+        return self._dorsal
+
+    def _basis(self, pointing: FloatArray, dorsal: FloatArray) -> FloatArray:
         """World directions of the held basis, as columns, ``(F, K, 3, 3)``."""
         basis = np.empty((*pointing.shape, 3))
-        back = self._dorsal - pointing * np.einsum("...i,...i->...", pointing, self._dorsal)[..., None]
+        back = dorsal - pointing * np.einsum("...i,...i->...", pointing, dorsal)[..., None]
         back = back / np.sqrt(np.einsum("...i,...i->...", back, back))[..., None]
         basis[..., 0], basis[..., 1], basis[..., 2] = pointing, back, cross(pointing, back)
         return basis

@@ -3,7 +3,7 @@
 from reina.skeleton.clip_warning import ClipWarning
 from reina.skeleton.errors import BvhError, PoseError, RigError
 from reina.skeleton.forward_kinematics import forward_kinematics
-from reina.skeleton.hold import Hold, load_hold, read_hold
+from reina.skeleton.hold import GripKey, Hold, load_hold, read_hold
 from reina.skeleton.human_pose import HumanPose, human_pose, pose_numbers, pose_of
 from reina.skeleton.joint_aliases import humanoid_name
 from reina.skeleton.load_rig import load_rig, read_rig
@@ -35,6 +35,7 @@ __all__ = [
     "Chain",
     "ClipWarning",
     "Cylinder",
+    "GripKey",
     "Hold",
     "HumanPose",
     "Limits",

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reina.instruments.drums.drum_part import drum_fingering
+from reina.instruments.drums.hand_grips import HandGrips
+from reina.instruments.drums.motion.contacts import ELBOW_PLACES as ELBOWS_AT_EASE
+from reina.instruments.drums.motion.contacts import INWARD_RAD as TURNED_IN
 from reina.instruments.drums.motion.drummer_motion import DrummerMotion
+from reina.instruments.drums.motion.hand_shapes import OPEN_RAD, PLAY, TWIRL
 from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
@@ -19,7 +23,7 @@ from reina.instruments.player.trunk_reach import SIGNALS as REACHING
 from reina.kinematics import TwoBoneLimbs
 from reina.kinematics.sampled_curves import SampledCurves
 from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
-from reina.rotations import conjugate, from_axis_angle, multiply, rotate
+from reina.rotations import conjugate, cross, from_axis_angle, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
@@ -27,9 +31,10 @@ if TYPE_CHECKING:
 
     from reina.instruments.drums.hit import DrumHit
     from reina.instruments.drums.motion.kit_places import KitPlaces
+    from reina.instruments.drums.motion.stick_paths import StickFrames
     from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import BodyMotion
-    from reina.rotations.arrays import FloatArray
+    from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import Rig
 
 SIDES = ("left", "right")
@@ -47,9 +52,9 @@ NEAREST_M, YIELDING_M = 0.43, 0.03
 """No tip comes nearer to its shoulder than about the first, seen from above, unless it strikes there."""
 LANDING_M = 0.03
 """Tips land within this of a zone's middle."""
-ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
+ELBOW_PLACES = ELBOWS_AT_EASE[::-1]
 """Where the elbows are at ease, across and ahead, metres."""
-INWARD_RAD = np.radians([-20.0, 20.0])
+INWARD_RAD = TURNED_IN[::-1]
 """How far a stick points inward from the line from elbow to tip, about +Y."""
 RAISED_M, RAISED_OUT = (0.95, 0.25), 4.0
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
@@ -68,6 +73,21 @@ HEAD_TURNED_TO = 0.4
 """How much of the way to the middle of both hands the head turns beyond the trunk."""
 HEEL_RAD, HELD_HEEL = 0.26, 0.4
 """How far a heel goes from down to up, and where on that way it is in the hold."""
+
+
+BOTH = np.arange(2)
+
+
+@dataclass(frozen=True, eq=False)
+class _Hands:
+    """Where the hands are asked to go in F frames, left and right, as `ToolArms.solve` takes it."""
+
+    points: FloatArray
+    pointing: FloatArray
+    rows: IntArray
+    held: FloatArray
+    dorsal: FloatArray | None
+    yielding: FloatArray | None
 
 
 class DrumsBody:
@@ -93,11 +113,21 @@ class DrumsBody:
             places,
             beats_s=self._beats,
             hi_hat_travel=part_travel(kit, HI_HAT),
+            seed=engagement.seed + engagement.number,
         )
         self._kit = KitPose(kit)
         self._body = PlayerBody(rig, held, signals=tuple(SHOULDERS), joint_turns=SHOULDERS)
-        self._attached = self._attachments(engagement)
-        self._arms = self._tool_arms(engagement, TwoBoneLimbs(rig, LIMBS[:2]))
+        tools = self._tools(engagement)
+        self._arms = ToolArms(
+            TwoBoneLimbs(rig, LIMBS[:2]), tools, DORSAL, WristRange(FLEXION_RAD, DEVIATION_RAD)
+        )
+        tips = [
+            engagement.instrument_rigs[name].effector(f"{side}StickTip").offset
+            for name, side in zip(STICKS, SIDES, strict=True)
+        ]
+        self._grips = HandGrips(rig, engagement.hold, STICKS, np.stack(tips))
+        self._held = self._arms.seen_from(self._grips.points)
+        self._facing = self._faces()
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
         self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
@@ -111,28 +141,61 @@ class DrumsBody:
             engagement.score.duration_s, held.positions[rig.skeleton.index("spine")]
         )
 
-    def _attachments(self, engagement: Engagement) -> FloatArray:
-        lost = [name for name in STICKS if name not in engagement.hold.attachments]
-        if lost:
-            raise RigError(f"the hold carries no {lost[0]!r}", location="attachments")
-        return np.stack([engagement.hold.attachments[name].rotation for name in STICKS])
-
-    def _tool_arms(self, engagement: Engagement, arms: TwoBoneLimbs) -> ToolArms:
+    def _tools(self, engagement: Engagement) -> list[Tool]:
         tools: list[Tool] = []
         for name, side in zip(STICKS, SIDES, strict=True):
+            if name not in engagement.hold.attachments:
+                raise RigError(f"the hold carries no {name!r}", location="attachments")
             attached = engagement.hold.attachments[name]
             tip = engagement.instrument_rigs[name].effector(f"{side}StickTip").offset
             direction = rotate(attached.rotation, np.array([0.0, 0.0, 1.0]))
             tools.append(Tool(attached.position, direction, rotate(attached.rotation, tip)))
-        return ToolArms(arms, tools, DORSAL, WristRange(FLEXION_RAD, DEVIATION_RAD))
+        return tools
+
+    def _faces(self) -> FloatArray:
+        """The basis that arms turn, in parts of along, out and across of each shape, ``(S, 2, 3, 3)``."""
+        along, out = self._grips.faces[..., 0, :], self._grips.faces[..., 1, :]
+        out = out - along * (along * out).sum(axis=-1, keepdims=True)
+        out = out / np.linalg.norm(out, axis=-1, keepdims=True)
+        ways = (along, out, np.cross(along, out))
+        return np.stack([self._arms.in_basis(way) for way in ways], axis=-1)
+
+    def _hands(self, sticks: StickFrames) -> _Hands:
+        """Where the hands are asked to go."""
+        tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
+        asked = sticks.direction[:, ::-1]
+        directions = _from_elbows(tips, asked)
+        shapes, shares = sticks.shape[:, ::-1], sticks.share[:, ::-1]
+        rows = self._grips.rows(shapes, shares)
+        held = self._held[rows, BOTH]
+        firm, placed = sticks.firm[:, ::-1], sticks.placed[:, ::-1]
+        dorsal = yielding = None
+        if firm.any():
+            directions = _mixed(directions, asked, firm)
+        # The hand is as much lower than the stick as the fingers have let it turn.
+        turned = np.where(shapes == PLAY, OPEN_RAD * shares, 0.0)[..., None]
+        back = DORSAL - directions * np.einsum("...i,...i->...", directions, DORSAL)[..., None]
+        back = back / np.sqrt(np.einsum("...i,...i->...", back, back))[..., None]
+        pointing = directions * np.cos(turned) - back * np.sin(turned)
+        if placed.any():
+            along, out = sticks.along[:, ::-1], sticks.out[:, ::-1]
+            out = out - along * np.einsum("...i,...i->...", along, out)[..., None]
+            out = out / np.sqrt(np.einsum("...i,...i->...", out, out))[..., None]
+            ways = np.stack([along, out, cross(along, out)], axis=-1)
+            facing = sticks.facing[:, ::-1]
+            basis = np.matmul(ways, self._facing[facing, BOTH].swapaxes(-1, -2))
+            pointing = _mixed(pointing, basis[..., 0], placed)
+            dorsal = _mixed(np.broadcast_to(DORSAL, pointing.shape), basis[..., 1], placed)
+            firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed))
+        if firm.any():
+            yielding = 1.0 - firm
+        return _Hands(tips, pointing, rows, held, dorsal, yielding)
 
     def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
         """How trunk and head follow the hands, over the whole piece."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
-        sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
-        tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
-        directions = _from_elbows(tips, sticks.direction[:, ::-1])
-        wrists = self._arms.wrists(tips, directions)
+        asked = self._hands(self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks)
+        wrists = self._arms.wrists(asked.points, asked.pointing, asked.held, asked.dorsal)
         reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
         window = np.hanning(2 * reach + 3)[1:-1]
         padded = np.pad(wrists.reshape(count, -1), ((reach, reach), (0, 0)), mode="edge")
@@ -167,11 +230,18 @@ class DrumsBody:
             signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
         standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
-        tips = _at_arms_length(drummed.sticks.tip[:, ::-1], self._nearest)
-        directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
-        raised = np.minimum(np.maximum(tips[..., 1:2] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
+        asked = self._hands(drummed.sticks)
+        raised = np.minimum(np.maximum(asked.points[..., 1:2] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
         poles = rotate(standing.world[:, self._chest, None], self._poles + raised * self._outward)
-        sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
+        sticks = self._arms.solve(
+            standing.limbs[:, :2],
+            asked.points,
+            asked.pointing,
+            poles,
+            asked.held,
+            asked.dorsal,
+            asked.yielding,
+        )
         kit = self._kit.rotations(drummed)
         feet, feet_rotations = self._feet.solve(kit, drummed.feet.heel[:, ::-1])
         standing = replace(standing, feet=feet, feet_rotations=feet_rotations)
@@ -182,11 +252,12 @@ class DrumsBody:
         rotations[:] = self._still
         rotations[:, self._body.moving] = moving
         rotations[:, joints:-2] = kit
-        held = multiply(sticks.hands, self._attached)
+        rotations[:, self._grips.fingers] = self._grips.turned[asked.rows, BOTH].reshape(frames, -1, 4)
+        held = multiply(sticks.hands, self._grips.rotations[asked.rows, BOTH])
         rotations[:, -2:] = held * np.where(held[..., 3:] < 0.0, -1.0, 1.0)
         roots = np.zeros((frames, 4, 3))
         roots[:, 0] = standing.hips
-        roots[:, 2:] = sticks.fulcrums
+        roots[:, 2:] = sticks.wrists + rotate(sticks.hands, self._grips.places[asked.rows, BOTH])
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
 
 
@@ -212,6 +283,12 @@ def _at_arms_length(tips: FloatArray, nearest_m: FloatArray) -> FloatArray:
     result = tips.copy()
     result[..., [0, 2]] += away * share[..., None]
     return result
+
+
+def _mixed(one: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
+    """Unit vectors between two, ``(F, 2, 3)``."""
+    result = one + (other - one) * share[..., None]
+    return result / np.sqrt(np.einsum("...i,...i->...", result, result))[..., None]
 
 
 def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:

@@ -9,6 +9,7 @@ from reina.instruments.drums.hit import MIRRORED
 from reina.instruments.drums.motion.foot_paths import FootFrames, FootPaths
 from reina.instruments.drums.motion.kit_answers import KitAnswers, KitFrames
 from reina.instruments.drums.motion.stick_paths import StickFrames, StickPaths
+from reina.instruments.drums.motion.twirls import plan_twirls
 
 if TYPE_CHECKING:
     from reina.instruments.drums.drum_part import DrumFingering
@@ -39,6 +40,7 @@ class DrummerMotion:
         places: The kit of a right-handed player; a left-handed one's is its mirror.
         beats_s: When the beats fall, seconds, ascending.
         hi_hat_travel: (3,) from the open to the closed hi-hat, as the rig has it.
+        seed: In which rests a stick is twirled; None for none.
 
     Raises:
         RigError: The kit lacks a piece that is struck.
@@ -51,6 +53,7 @@ class DrummerMotion:
         *,
         beats_s: FloatArray | None = None,
         hi_hat_travel: FloatArray | None = None,
+        seed: int | None = None,
     ) -> None:
         is_left = fingering.handedness == "left"
         hits = fingering.hits
@@ -58,7 +61,12 @@ class DrummerMotion:
         feet = [replace(hit, limb=MIRRORED[hit.limb]) for hit in hits] if is_left else hits
         self._answers = KitAnswers(hits, fingering.chokes, mirrored=is_left)
         self._sticks = StickPaths(
-            hits, stands, self._answers, hi_hat_travel=hi_hat_travel, chokes=fingering.chokes
+            hits,
+            stands,
+            self._answers,
+            hi_hat_travel=hi_hat_travel,
+            chokes=fingering.chokes,
+            twirls=((), ()) if seed is None else plan_twirls(fingering, seed),
         )
         self._feet = FootPaths(feet, self._answers, beats_s)
 

@@ -5,7 +5,7 @@ The kit's frame has +Y up; the player faces +Z, and +X is the player's left.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -43,6 +43,7 @@ class ZonePlace:
         normal: (3,) out of the surface, a unit vector.
         radius: How far from the position it still is the zone, metres.
         pivot: (3,) what the piece turns about: its joint.
+        axis: (3,) a cymbal's own axis, up, a unit vector.
     """
 
     piece: str
@@ -51,6 +52,7 @@ class ZonePlace:
     normal: FloatArray
     radius: float
     pivot: FloatArray
+    axis: FloatArray = field(default_factory=lambda: UP.copy())
 
     @property
     def outward(self) -> FloatArray:
@@ -63,7 +65,11 @@ class ZonePlace:
         """The same on a left-handed player's kit."""
         flip = np.array([-1.0, 1.0, 1.0])
         return replace(
-            self, position=self.position * flip, normal=self.normal * flip, pivot=self.pivot * flip
+            self,
+            position=self.position * flip,
+            normal=self.normal * flip,
+            pivot=self.pivot * flip,
+            axis=self.axis * flip,
         )
 
 

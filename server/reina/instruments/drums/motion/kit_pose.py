@@ -8,7 +8,7 @@ import numpy as np
 
 from reina.curves import Parameter
 from reina.instruments.drums.motion.kit_answers import HEADS, SWINGS
-from reina.instruments.drums.motion.kit_places import KitPlaces, ZonePlace
+from reina.instruments.drums.motion.kit_places import UP, KitPlaces, ZonePlace
 from reina.instruments.drums.motion.stick_paths import turned
 from reina.rotations import about_axis, multiply, rotate, same_hemisphere
 from reina.skeleton import RigError, forward_kinematics
@@ -70,6 +70,7 @@ def kit_places(kit: Rig) -> KitPlaces:
             rotate(rotations[zone.joint], zone.normal),
             zone.radius,
             positions[zone.joint],
+            rotate(rotations[zone.joint], UP),
         )
         for (piece, name), zone in kit.zones.items()
     )

@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.hit import HANDS
+from reina.instruments.drums.motion.hand_shapes import CHOKE, JAWS_SHARE, OPEN_RAD, PLAY, TWIRL
 from reina.instruments.drums.motion.kit_answers import SWINGS
 from reina.instruments.drums.motion.kit_places import UP
 from reina.instruments.drums.motion.stick_plan import (
     CONTACT_RAD,
+    CROSS_STICK_LIFT_M,
     FALL,
     GLIDE,
     GRIP_M,
     RISE,
+    TWIRL_S,
     Grip,
+    Twirl,
     plan_sticks,
 )
 from reina.kinematics.motion_curves import minimum_jerk
@@ -29,7 +33,7 @@ if TYPE_CHECKING:
     from reina.instruments.drums.hit import DrumHit, Limb
     from reina.instruments.drums.motion.kit_answers import KitAnswers
     from reina.instruments.drums.motion.kit_places import KitPlaces
-    from reina.instruments.drums.motion.stick_plan import StickPlan
+    from reina.instruments.drums.motion.stick_plan import Station, StickPlan
     from reina.rotations.arrays import FloatArray, IntArray
 
 HAND_SHARE: Final = 0.3
@@ -50,6 +54,23 @@ THROUGH_S: Final = (0.05, 0.13)
 FOLLOW_M: Final = 0.12
 """Within this height the tip goes with a cymbal that still swings."""
 
+FINGERS_RAD: Final = 0.36
+"""How far the fingers alone turn a stick at most; they do nearly all of a small stroke, and the wrist does
+what is left of a large one."""
+
+FINGERS_FIRST: Final = 0.85
+"""Their part where a stroke begins."""
+
+LEVEL_M: Final = 0.12
+"""A stick comes to lie as a rim shot wants it within this height."""
+
+STILL_M: Final = 0.03
+"""So near to the surface the hand does not go up or down by itself in a rim shot, and fingers close on a
+cymbal's edge."""
+
+REGRIP: Final = 0.45
+"""A hand lets go within this part of its way to another piece, and takes its next grip in as much of the end."""
+
 
 @dataclass(frozen=True, eq=False)
 class StickFrames:
@@ -59,11 +80,25 @@ class StickFrames:
         tip: ``(F, 2, 3)`` metres.
         direction: ``(F, 2, 3)`` unit vectors from the hand to the tip.
         grip: ``(F, 2, 3)`` where the hands hold them.
+        shape: ``(F, 2)`` of `HAND_SHAPES` what each hand does with its stick.
+        share: ``(F, 2)`` how far along it is.
+        firm: ``(F, 2)`` how far the stick lies just as `direction` says, 0 to 1.
+        placed: ``(F, 2)`` how far the hand goes by `along` and `out` instead, 0 to 1.
+        facing: ``(F, 2)`` of `HAND_SHAPES` what is along and out in the hand.
+        along: ``(F, 2, 3)`` which way a placed hand goes along what it touches.
+        out: ``(F, 2, 3)`` and out of that, across it.
     """
 
     tip: FloatArray
     direction: FloatArray
     grip: FloatArray
+    shape: IntArray
+    share: FloatArray
+    firm: FloatArray
+    placed: FloatArray
+    facing: IntArray
+    along: FloatArray
+    out: FloatArray
 
 
 class StickPaths:
@@ -75,6 +110,7 @@ class StickPaths:
         answers: What the kit does: tips land on cymbals where they are at that time.
         hi_hat_travel: (3,) from the open to the closed hi-hat, if its zones are those of the open one.
         chokes: Cymbals that a hand grips, by time.
+        twirls: When each hand begins to twirl its stick, seconds, the player's right first.
     """
 
     def __init__(
@@ -85,11 +121,14 @@ class StickPaths:
         *,
         hi_hat_travel: FloatArray | None = None,
         chokes: Sequence[Choke] = (),
+        twirls: tuple[Sequence[float], Sequence[float]] = ((), ()),
     ) -> None:
         self._answers = answers
         travel = np.zeros(3) if hi_hat_travel is None else hi_hat_travel
         self._sticks = [
-            _Stick(plan_sticks(_of_hand(limb, hits, chokes), places, side, tuple(SWINGS)), travel)
+            _Stick(
+                plan_sticks(_of_hand(limb, hits, chokes, twirls[side]), places, side, tuple(SWINGS)), travel
+            )
             for side, limb in enumerate(HANDS)
         ]
 
@@ -97,14 +136,31 @@ class StickPaths:
         """Both sticks at times ``(F,)``."""
         tilt, closed = self._answers.tilt(times_s), self._answers.hi_hat(times_s)
         frames = [stick.evaluate(times_s, tilt, closed) for stick in self._sticks]
-        tip, direction = (np.stack(parts, axis=1) for parts in zip(*frames, strict=True))
-        return StickFrames(tip, direction, tip - GRIP_M * direction)
+        tip, direction, *rest = (np.stack(parts, axis=1) for parts in zip(*frames, strict=True))
+        shape, share, firm, placed, facing, along, out = rest
+        # A hand that chokes holds the edge itself.
+        length = GRIP_M * (1.0 - placed * (facing == CHOKE))
+        return StickFrames(
+            tip,
+            direction,
+            tip - length[..., None] * direction,
+            shape,
+            share,
+            firm,
+            placed,
+            facing,
+            along,
+            out,
+        )
 
 
-def _of_hand(limb: Limb, hits: Sequence[DrumHit], chokes: Sequence[Choke]) -> list[DrumHit]:
+def _of_hand(
+    limb: Limb, hits: Sequence[DrumHit], chokes: Sequence[Choke], twirls_s: Sequence[float]
+) -> list[DrumHit]:
     """What one hand does, by time."""
     own = [hit for hit in hits if hit.limb == limb]
     own += [Grip(choke.at_s, 0.0, choke.piece, "edge", limb, 0.0) for choke in chokes if choke.limb == limb]
+    own += [Twirl(at_s, 0.0, "", "", limb, 0.0) for at_s in twirls_s]
     return sorted(own, key=lambda hit: hit.onset_s)
 
 
@@ -123,7 +179,24 @@ class _Stick:
         )
         self._arm = self._point - np.stack([station.pivot for station in stations])
         self._swings: IntArray = np.array([station.swings for station in stations])
-        self._outward = np.stack([_level(arm) for arm in self._arm])
+        self._outward = np.stack(
+            [_outward(station, arm) for station, arm in zip(stations, self._arm, strict=True)]
+        )
+        placings = [station.placing for station in stations]
+        self._slope = np.array([np.sin(CONTACT_RAD) if one is None else one.slope for one in placings])
+        self._is_rim_shot = np.array([one is not None and one.shape == PLAY for one in placings])
+        self._does: IntArray = np.array(
+            [PLAY if one is None else one.shape for one in placings], dtype=np.intp
+        )
+        self._lever = np.array([0.0 if one is None else one.lever_m for one in placings])
+        level = [(heading[0] * 0.0, UP)] * len(stations)
+        ways = [
+            both if one is None or one.along is None or one.out is None else (one.along, one.out)
+            for one, both in zip(placings, level, strict=True)
+        ]
+        self._along, self._out = (np.stack(parts) for parts in zip(*ways, strict=True))
+        self._is_plain = not (self._is_rim_shot.any() or self._does.any())
+        self._twirls = plan.twirls_s
         self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
         self._moves = plan.moves
         self._from = np.concatenate([[-np.inf], plan.heights[:, 0]])
@@ -134,8 +207,8 @@ class _Stick:
 
     def evaluate(
         self, times_s: FloatArray, tilt: FloatArray, closed: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Tip and direction ``(F, 3)``.
+    ) -> tuple[FloatArray | IntArray, ...]:
+        """Tip and direction ``(F, 3)``, and what else `StickFrames` has.
 
         Args:
             times_s: (F,) seconds.
@@ -154,17 +227,71 @@ class _Stick:
         heading = np.stack([np.sin(azimuth), np.zeros_like(azimuth), np.cos(azimuth)], axis=1)
         near = np.where(done > 0.5, after, station)
         close = np.maximum(1.0 - height / FOLLOW_M, 0.0)[:, None] * np.abs(2.0 * blend - 1.0)
+        slope = self._slope[station] * (1.0 - done) + self._slope[after] * done
+        # The hand goes up and down itself, ahead of the tip; the stick's angle makes up for the rest.
+        lifted = HAND_SHARE * self._heights(times_s + LEAD_S)
+        placed = firm = np.zeros(len(times_s))
+        turned_rad = 0.0
+        if not self._is_plain:
+            placed = (self._does[station] > 0) * (1.0 - done) + (self._does[after] > 0) * done
+            rim = self._is_rim_shot[station] * (1.0 - done) + self._is_rim_shot[after] * done
+            firm = rim * np.maximum(1.0 - height / LEVEL_M, 0.0)
+            lifted = lifted * (1.0 - rim * np.maximum(1.0 - height / STILL_M, 0.0))
+            # A hand that lies on a head lifts the shaft first, and itself only after that.
+            lever = self._lever[station] * (1.0 - done) + self._lever[after] * done
+            lifts = np.minimum(height, CROSS_STICK_LIFT_M) * np.minimum(lever / 0.1, 1.0)
+            height = height - lifts
+            turned_rad = lifts / np.maximum(lever, 0.1)
         tip = point + height[:, None] * normal
         tip = tip + close * self._moved(near, tilt) + close * closed[:, None] * self._drop[near]
         tip = tip + self._past(times_s)
-        # The hand goes up and down itself, ahead of the tip; the stick's angle makes up for the rest.
-        lifted = HAND_SHARE * self._heights(times_s + LEAD_S)
-        sine = (height - lifted) / GRIP_M - np.sin(CONTACT_RAD)
+        sine = (height - lifted) / GRIP_M - slope
         sine = np.clip(sine, -STEEPEST, STEEPEST)
         cosine = np.sqrt(1.0 - sine * sine)
-        back = (np.cos(CONTACT_RAD) - cosine) * GRIP_M * np.minimum(height / 0.05, 1.0)
+        back = (np.cos(CONTACT_RAD) - cosine) * GRIP_M * np.minimum(height / 0.05, 1.0) * (1.0 - placed)
         tip = tip - back[:, None] * heading
-        return tip, heading * cosine[:, None] + sine[:, None] * UP
+        direction = heading * cosine[:, None] + sine[:, None] * UP
+        # Fingers let the stick turn at once, and the wrist what is more.
+        risen = np.maximum(np.arcsin(sine) + np.arcsin(slope), 0.0)
+        share = (1.0 - np.exp(risen * (-FINGERS_FIRST / FINGERS_RAD))) * (FINGERS_RAD / OPEN_RAD)
+        if self._is_plain:
+            still = np.zeros(len(times_s), dtype=np.intp)
+            return tip, direction, still, share, firm, placed, still, direction, normal
+        shape, share = self._grip(times_s, station, after, done, share, height)
+        facing = np.where(
+            (self._does[after] > 0) & ((self._does[station] == 0) | (done > 0.5)), after, station
+        )
+        both = (self._does[after] > 0) & (self._does[station] > 0) & (after != station)
+        placed = placed * np.where(
+            both & (self._does[after] != self._does[station]), np.abs(2.0 * done - 1.0), 1.0
+        )
+        along, out = self._along[facing], self._out[facing]
+        up, level = np.sin(turned_rad)[:, None], np.cos(turned_rad)[:, None]
+        along, out = along * level + out * up, out * level - along * up
+        return tip, direction, shape, share, firm, placed, self._does[facing], along, out
+
+    def _grip(
+        self,
+        times_s: FloatArray,
+        station: IntArray,
+        after: IntArray,
+        done: FloatArray,
+        open_: FloatArray,
+        height: FloatArray,
+    ) -> tuple[IntArray, FloatArray]:
+        """What the hand does with the stick, and how far along it is, ``(F,)`` each."""
+        before, next_ = self._does[station], self._does[after]
+        kept = np.where(done < 0.5, REGRIP - done, done - 1.0 + REGRIP) / REGRIP
+        kept = np.where(before == next_, 1.0, minimum_jerk(np.clip(kept, 0.0, 1.0)))
+        shape = np.where(done < 0.5, before, next_)
+        held = np.maximum(1.0 - height / STILL_M, 0.0)
+        share = kept * np.where(shape == PLAY, open_, 1.0)
+        share = np.where(shape == CHOKE, kept * (JAWS_SHARE + (1.0 - JAWS_SHARE) * held), share)
+        if len(self._twirls):
+            place = np.maximum(np.searchsorted(self._twirls, times_s, side="right") - 1, 0)
+            run = np.clip((times_s - self._twirls[place]) / TWIRL_S, 0.0, 1.0)
+            share = np.where(shape == TWIRL, run, share)
+        return shape, share
 
     def _where(self, times_s: FloatArray) -> tuple[IntArray, FloatArray]:
         """Which station the stick is at or leaves, and how far it is on its way to the next."""
@@ -229,6 +356,11 @@ def turned(outward: FloatArray, tilt: FloatArray) -> FloatArray:
     angle = np.linalg.norm(vector, axis=1)
     axis = np.where(angle[:, None] > 1e-12, vector / np.maximum(angle, 1e-12)[:, None], UP)
     return from_axis_angle(axis, angle)
+
+
+def _outward(station: Station, arm: FloatArray) -> FloatArray:
+    given = None if station.placing is None else station.placing.outward
+    return _level(arm) if given is None else given
 
 
 def _level(arm: FloatArray) -> FloatArray:

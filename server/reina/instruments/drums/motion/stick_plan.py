@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.hit import DrumHit
+from reina.instruments.drums.motion.contacts import Placing, choke, cross_stick, rim_shot, twirl
 from reina.instruments.drums.motion.kit_places import UP
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reina.instruments.drums.motion.kit_places import KitPlaces, ZonePlace
+    from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.rotations.arrays import FloatArray
 
 GRIP_M: Final = 0.27
@@ -46,7 +47,7 @@ LIFT_M: Final = (0.035, 0.40)
 LIFT_POWER: Final = 1.5
 
 CROSS_STICK_LIFT_M: Final = 0.05
-"""The tip stays on the head as the butt is lifted; about so high is the hand."""
+"""The tip stays on the head; so high over the hoop is the shaft lifted."""
 
 LIFT_SPEED_M_S: Final = 1.1
 """How high a stick gets in the time that it has: so many metres a second."""
@@ -92,6 +93,9 @@ THROUGH_M: Final = 0.07
 
 THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
 
+PLACED: Final = ("cross_stick", "rim_shot")
+"""Techniques that say how the stick lies."""
+
 SAME_PLACE_M: Final = 0.02
 
 TRAVEL: Final = (0.04, 0.86)
@@ -109,6 +113,15 @@ class Grip(DrumHit):
     """A hand goes to a cymbal's edge and holds it."""
 
 
+TWIRL_S: Final = 0.62
+"""How long a stick is twirled."""
+
+
+@dataclass(frozen=True)
+class Twirl(DrumHit):
+    """A hand goes up and lets its stick run round a finger."""
+
+
 @dataclass(frozen=True, eq=False)
 class Station:
     """Where a stick is for a while: over a zone, or at rest.
@@ -121,6 +134,7 @@ class Station:
         swings: Row of `SWINGS` whose tilt moves the point; -1 if it does not move.
         pivot: (3,) what it turns about.
         is_hi_hat: Whether it goes down as the hi-hat is closed.
+        placing: How stick and hand lie there, where the tip alone does not say it.
     """
 
     point: FloatArray
@@ -130,6 +144,7 @@ class Station:
     swings: int
     pivot: FloatArray
     is_hi_hat: bool = False
+    placing: Placing | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,6 +158,7 @@ class StickPlan:
             `FALL` or `GLIDE`.
         strokes_s: (K,) the onsets.
         through: (K,) how far each goes on beyond the edge, in parts of the station's `through`.
+        twirls_s: (W,) when twirls begin.
     """
 
     stations: list[Station]
@@ -150,6 +166,7 @@ class StickPlan:
     heights: FloatArray
     strokes_s: FloatArray
     through: FloatArray
+    twirls_s: FloatArray
 
 
 RISE, FALL, GLIDE = 0.0, 1.0, 2.0
@@ -169,10 +186,10 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
         RigError: The kit lacks a piece.
     """
     maker = _PlanMaker(_rest(places, side))
-    known: dict[tuple[str, str, bool], Station] = {}
+    known: dict[tuple[str, str, str], Station] = {}
     for place, hit in enumerate(hits):
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
-        key = (hit.piece, hit.zone, isinstance(hit, Grip))
+        key = (hit.piece, hit.zone, hit.technique if hit.technique in PLACED else type(hit).__name__)
         if key not in known:
             known[key] = _station(hit, places, side, swings)
         maker.strike(hit, known[key], after)
@@ -183,6 +200,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
         np.array(maker.heights).reshape(-1, 4),
         np.array([hit.onset_s for hit in hits]),
         np.array([_through(hit) for hit in hits]),
+        np.array([hit.onset_s for hit in hits if isinstance(hit, Twirl)]),
     )
 
 
@@ -218,8 +236,7 @@ class _PlanMaker:
             self.heights.append((self._free_s, fall_s, lift, RISE))
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
-        held_s = (GRIP_S, 0.5 * after_s) if isinstance(hit, Grip) else (CONTACT_S, CONTACT_SHARE * after_s)
-        self._free_s = hit.onset_s + min(held_s)
+        self._free_s = hit.onset_s + _held_s(hit, after_s)
         self._before = hit
 
     def finish(self) -> None:
@@ -253,7 +270,7 @@ class _PlanMaker:
     def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
         """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
         free_s, fall_s = self._free_s, lands_s - FALL_S
-        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
+        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else min(WAIT_M, lift)
         self.moves.append((free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)))
         self.heights += [
             (free_s, free_s + REBOUND_S, max(_rebound(before), wait if far > SAME_PLACE_M else 0.0), RISE),
@@ -261,6 +278,13 @@ class _PlanMaker:
             (fall_s - RISE_S, fall_s, lift, GLIDE),
         ]
         return fall_s
+
+
+def _held_s(hit: DrumHit, after_s: float) -> float:
+    """How long a stick stays where a stroke has brought it."""
+    if isinstance(hit, Twirl):
+        return TWIRL_S
+    return min(GRIP_S, 0.5 * after_s) if isinstance(hit, Grip) else min(CONTACT_S, CONTACT_SHARE * after_s)
 
 
 def _lift(hit: DrumHit, room_s: float) -> float:
@@ -284,17 +308,28 @@ def _through(hit: DrumHit) -> float:
 
 
 def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) -> Station:
+    if isinstance(hit, Twirl):
+        return _placed(twirl(side))
     zone = places[hit.piece, hit.zone]
-    heading = _heading(zone.position, side)
     if isinstance(hit, Grip):
-        return _grip(hit, zone, heading, swings)
-    across = np.cross(UP, heading)  # to the stick's left
-    across = across - zone.normal * float(across @ zone.normal)
-    across = across / np.linalg.norm(across)
+        return _placed(choke(zone, side), swings.index(hit.piece), zone.pivot)
+    placing: Placing | None = None
+    if hit.technique == "cross_stick":
+        placing = cross_stick(places, hit.piece, side)
+        if placing is not None:
+            return _placed(placing, -1, zone.pivot)
+    if hit.technique == "rim_shot":
+        head = places[hit.piece, "centre"]
+        apart = min(APART_M, APART_SHARE * head.radius) * (1.0 if side else -1.0)
+        point = head.position + apart * _left_of(_heading(head.position, side), head.normal)
+        placing = rim_shot(places, hit.piece, point, side)
+        if placing is not None:
+            return _placed(placing, -1, zone.pivot)
+    heading = _heading(zone.position, side)
     apart = min(APART_M, APART_SHARE * zone.radius) * (1.0 if side else -1.0)
     through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
     return Station(
-        zone.position + apart * across,
+        zone.position + apart * _left_of(heading, zone.normal),
         zone.normal,
         heading,
         through,
@@ -304,14 +339,23 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
     )
 
 
-def _grip(hit: Grip, zone: ZonePlace, heading: FloatArray, swings: Sequence[str]) -> Station:
-    """The hand is at the edge, and the stick beside the cymbal, along its edge."""
-    along = np.cross(UP, zone.outward)
-    along = along if float(along @ heading) > 0.0 else -along
-    stick = along * np.cos(CONTACT_RAD) - UP * np.sin(CONTACT_RAD)
+def _placed(placing: Placing, swings: int = -1, pivot: FloatArray | None = None) -> Station:
     return Station(
-        zone.position + GRIP_M * stick, UP, along, np.zeros(3), swings.index(hit.piece), zone.pivot
+        placing.point,
+        placing.normal,
+        placing.heading,
+        np.zeros(3),
+        swings,
+        placing.point if pivot is None else pivot,
+        placing=placing,
     )
+
+
+def _left_of(heading: FloatArray, normal: FloatArray) -> FloatArray:
+    """To the stick's left, in the plane of what it strikes (3,)."""
+    across = np.cross(UP, heading)
+    across = across - normal * float(across @ normal)
+    return across / np.linalg.norm(across)
 
 
 def _heading(point: FloatArray, side: int) -> FloatArray:

@@ -1,0 +1,98 @@
+"""What hands do with their sticks, as a table: fingers, and where the stick is in the hand."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reina.instruments.drums.motion.hand_shapes import HAND_SHAPES, PLAY
+from reina.rotations import rotate, same_hemisphere, slerp
+from reina.skeleton import GripKey
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from reina.rotations.arrays import FloatArray, IntArray
+    from reina.skeleton import Hold, Rig
+
+ROWS = 512
+"""So many rows of the table each shape has: no step between two of them can be seen."""
+
+
+class HandGrips:
+    """The hold's grips of both hands, ready to be looked up.
+
+    A hold without grips leaves the hands as they are in its pose.
+
+    Args:
+        rig: The player's rig.
+        hold: How the player holds the sticks.
+        sticks: The names of the left and the right stick's skeletons.
+        tips: Where their tips are, in their own frames, ``(2, 3)``, metres.
+
+    Attributes:
+        fingers: The joints that grips turn, the left hand's and then the right's, ``(2N,)``.
+        turned: Their local rotations, rest included, ``(R, 2, N, 4)``: each row of the table, each hand.
+        places: Where the sticks are in the hands, ``(R, 2, 3)``, metres.
+        rotations: How they lie there, ``(R, 2, 4)``.
+        points: What is to be at its place, in the hands' frames, ``(R, 2, 3)``, metres.
+        faces: Of each of `HAND_SHAPES` the ways along what the hands touch and out of it, ``(S, 2, 2, 3)``.
+    """
+
+    def __init__(self, rig: Rig, hold: Hold, sticks: Sequence[str], tips: FloatArray) -> None:
+        rest = rig.skeleton.rest_rotations
+        attached = [hold.attachments[name] for name in sticks]
+        names = sorted({joint for keys in hold.grips.values() for joint in keys[0].pose})
+        names.sort(key=lambda name: (not name.startswith("left"), name))
+        self.fingers: IntArray = np.array([rig.skeleton.index(name) for name in names], dtype=np.intp)
+        closed = GripKey(
+            0.0,
+            {},
+            dict(hold.attachments),
+            {
+                name: one.position + rotate(one.rotation, tip)
+                for name, one, tip in zip(sticks, attached, tips, strict=True)
+            },
+            {},
+        )
+        turned: list[FloatArray] = []
+        sticks_at: list[FloatArray] = []
+        straight_on = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+        self.faces: FloatArray = np.tile(straight_on, (len(HAND_SHAPES), 2, 1, 1))
+        for row, name in enumerate(HAND_SHAPES):
+            keys = hold.grips.get(name) or hold.grips.get(HAND_SHAPES[PLAY], (closed,))[:1]
+            shares = np.array([key.share for key in keys])
+            at = np.linspace(0.0, 1.0, ROWS)
+            after = np.clip(np.searchsorted(shares, at, side="left"), min(1, len(keys) - 1), len(keys) - 1)
+            before = np.maximum(after - 1, 0)
+            u = ((at - shares[before]) / np.maximum(shares[after] - shares[before], 1e-9))[:, None, None]
+            posed = np.array([[key.pose[joint] for joint in names] for key in keys]).reshape(len(keys), -1, 4)
+            turned.append(same_hemisphere(slerp(posed[before], posed[after], u[..., 0]), rest[self.fingers]))
+            parts = [
+                np.stack([[_of(key, name)[part] for name in sticks] for key in keys]) for part in range(3)
+            ]
+            rotations = slerp(parts[1][before], parts[1][after], u[..., 0])
+            straight = [part[before] + (part[after] - part[before]) * u for part in (parts[0], parts[2])]
+            sticks_at.append(np.concatenate([straight[0], rotations, straight[1]], axis=-1))
+            for hand, stick in enumerate(sticks):
+                if stick in keys[-1].faces:
+                    self.faces[row, hand] = keys[-1].faces[stick]
+        self.turned: NDArray[np.float32] = (
+            np.concatenate(turned).reshape(-1, 2, len(names) // 2, 4).astype(np.float32)
+        )
+        held = np.concatenate(sticks_at)
+        self.places: FloatArray = held[..., :3]
+        self.rotations: FloatArray = held[..., 3:7]
+        self.points: FloatArray = held[..., 7:]
+
+    def rows(self, shapes: IntArray, shares: FloatArray) -> IntArray:
+        """Which rows of the table hands are in that are so far along their shapes."""
+        return shapes * ROWS + np.rint(shares * (ROWS - 1)).astype(np.intp)
+
+
+def _of(key: GripKey, stick: str) -> tuple[FloatArray, FloatArray, FloatArray]:
+    attached = key.attachments[stick]
+    return attached.position, attached.rotation, key.points[stick]
