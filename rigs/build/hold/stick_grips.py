@@ -1,8 +1,8 @@
 """What a hand does with a drumstick beside striking, as keyed poses of the fingers and of the stick.
 
 Four grips begin with the closed hand of `StickGrip` and lead on from there: ``play`` opens the back fingers
-as the stick turns about the fulcrum; ``cross_stick`` turns the stick end for end and lays the hand on a drum's
-head; ``choke`` takes a cymbal's edge between the thumb and two fingers, the stick kept by the others;
+as the stick turns about the fulcrum; ``cross_stick`` turns the stick end for end and lays the hand on a
+drum's head; ``choke`` takes a cymbal's edge between the thumb and two fingers, the stick kept by the others;
 ``twirl`` lets the stick run once round the index finger.
 """
 
@@ -257,13 +257,13 @@ class HandGrips:
             pad[2] = finger.knuckle[2]
 
             def residuals(x: Array, finger: Finger = finger, pad: Array = pad) -> Array:
-                centres, radii = finger.spheres(x, 6)
+                centres, radii = finger.spheres(x, 24)
                 over = (centres - EDGE_M * m) @ (normal * m) - radii - jaws
                 return np.r_[
                     over[-1] * MM * 2.0,
                     (finger.points(x)[3] - pad) * MM * [0.15, 0.0, 0.15],
                     np.minimum(bronze.clearance(centres) - radii + 0.0003, 0.0) * MM * 2.0,
-                    np.minimum(over[-8:] + 0.0003, 0.0) * MM * 2.0,
+                    np.minimum(over[-32:] + 0.0003, 0.0) * MM * 2.0,
                     np.minimum(stick.clearance(centres) - radii + 0.001, 0.0) * MM * 2.0,
                     (x - [0.0, -0.1, -0.3, -0.1]) * 0.8,
                     _beyond(x),
@@ -275,7 +275,7 @@ class HandGrips:
 
         def pressing(x: Array) -> Array:
             points, looking = self.thumb.points(x)
-            centres, radii = self.thumb.spheres(x, 6)
+            centres, radii = self.thumb.spheres(x, 24)
             under = -(centres - EDGE_M * m) @ (normal * m) - BRONZE_M - radii - jaws
             return np.r_[
                 under[-1] * MM * 2.0,

@@ -69,7 +69,8 @@ STILL_M: Final = 0.03
 cymbal's edge."""
 
 REGRIP: Final = 0.45
-"""A hand lets go within this part of its way to another piece, and takes its next grip in as much of the end."""
+"""A hand lets go within this part of its way to another piece, and takes its next grip within as much of
+its end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -268,6 +269,11 @@ class _Stick:
         along, out = self._along[facing], self._out[facing]
         up, level = np.sin(turned_rad)[:, None], np.cos(turned_rad)[:, None]
         along, out = along * level + out * up, out * level - along * up
+        # A hand at a cymbal's edge turns with it.
+        angles = self._tilted(facing, tilt)
+        if angles.any():
+            turn = turned(self._outward[facing], angles)
+            along, out = rotate(turn, along), rotate(turn, out)
         return tip, direction, shape, share, firm, placed, self._does[facing], along, out
 
     def _grip(
@@ -321,12 +327,16 @@ class _Stick:
 
     def _moved(self, near: IntArray, tilt: FloatArray) -> FloatArray:
         """How far the piece's swing moves the point where the tip lands, ``(F, 3)``."""
-        row = self._swings[near]
-        angles = np.where(row[:, None] >= 0, tilt[np.arange(len(near)), np.maximum(row, 0)], 0.0)
+        angles = self._tilted(near, tilt)
         if not angles.any():
             return np.zeros((len(near), 3))
         turn = turned(self._outward[near], angles)
         return rotate(turn, self._arm[near]) - self._arm[near]
+
+    def _tilted(self, near: IntArray, tilt: FloatArray) -> FloatArray:
+        """How stations' cymbals are tilted, ``(F, 2)``."""
+        row = self._swings[near]
+        return np.where(row[:, None] >= 0, tilt[np.arange(len(near)), np.maximum(row, 0)], 0.0)
 
     def _past(self, times_s: FloatArray) -> FloatArray:
         """How far a stroke goes on beyond an edge, ``(F, 3)``."""
