@@ -126,7 +126,7 @@ class DrumsBody:
             for name, side in zip(STICKS, SIDES, strict=True)
         ]
         self._grips = HandGrips(rig, engagement.hold, STICKS, np.stack(tips))
-        self._held = self._arms.seen_from(self._grips.points)
+        self._held = self._arms.seen_from(self._grips.points.reshape(-1, 2, 3)).reshape(-1, 3)
         self._facing = self._faces()
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
@@ -165,31 +165,29 @@ class DrumsBody:
         tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
         asked = sticks.direction[:, ::-1]
         directions = _from_elbows(tips, asked)
-        shapes, shares = sticks.shape[:, ::-1], sticks.share[:, ::-1]
-        rows = self._grips.rows(shapes, shares)
-        held = self._held[rows, BOTH]
-        firm, placed = sticks.firm[:, ::-1], sticks.placed[:, ::-1]
-        dorsal = yielding = None
-        if firm.any():
+        shares, hands = sticks.share[:, ::-1], sticks.hands
+        if hands is None:
+            rows, turned = self._grips.rows(BOTH * 0, shares), shares
+        else:
+            shapes, firm, placed = hands.shape[:, ::-1], hands.firm[:, ::-1], hands.placed[:, ::-1]
+            rows, turned = self._grips.rows(shapes, shares), np.where(shapes == PLAY, shares, 0.0)
             directions = _mixed(directions, asked, firm)
         # The hand is as much lower than the stick as the fingers have let it turn.
-        turned = np.where(shapes == PLAY, OPEN_RAD * shares, 0.0)[..., None]
+        turned = OPEN_RAD * turned[..., None]
         back = DORSAL - directions * np.einsum("...i,...i->...", directions, DORSAL)[..., None]
         back = back / np.sqrt(np.einsum("...i,...i->...", back, back))[..., None]
         pointing = directions * np.cos(turned) - back * np.sin(turned)
-        if placed.any():
-            along, out = sticks.along[:, ::-1], sticks.out[:, ::-1]
-            out = out - along * np.einsum("...i,...i->...", along, out)[..., None]
-            out = out / np.sqrt(np.einsum("...i,...i->...", out, out))[..., None]
-            ways = np.stack([along, out, cross(along, out)], axis=-1)
-            facing = sticks.facing[:, ::-1]
-            basis = np.matmul(ways, self._facing[facing, BOTH].swapaxes(-1, -2))
-            pointing = _mixed(pointing, basis[..., 0], placed)
-            dorsal = _mixed(np.broadcast_to(DORSAL, pointing.shape), basis[..., 1], placed)
-            firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed))
-        if firm.any():
-            yielding = 1.0 - firm
-        return _Hands(tips, pointing, rows, held, dorsal, yielding)
+        if hands is None:
+            return _Hands(tips, pointing, rows, self._held.take(rows, axis=0), None, None)
+        along, out, facing = hands.along[:, ::-1], hands.out[:, ::-1], hands.facing[:, ::-1]
+        out = out - along * np.einsum("...i,...i->...", along, out)[..., None]
+        out = out / np.sqrt(np.einsum("...i,...i->...", out, out))[..., None]
+        ways = np.stack([along, out, cross(along, out)], axis=-1)
+        basis = np.matmul(ways, self._facing[facing, BOTH].swapaxes(-1, -2))
+        pointing = _mixed(pointing, basis[..., 0], placed)
+        dorsal = _mixed(np.broadcast_to(DORSAL, pointing.shape), basis[..., 1], placed)
+        firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed))
+        return _Hands(tips, pointing, rows, self._held.take(rows, axis=0), dorsal, 1.0 - firm)
 
     def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
         """How trunk and head follow the hands, over the whole piece."""
@@ -252,12 +250,12 @@ class DrumsBody:
         rotations[:] = self._still
         rotations[:, self._body.moving] = moving
         rotations[:, joints:-2] = kit
-        rotations[:, self._grips.fingers] = self._grips.turned[asked.rows, BOTH].reshape(frames, -1, 4)
-        held = multiply(sticks.hands, self._grips.rotations[asked.rows, BOTH])
+        rotations[:, self._grips.fingers] = self._grips.turned.take(asked.rows, axis=0).reshape(frames, -1, 4)
+        held = multiply(sticks.hands, self._grips.rotations.take(asked.rows, axis=0))
         rotations[:, -2:] = held * np.where(held[..., 3:] < 0.0, -1.0, 1.0)
         roots = np.zeros((frames, 4, 3))
         roots[:, 0] = standing.hips
-        roots[:, 2:] = sticks.wrists + rotate(sticks.hands, self._grips.places[asked.rows, BOTH])
+        roots[:, 2:] = sticks.wrists + rotate(sticks.hands, self._grips.places.take(asked.rows, axis=0))
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
 
 
@@ -288,7 +286,9 @@ def _at_arms_length(tips: FloatArray, nearest_m: FloatArray) -> FloatArray:
 def _mixed(one: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
     """Unit vectors between two, ``(F, 2, 3)``."""
     result = one + (other - one) * share[..., None]
-    return result / np.sqrt(np.einsum("...i,...i->...", result, result))[..., None]
+    result = result / np.sqrt(np.einsum("...i,...i->...", result, result))[..., None]
+    # Where nothing is mixed it is the same to the last bit, whatever else is in the block.
+    return np.where(share[..., None] > 0.0, result, one)
 
 
 def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:

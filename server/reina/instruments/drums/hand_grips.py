@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray, IntArray
     from reina.skeleton import Hold, Rig
 
+BOTH = np.arange(2)
+
 ROWS = 512
 """So many rows of the table each shape has: no step between two of them can be seen."""
 
@@ -35,10 +37,11 @@ class HandGrips:
 
     Attributes:
         fingers: The joints that grips turn, the left hand's and then the right's, ``(2N,)``.
-        turned: Their local rotations, rest included, ``(R, 2, N, 4)``: each row of the table, each hand.
-        places: Where the sticks are in the hands, ``(R, 2, 3)``, metres.
-        rotations: How they lie there, ``(R, 2, 4)``.
-        points: What is to be at its place, in the hands' frames, ``(R, 2, 3)``, metres.
+        turned: Their local rotations, rest included, ``(R, N, 4)``: by turns of the left and of the
+            right hand, as all of the table's rows are.
+        places: Where the sticks are in the hands, ``(R, 3)``, metres.
+        rotations: How they lie there, ``(R, 4)``.
+        points: What is to be at its place, in the hands' frames, ``(R, 3)``, metres.
         faces: Of each of `HAND_SHAPES` the ways along what the hands touch and out of it, ``(S, 2, 2, 3)``.
     """
 
@@ -81,16 +84,16 @@ class HandGrips:
                 if stick in keys[-1].faces:
                     self.faces[row, hand] = keys[-1].faces[stick]
         self.turned: NDArray[np.float32] = (
-            np.concatenate(turned).reshape(-1, 2, len(names) // 2, 4).astype(np.float32)
+            np.concatenate(turned).reshape(-1, len(names) // 2, 4).astype(np.float32)
         )
-        held = np.concatenate(sticks_at)
+        held = np.concatenate(sticks_at).reshape(-1, 10)
         self.places: FloatArray = held[..., :3]
         self.rotations: FloatArray = held[..., 3:7]
         self.points: FloatArray = held[..., 7:]
 
     def rows(self, shapes: IntArray, shares: FloatArray) -> IntArray:
-        """Which rows of the table hands are in that are so far along their shapes."""
-        return shapes * ROWS + np.rint(shares * (ROWS - 1)).astype(np.intp)
+        """Which rows of the table both hands are in that are so far along their shapes, ``(F, 2)``."""
+        return 2 * (shapes * ROWS + np.rint(shares * (ROWS - 1)).astype(np.intp)) + BOTH
 
 
 def _of(key: GripKey, stick: str) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -88,6 +88,7 @@ def kit_places() -> KitPlaces:
             np.array(row["normal"]),
             row["radius"],
             np.array(row["pivot"]),
+            np.array(row["axis"]),
         )
         for row in rows
     )

@@ -9,12 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.unit.instruments.drums.charted import charts, hits_of, kit_places
 
-from reina.instruments.drums.drum_part import Choke
+from reina.instruments.drums.drum_part import Choke, DrumFingering
 from reina.instruments.drums.hit import DrumHit
+from reina.instruments.drums.motion.contacts import EDGE_OUT_M
+from reina.instruments.drums.motion.hand_shapes import CHOKE, OPEN_RAD, PLAY, TWIRL
 from reina.instruments.drums.motion.kit_answers import SWINGS, KitAnswers
 from reina.instruments.drums.motion.stick_paths import StickPaths, turned
-from reina.instruments.drums.motion.stick_plan import GRIP_M, REST_TIP
-from reina.rotations import rotate
+from reina.instruments.drums.motion.stick_plan import CONTACT_RAD, GRIP_M, REST_TIP, TWIRL_S
+from reina.instruments.drums.motion.twirls import plan_twirls
+from reina.rotations import conjugate, rotate
 from reina.rotations.arrays import ArrayLike, FloatArray
 from reina.skeleton import RigError
 
@@ -39,6 +42,12 @@ def sticks(hits: list[DrumHit]) -> StickPaths:
 def strokes(*at: tuple[float, float], piece: str = "snare", zone: str = "centre") -> list[DrumHit]:
     """Strokes of the right hand: onset and velocity."""
     return [DrumHit(onset, onset, piece, zone, "right_hand", velocity) for onset, velocity in at]
+
+
+def drums_of(hits: list[DrumHit]) -> DrumFingering:
+    return DrumFingering(
+        (), np.zeros(0, dtype=np.bool_), (), tuple(hits), tuple(range(len(hits))), (), "right"
+    )
 
 
 def height(hits: list[DrumHit], times: ArrayLike) -> FloatArray:
@@ -177,14 +186,85 @@ def test_a_stroke_on_a_crash_goes_through_its_edge() -> None:
     assert tip[:, 1].min() < -0.005
 
 
-def test_a_hand_that_chokes_a_cymbal_holds_its_edge() -> None:
+def test_a_hand_that_chokes_a_cymbal_holds_its_edge_on_its_own_side() -> None:
     hits = strokes((1.0, 0.9), piece="crash_left", zone="edge")
     choke = Choke(1.6, "crash_left", "left_hand")
     answers = KitAnswers(hits, [choke])
-    frames = StickPaths(hits, PLACES, answers, chokes=[choke]).evaluate(np.array([0.8, 1.6, 1.7]))
-    away = np.linalg.norm(frames.grip[:, 1] - PLACES["crash_left", "edge"].position, axis=1)
-    assert away[0] > 0.2
-    assert away[1:].max() < 0.05
+    times = np.array([0.8, 1.6, 1.7])
+    frames = StickPaths(hits, PLACES, answers, chokes=[choke]).evaluate(times)
+    zone = PLACES["crash_left", "edge"]
+    tilt = answers.tilt(times)[:, list(SWINGS).index("crash_left")]
+    back = conjugate(turned(np.tile(zone.outward, (3, 1)), tilt))
+    held = rotate(back, frames.grip[:, 1] - zone.pivot)
+    across = held - (held @ zone.axis)[:, None] * zone.axis
+    arm = zone.position - zone.pivot
+    radius = np.linalg.norm(arm - (arm @ zone.axis) * zone.axis) + EDGE_OUT_M
+    away = np.hypot(np.linalg.norm(across, axis=1) - radius, (held - arm) @ zone.axis)
+    assert away[0] > 0.15
+    assert away[1:].max() < TOUCH_M
+    assert frames.grip[1, 1, 2] < zone.pivot[2]
+    assert frames.hands is not None
+    assert (frames.hands.shape[1:, 1] == CHOKE).all()
+    assert frames.share[1:, 1] == pytest.approx(1.0)
+    assert frames.hands.placed[1:, 1] == pytest.approx(1.0)
+
+
+def test_fingers_open_as_the_stick_goes_up_and_are_closed_at_the_stroke() -> None:
+    hits = strokes((1.0, 0.9), (2.2, 0.9))
+    frames = sticks(hits).evaluate(np.array([1.0, 2.05, 2.2]))
+    assert frames.hands is None
+    assert frames.share[[0, 2], 0] == pytest.approx(0.0, abs=0.02)
+    assert frames.share[1, 0] > 0.5
+
+
+def test_a_tap_is_the_fingers_and_an_accent_the_wrists() -> None:
+    def wrist(velocity: float) -> float:
+        """Which part of how far the stick turns is not the fingers'."""
+        hits = strokes((1.0, velocity), (1.6, velocity))
+        frames = sticks(hits).evaluate(np.arange(1.1, 1.58, 0.005))
+        turned_rad = np.arcsin(frames.direction[:, 0, 1]) + CONTACT_RAD
+        top = int(turned_rad.argmax())
+        return 1.0 - OPEN_RAD * float(frames.share[top, 0]) / float(turned_rad[top])
+
+    assert wrist(0.1) < 0.35
+    assert wrist(1.0) > 0.6
+
+
+def test_sticks_are_twirled_in_rests_by_the_seed_and_never_near_a_stroke() -> None:
+    hits = [
+        DrumHit(onset, onset, "snare", "centre", limb, 0.7)
+        for onset in np.cumsum(np.tile([0.5, 0.5, 6.0], 30)).tolist()
+        for limb in ("right_hand", "left_hand")
+    ]
+    fingering = drums_of(hits)
+    ways = [plan_twirls(fingering, seed) for seed in range(8)]
+    assert len(set(map(str, ways))) > 4
+    assert str(plan_twirls(fingering, 3)) == str(ways[3])
+    onsets = np.unique([hit.onset_s for hit in hits])
+    for way in ways:
+        every = np.sort(np.concatenate([np.array(side) for side in way]))
+        assert 2 <= len(every) <= 13
+        assert np.diff(every).min() >= 16.0
+        for at in every:
+            assert at - onsets[onsets <= at].max() >= 0.9
+            assert onsets[onsets > at].min() - at - TWIRL_S >= 1.0
+
+
+def test_a_busy_hand_twirls_nothing() -> None:
+    hits = strokes(*[(0.5 * k, 0.7) for k in range(200)])
+    assert plan_twirls(drums_of(hits), 1) == ([], [])
+
+
+def test_a_twirl_is_high_over_the_kit() -> None:
+    hits = strokes((1.0, 0.7), (9.0, 0.7))
+    paths = StickPaths(hits, PLACES, KitAnswers(hits), twirls=((4.0,), ()))
+    frames = paths.evaluate(np.array([3.99, 4.0 + 0.5 * TWIRL_S, 4.01 + TWIRL_S, 9.0]))
+    assert frames.hands is not None
+    assert (frames.hands.shape[:3, 0] == TWIRL).all()
+    assert frames.share[:3, 0] == pytest.approx([0.0, 0.5, 1.0])
+    assert frames.grip[:3, 0, 1].min() > PLACES["snare", "centre"].position[1] + 0.35
+    assert frames.hands.shape[3, 0] == PLAY
+    assert (frames.hands.shape[:, 1] == PLAY).all()
 
 
 def test_two_sticks_have_room_on_one_drum() -> None:

@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from reina.instruments.drums.motion.stick_plan import Station, StickPlan
     from reina.rotations.arrays import FloatArray, IntArray
 
+    _Hand = tuple[IntArray, FloatArray, FloatArray, IntArray, FloatArray, FloatArray]
+    """Of one hand what `HandFrames` has of both."""
+
 HAND_SHARE: Final = 0.3
 """How much of the tip's height the hand goes up itself; the wrist does the rest."""
 
@@ -81,20 +84,31 @@ class StickFrames:
         tip: ``(F, 2, 3)`` metres.
         direction: ``(F, 2, 3)`` unit vectors from the hand to the tip.
         grip: ``(F, 2, 3)`` where the hands hold them.
+        share: ``(F, 2)`` how far along what each hand does with its stick it is.
+        hands: What the hands do beside playing; None where both play in all of the frames.
+    """
+
+    tip: FloatArray
+    direction: FloatArray
+    grip: FloatArray
+    share: FloatArray
+    hands: HandFrames | None
+
+
+@dataclass(frozen=True, eq=False)
+class HandFrames:
+    """What both hands do in F frames beside playing, as `StickFrames`.
+
+    Attributes:
         shape: ``(F, 2)`` of `HAND_SHAPES` what each hand does with its stick.
-        share: ``(F, 2)`` how far along it is.
-        firm: ``(F, 2)`` how far the stick lies just as `direction` says, 0 to 1.
+        firm: ``(F, 2)`` how far the stick lies just as `StickFrames.direction` says, 0 to 1.
         placed: ``(F, 2)`` how far the hand goes by `along` and `out` instead, 0 to 1.
         facing: ``(F, 2)`` of `HAND_SHAPES` what is along and out in the hand.
         along: ``(F, 2, 3)`` which way a placed hand goes along what it touches.
         out: ``(F, 2, 3)`` and out of that, across it.
     """
 
-    tip: FloatArray
-    direction: FloatArray
-    grip: FloatArray
     shape: IntArray
-    share: FloatArray
     firm: FloatArray
     placed: FloatArray
     facing: IntArray
@@ -137,22 +151,21 @@ class StickPaths:
         """Both sticks at times ``(F,)``."""
         tilt, closed = self._answers.tilt(times_s), self._answers.hi_hat(times_s)
         frames = [stick.evaluate(times_s, tilt, closed) for stick in self._sticks]
-        tip, direction, *rest = (np.stack(parts, axis=1) for parts in zip(*frames, strict=True))
-        shape, share, firm, placed, facing, along, out = rest
+        tip, direction, share = (np.stack([frame[part] for frame in frames], axis=1) for part in range(3))
+        if all(hand is None for *_, hand in frames):
+            return StickFrames(tip, direction, tip - GRIP_M * direction, share, None)
+        both = [_playing(len(times_s)) if hand is None else hand for *_, hand in frames]
+        hands = HandFrames(*(np.stack(parts, axis=1) for parts in zip(*both, strict=True)))
         # A hand that chokes holds the edge itself.
-        length = GRIP_M * (1.0 - placed * (facing == CHOKE))
-        return StickFrames(
-            tip,
-            direction,
-            tip - length[..., None] * direction,
-            shape,
-            share,
-            firm,
-            placed,
-            facing,
-            along,
-            out,
-        )
+        length = GRIP_M * (1.0 - hands.placed * (hands.facing == CHOKE))
+        return StickFrames(tip, direction, tip - length[..., None] * direction, share, hands)
+
+
+def _playing(count: int) -> _Hand:
+    """A hand that only plays, in so many frames."""
+    none, still = np.zeros(count), np.full(count, PLAY, dtype=np.intp)
+    ahead = np.tile(np.array([0.0, 0.0, 1.0]), (count, 1))
+    return still, none, none, still, ahead, np.tile(UP, (count, 1))
 
 
 def _of_hand(
@@ -196,7 +209,7 @@ class _Stick:
             for one, both in zip(placings, level, strict=True)
         ]
         self._along, self._out = (np.stack(parts) for parts in zip(*ways, strict=True))
-        self._is_plain = not (self._is_rim_shot.any() or self._does.any())
+        self._special = self._is_rim_shot | (self._does > 0)
         self._twirls = plan.twirls_s
         self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
         self._moves = plan.moves
@@ -208,8 +221,8 @@ class _Stick:
 
     def evaluate(
         self, times_s: FloatArray, tilt: FloatArray, closed: FloatArray
-    ) -> tuple[FloatArray | IntArray, ...]:
-        """Tip and direction ``(F, 3)``, and what else `StickFrames` has.
+    ) -> tuple[FloatArray, FloatArray, FloatArray, _Hand | None]:
+        """Tip and direction ``(F, 3)``, how open the hand is ``(F,)``, and what `HandFrames` has, or None.
 
         Args:
             times_s: (F,) seconds.
@@ -233,7 +246,9 @@ class _Stick:
         lifted = HAND_SHARE * self._heights(times_s + LEAD_S)
         placed = firm = np.zeros(len(times_s))
         turned_rad = 0.0
-        if not self._is_plain:
+        is_special = self._special[station] | self._special[after]
+        is_plain = not is_special.any()
+        if not is_plain:
             placed = (self._does[station] > 0) * (1.0 - done) + (self._does[after] > 0) * done
             rim = self._is_rim_shot[station] * (1.0 - done) + self._is_rim_shot[after] * done
             firm = rim * np.maximum(1.0 - height / LEVEL_M, 0.0)
@@ -255,9 +270,8 @@ class _Stick:
         # Fingers let the stick turn at once, and the wrist what is more.
         risen = np.maximum(np.arcsin(sine) + np.arcsin(slope), 0.0)
         share = (1.0 - np.exp(risen * (-FINGERS_FIRST / FINGERS_RAD))) * (FINGERS_RAD / OPEN_RAD)
-        if self._is_plain:
-            still = np.zeros(len(times_s), dtype=np.intp)
-            return tip, direction, still, share, firm, placed, still, direction, normal
+        if is_plain:
+            return tip, direction, share, None
         shape, share = self._grip(times_s, station, after, done, share, height)
         facing = np.where(
             (self._does[after] > 0) & ((self._does[station] == 0) | (done > 0.5)), after, station
@@ -274,7 +288,7 @@ class _Stick:
         if angles.any():
             turn = turned(self._outward[facing], angles)
             along, out = rotate(turn, along), rotate(turn, out)
-        return tip, direction, shape, share, firm, placed, self._does[facing], along, out
+        return tip, direction, share, (shape, firm, placed, self._does[facing], along, out)
 
     def _grip(
         self,
