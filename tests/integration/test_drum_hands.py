@@ -221,3 +221,11 @@ def test_fingers_stay_with_the_stick_as_it_turns_in_the_hand(drummed: Drummed, s
         )
         assert gaps.min() >= -PAD_M, f"{finger}: {1000 * gaps.min():.1f} mm"
         assert gaps.max() <= PAD_M, f"{finger}: {1000 * gaps.max():.1f} mm"
+
+
+def test_a_frame_of_any_grip_is_the_same_by_seek_and_by_play(drummed: Drummed) -> None:
+    whole = drummed.frames
+    for second in range(0, int(drummed.end_s), 3):
+        one = drummed.take(second + 0.5, second + 0.8)
+        first = round((second + 0.5) * 60)
+        np.testing.assert_array_equal(one.raw[:, 24:], whole.raw[first : first + len(one.raw), 24:])

@@ -62,6 +62,9 @@ FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
 DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
 
+YIELDING_POWER = 4
+"""How fast a wrist no longer gives way as its hand comes to where it is placed."""
+
 SEATED, SWAYING = 0.35, ("sway_side", "sway_fore", "sway_turn", "lean", "turn")
 """How much of what turns a standing player's hips is left."""
 PLANNED_HZ = 10.0
@@ -186,7 +189,8 @@ class DrumsBody:
         basis = np.matmul(ways, self._facing[facing, BOTH].swapaxes(-1, -2))
         pointing = _mixed(pointing, basis[..., 0], placed)
         dorsal = _mixed(np.broadcast_to(DORSAL, pointing.shape), basis[..., 1], placed)
-        firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed))
+        # On its way a hand that is placed still gives way.
+        firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed**YIELDING_POWER))
         return _Hands(tips, pointing, rows, self._held.take(rows, axis=0), dorsal, 1.0 - firm)
 
     def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:

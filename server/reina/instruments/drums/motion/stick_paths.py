@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.hit import HANDS
-from reina.instruments.drums.motion.hand_shapes import CHOKE, JAWS_SHARE, OPEN_RAD, PLAY, TWIRL
+from reina.instruments.drums.motion.hand_shapes import CHOKE, CROSS_STICK, JAWS_SHARE, OPEN_RAD, PLAY, TWIRL
 from reina.instruments.drums.motion.kit_answers import SWINGS
 from reina.instruments.drums.motion.kit_places import UP
 from reina.instruments.drums.motion.stick_plan import (
@@ -71,9 +71,19 @@ STILL_M: Final = 0.03
 """So near to the surface the hand does not go up or down by itself in a rim shot, and fingers close on a
 cymbal's edge."""
 
-REGRIP: Final = 0.45
-"""A hand lets go within this part of its way to another piece, and takes its next grip within as much of
-its end."""
+BENEATH_M: Final = np.array([0.12, -0.05, -0.20])
+"""It comes to the head, and goes from it, beneath the other arm: so far from the straight way at its middle;
+on the player's left."""
+
+OVER_HEAD_M: Final = 0.075
+"""A stick that is turned end for end on its way from a head goes up so far to be clear of it."""
+
+EARLIER: Final = 0.15
+LATER: Final = 0.85
+"""In which part of the time between two pieces a hand goes over from playing to a cross-stick, and back."""
+
+TURNED: Final = 0.6
+"""And for how much of it the stick is turned end for end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,6 +219,8 @@ class _Stick:
             for one, both in zip(placings, level, strict=True)
         ]
         self._along, self._out = (np.stack(parts) for parts in zip(*ways, strict=True))
+        own_side = 1.0 if stations[0].heading[0] < 0.0 else -1.0
+        self._beneath = BENEATH_M * (own_side, 1.0, 1.0)
         self._special = self._is_rim_shot | (self._does > 0)
         self._twirls = plan.twirls_s
         self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
@@ -229,7 +241,7 @@ class _Stick:
             tilt: (F, C, 2) the cymbals'.
             closed: (F,) how far the hi-hat is closed.
         """
-        station, done = self._where(times_s)
+        station, done, part = self._where(times_s)
         after = np.minimum(station + 1, len(self._point) - 1)
         blend = done[:, None]
         height = self._heights(times_s)
@@ -257,6 +269,12 @@ class _Stick:
             lever = self._lever[station] * (1.0 - done) + self._lever[after] * done
             lifts = np.minimum(height, CROSS_STICK_LIFT_M) * np.minimum(lever / 0.1, 1.0)
             height = height - lifts
+            is_other = self._does[station] != self._does[after]
+            leaves, comes = (is_other & (self._lever[one] > 0.0) for one in (station, after))
+            height = height + leaves * (4.0 * OVER_HEAD_M * done * (1.0 - done))
+            # Most of the bow is where the head is.
+            bow = 6.75 * done * (1.0 - done) * (leaves * (1.0 - done) + comes * done)
+            point = point + bow[:, None] * self._beneath
             turned_rad = lifts / np.maximum(lever, 0.1)
         tip = point + height[:, None] * normal
         tip = tip + close * self._moved(near, tilt) + close * closed[:, None] * self._drop[near]
@@ -272,7 +290,7 @@ class _Stick:
         share = (1.0 - np.exp(risen * (-FINGERS_FIRST / FINGERS_RAD))) * (FINGERS_RAD / OPEN_RAD)
         if is_plain:
             return tip, direction, share, None
-        shape, share = self._grip(times_s, station, after, done, share, height)
+        shape, share = self._grip(times_s, station, after, part, share, height)
         facing = np.where(
             (self._does[after] > 0) & ((self._does[station] == 0) | (done > 0.5)), after, station
         )
@@ -295,15 +313,20 @@ class _Stick:
         times_s: FloatArray,
         station: IntArray,
         after: IntArray,
-        done: FloatArray,
+        part: FloatArray,
         open_: FloatArray,
         height: FloatArray,
     ) -> tuple[IntArray, FloatArray]:
         """What the hand does with the stick, and how far along it is, ``(F,)`` each."""
         before, next_ = self._does[station], self._does[after]
-        kept = np.where(done < 0.5, REGRIP - done, done - 1.0 + REGRIP) / REGRIP
-        kept = np.where(before == next_, 1.0, minimum_jerk(np.clip(kept, 0.0, 1.0)))
-        shape = np.where(done < 0.5, before, next_)
+        # A stick is turned end for end away from the head, where there is most room for it.
+        free = np.where(before == CROSS_STICK, LATER, np.where(next_ == CROSS_STICK, EARLIER, 0.5))
+        span = np.where(
+            (before == CROSS_STICK) == (part < free), TURNED, np.where(part < free, free, 1.0 - free)
+        )
+        kept = minimum_jerk(np.minimum(np.abs(part - free) / span, 1.0))
+        kept = np.where(before == next_, 1.0, kept)
+        shape = np.where(part < free, before, next_)
         held = np.maximum(1.0 - height / STILL_M, 0.0)
         share = kept * np.where(shape == PLAY, open_, 1.0)
         share = np.where(shape == CHOKE, kept * (JAWS_SHARE + (1.0 - JAWS_SHARE) * held), share)
@@ -313,15 +336,15 @@ class _Stick:
             share = np.where(shape == TWIRL, run, share)
         return shape, share
 
-    def _where(self, times_s: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Which station the stick is at or leaves, and how far it is on its way to the next."""
+    def _where(self, times_s: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Which station the stick is at or leaves, how far it is on its way to the next, and in its time."""
         if not len(self._moves):
-            return np.zeros(len(times_s), dtype=np.intp), np.zeros(len(times_s))
+            return np.zeros(len(times_s), dtype=np.intp), np.zeros(len(times_s)), np.zeros(len(times_s))
         move = np.searchsorted(self._moves[:, 0], times_s, side="right") - 1
         known = np.maximum(move, 0)
         start, end = self._moves[known, 0], self._moves[known, 1]
-        done = minimum_jerk((times_s - start) / np.maximum(end - start, 1e-9))
-        return np.maximum(move, 0), np.where(move >= 0, done, 0.0)
+        part = np.where(move >= 0, (times_s - start) / np.maximum(end - start, 1e-9), 0.0)
+        return np.maximum(move, 0), minimum_jerk(part), part
 
     def _heights(self, times_s: FloatArray) -> FloatArray:
         """How high the tip is above where it lands, metres."""

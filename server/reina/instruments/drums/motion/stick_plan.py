@@ -46,6 +46,12 @@ LIFT_M: Final = (0.035, 0.40)
 
 LIFT_POWER: Final = 1.5
 
+LOW_M: Final = 0.07
+"""A hand comes to a cross-stick no higher than this: the other arm may be over the drum."""
+
+LOW_AFTER: Final = 0.4
+"""It comes down to that after this part of its way."""
+
 CROSS_STICK_LIFT_M: Final = 0.05
 """The tip stays on the head; so high over the hoop is the shaft lifted."""
 
@@ -226,6 +232,9 @@ class _PlanMaker:
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
             lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
+        high = lift
+        if hit.technique == "cross_stick":
+            lift = min(lift, LOW_M)
         if before is None or gap >= REST_S:
             fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
         elif room > LONG_S:
@@ -233,7 +242,11 @@ class _PlanMaker:
         else:
             fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
             self.moves.append((self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room))
-            self.heights.append((self._free_s, fall_s, lift, RISE))
+            begin_s = self._free_s
+            if high > lift:
+                begin_s = self._free_s + LOW_AFTER * (fall_s - self._free_s)
+                self.heights.append((self._free_s, begin_s, 0.5 * (lift + high), RISE))
+            self.heights.append((begin_s, fall_s, lift, GLIDE if high > lift else RISE))
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
         self._free_s = hit.onset_s + _held_s(hit, after_s)
