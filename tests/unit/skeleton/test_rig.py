@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reina.skeleton import RigError, load_hold, load_rig, read_rig
+from reina.skeleton import RigError, load_hold, load_rig, read_hold, read_rig
 from reina.skeleton.document import Node
 
 HALF = [0.0, 0.0, 0.70710678, 0.70710678]
@@ -186,6 +186,30 @@ def test_rigs_and_holds_load_from_a_folder(tmp_path: Path) -> None:
     (tmp_path / "rig.json").write_text("[]")
     with pytest.raises(RigError, match="here belongs an object, not a list"):
         load_rig(tmp_path)
+
+
+def grip_keys(*shares: float) -> dict[str, object]:
+    """A hold with one grip, whose first key turns b and whose others turn nothing more."""
+    keys = [
+        {"share": share, "pose": {}, "attachments": {}, "points": {"stick": [0, share, 0]}}
+        for share in shares
+    ]
+    keys[0]["pose"] = {"b": HALF}
+    pose = {"position": [0, 0, 0], "rotation": [0, 0, 0, 1]}
+    return {"instrument": "x", "player": "y", "pose": {}, "instrument_pose": pose, "grips": {"hook": keys}}
+
+
+def test_a_joint_that_a_grips_key_leaves_out_is_as_in_the_key_before() -> None:
+    keys = read_hold(Node(grip_keys(0.0, 0.4, 1.0))).grips["hook"]
+    assert [key.share for key in keys] == [0.0, 0.4, 1.0]
+    assert all(key.pose["b"] == pytest.approx(HALF) for key in keys)
+    assert keys[1].points["stick"].tolist() == [0, 0.4, 0]
+
+
+@pytest.mark.parametrize("shares", [(0.0,), (0.1, 1.0), (0.0, 0.5, 0.5, 1.0), (0.0, 0.9)])
+def test_the_keys_of_a_grip_go_from_none_of_it_to_all(shares: tuple[float, ...]) -> None:
+    with pytest.raises(RigError, match="begin at 0 and grow to 1"):
+        read_hold(Node(grip_keys(*shares)))
 
 
 @pytest.mark.parametrize("name", ["trumpeter", "trumpet"])
