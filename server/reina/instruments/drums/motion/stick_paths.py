@@ -161,11 +161,20 @@ class StickPaths:
         """Both sticks at times ``(F,)``."""
         tilt, closed = self._answers.tilt(times_s), self._answers.hi_hat(times_s)
         frames = [stick.evaluate(times_s, tilt, closed) for stick in self._sticks]
-        tip, direction, share = (np.stack([frame[part] for frame in frames], axis=1) for part in range(3))
+        tip = np.stack([frame[0] for frame in frames], axis=1)
+        direction = np.stack([frame[1] for frame in frames], axis=1)
+        share = np.stack([frame[2] for frame in frames], axis=1)
         if all(hand is None for *_, hand in frames):
             return StickFrames(tip, direction, tip - GRIP_M * direction, share, None)
         both = [_playing(len(times_s)) if hand is None else hand for *_, hand in frames]
-        hands = HandFrames(*(np.stack(parts, axis=1) for parts in zip(*both, strict=True)))
+        hands = HandFrames(
+            shape=np.stack([hand[0] for hand in both], axis=1),
+            firm=np.stack([hand[1] for hand in both], axis=1),
+            placed=np.stack([hand[2] for hand in both], axis=1),
+            facing=np.stack([hand[3] for hand in both], axis=1),
+            along=np.stack([hand[4] for hand in both], axis=1),
+            out=np.stack([hand[5] for hand in both], axis=1),
+        )
         # A hand that chokes holds the edge itself.
         length = GRIP_M * (1.0 - hands.placed * (hands.facing == CHOKE))
         return StickFrames(tip, direction, tip - length[..., None] * direction, share, hands)
