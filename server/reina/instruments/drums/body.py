@@ -160,7 +160,7 @@ class DrumsBody:
         along, out = self._grips.faces[..., 0, :], self._grips.faces[..., 1, :]
         out = out - along * (along * out).sum(axis=-1, keepdims=True)
         out = out / np.linalg.norm(out, axis=-1, keepdims=True)
-        ways = (along, out, np.cross(along, out))
+        ways = (along, out, cross(along, out))
         return np.stack([self._arms.in_basis(way) for way in ways], axis=-1)
 
     def _hands(self, sticks: StickFrames) -> _Hands:
@@ -172,9 +172,9 @@ class DrumsBody:
         if hands is None:
             rows, turned = self._grips.rows(BOTH * 0, shares), shares
         else:
-            shapes, firm, placed = hands.shape[:, ::-1], hands.firm[:, ::-1], hands.placed[:, ::-1]
+            shapes = hands.shape[:, ::-1]
             rows, turned = self._grips.rows(shapes, shares), np.where(shapes == PLAY, shares, 0.0)
-            directions = _mixed(directions, asked, firm)
+            directions = _mixed(directions, asked, hands.firm[:, ::-1])
         # The hand is as much lower than the stick as the fingers have let it turn.
         turned = OPEN_RAD * turned[..., None]
         back = DORSAL - directions * np.einsum("...i,...i->...", directions, DORSAL)[..., None]
@@ -183,6 +183,7 @@ class DrumsBody:
         if hands is None:
             return _Hands(tips, pointing, rows, self._held.take(rows, axis=0), None, None)
         along, out, facing = hands.along[:, ::-1], hands.out[:, ::-1], hands.facing[:, ::-1]
+        firm, placed = hands.firm[:, ::-1], hands.placed[:, ::-1]
         out = out - along * np.einsum("...i,...i->...", along, out)[..., None]
         out = out / np.sqrt(np.einsum("...i,...i->...", out, out))[..., None]
         ways = np.stack([along, out, cross(along, out)], axis=-1)
