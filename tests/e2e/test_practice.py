@@ -35,8 +35,9 @@ WHEN = """() => {
       return start.call(this, when, ...rest);
     };
     kind.prototype.stop = function (when) {
-      const early = when === undefined && this.begins > this.context.currentTime;
-      if (early) times.splice(times.indexOf(this.begins), 1);
+      // What is to end before it begins is never heard, as what a voice that is started anew had planned.
+      const unheard = (when ?? this.context.currentTime) <= this.begins;
+      if (unheard && times.includes(this.begins)) times.splice(times.indexOf(this.begins), 1);
       return stop.call(this, when);
     };
   };

@@ -30,6 +30,7 @@ import {
   AS_WRITTEN,
   besideEachOther,
   isAsWritten,
+  AnotherSoundError,
   loadSegment,
   Metronome,
   loadWhole,
@@ -712,7 +713,7 @@ export class SessionView {
   #segmented(songs: readonly SongState[], signal: AbortSignal): SegmentedSong {
     const { api } = this.#surroundings;
     const segments = songs.flatMap((song) => song.segments ?? []);
-    const [first] = segments;
+    const [[known], [first]] = [songs, segments];
     if (first === undefined) throw new RangeError("the song has no segments");
     return new SegmentedSong({
       duration: first.song_s,
@@ -728,6 +729,9 @@ export class SessionView {
         if (error instanceof DOMException) {
           // Safari before 18.4 does not decode Ogg Opus; the whole is FLAC.
           this.#takeWhole(songs, signal).catch((reason: unknown) => this.#notHeard(reason, this.#hearing, signal));
+        } else if (error instanceof AnotherSoundError && known !== undefined) {
+          // Where the news of it has not come yet, it is asked for.
+          void this.#takeSong({ ...known, status: "rendering", segments: null }, true, signal);
         } else this.#notHeard(error, this.#hearing, signal);
       },
     });
