@@ -28,8 +28,12 @@ MAX_FIRST_BYTES = 3_000_000
 
 def held_back(route: Route) -> None:
     """Answer that a segment is not rendered yet."""
+    href = urlsplit(route.request.url).path.rpartition("/")[0]
+    segments = {"href": href, "media_type": "audio/ogg", "count": 9, "segment_s": 10.0, "overlap_s": 0.1}
     song = {"href": "", "status": "rendering", "source": "rendered", "media_type": "audio/flac"}
-    route.fulfill(status=202, json={**song, "progress": 0.25, "segments": None})
+    route.fulfill(
+        status=202, json={**song, "progress": 0.25, "segments": {**segments, "song_s": NOTES * 30 / BPM}}
+    )
 
 
 def test_the_sound_is_heard_from_where_it_is_rendered(
