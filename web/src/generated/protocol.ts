@@ -885,6 +885,8 @@ export interface InstrumentSummary {
   clef: "treble" | "bass"
   /** How many it has. */
   valves: number
+  /** What of it is struck, by name, as the drums of a kit; empty where it is not struck. */
+  pieces: string[]
   /** Every note that it has, from the lowest up. */
   chart: ChartLine[]
 }
