@@ -36,17 +36,17 @@ const DRUMMER: readonly [FramedView, FramedView] = [
  */
 const AT_KIT: Readonly<Record<string, readonly FramedView[]>> = {
   whole_figure: [
-    { position: [1.9, 1.55, 3.6], target: [0, 0.82, 0.35], fov: 0.5 },
+    { position: [1.9, 1.55, 3.6], target: [-0.1, 0.72, 0.35], fov: 0.56 },
     { position: [0.8, 2.6, 3.5], target: [0, 0.8, 0.3], fov: 0.56 },
   ],
   three_quarter: DRUMMER,
-  face: [{ position: [-0.24, 1.45, 1.85], target: [0, 1.25, 0.13], fov: 0.22 }],
+  face: [{ position: [-0.2, 1.43, 1.62], target: [0, 1.25, 0.13], fov: 0.25 }],
   player: [{ position: [0, 1.32, 0.16], target: [-0.05, 0.7, 0.66], fov: 1 }],
 };
 
 /** How near to a camera's line of sight somebody stands in the way, and how high people are, metres. */
 const IN_THE_WAY = 0.5;
-const TALL = 1.8;
+const TALL = 2.1;
 
 /**
  * The view of that name of who sits at a kit; null where a drummer has no other than everybody.
