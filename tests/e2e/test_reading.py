@@ -94,7 +94,7 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
     opened = visit(size=PHONE, touch=True).open_files(("sung.mid", "audio/midi", sung()))
     page, path = opened.page, f"/api/v1/sessions/{opened.session}"
     notice = page.locator(".notice")
-    notice.get_by_text("No trumpet in this file: she plays Vocals").wait_for()
+    notice.get_by_text("No trumpet in this file: the player plays Vocals").wait_for()
     told = {one["kind"]: one["text"] for one in client.get(path).json()["findings"]}
     assert told["chord_note_dropped"] == "Plays the top note of 3 chords"
     assert told["not_playable"] == "Leaves out 2 notes below the trumpet's range"

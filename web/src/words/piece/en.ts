@@ -53,7 +53,7 @@ export const piece = words("piece", {
   metre: "Metre",
   metreChanging: filled("{upper}/{lower}, changing"),
   noteNames: "Note names",
-  namesWritten: "Note names: written, for the trumpet",
+  namesWritten: "Note names: as written",
   namesSounding: "Note names: sounding",
   written: "Written",
   sounding: "Sounding",
