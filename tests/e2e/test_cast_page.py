@@ -152,7 +152,7 @@ def test_who_plays_what_is_changed_in_the_panel_and_reaches_who_watches(
     page.get_by_text("−1", exact=True).wait_for()
     assert duet.castings()[1]["transposition"] == -1
 
-    parts = page.get_by_role("group", name="Part the flugelhorn plays")
+    parts = page.get_by_role("group", name="Part for the flugelhorn")
     parts.locator("label:has(input[type=radio])", has_text="Trumpet 1").click()
     refused = parts.get_by_role("alert")
     refused.wait_for()
