@@ -40,7 +40,7 @@ const AT_KIT: Readonly<Record<string, readonly FramedView[]>> = {
     { position: [0.8, 2.6, 3.5], target: [0, 0.8, 0.3], fov: 0.56 },
   ],
   three_quarter: DRUMMER,
-  face: [{ position: [-0.2, 1.43, 1.62], target: [0, 1.25, 0.13], fov: 0.25 }],
+  face: [{ position: [-0.2, 1.43, 1.62], target: [0, 1.24, 0.13], fov: 0.28 }],
   player: [{ position: [0, 1.32, 0.16], target: [-0.05, 0.7, 0.66], fov: 1 }],
 };
 

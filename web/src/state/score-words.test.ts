@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { LyricLine } from "../generated/protocol";
-import { lyricLineAt, placeWords, sungSyllables, withoutHands } from "./score-words";
+import { lyricLineAt, placeWords, sungLines, sungSyllables, withoutHands } from "./score-words";
 
 function line(start_s: number, end_s: number, ...texts: string[]): LyricLine {
   return { start_s, end_s, syllables: texts.map((text, number) => ({ onset_s: start_s + number, text })) };
@@ -41,6 +41,8 @@ describe("withoutHands", () => {
     ];
     const texts = [word(1.001, "R"), word(2, " l "), word(2, "rit."), word(2.5, "L"), word(3, "R"), word(4, "D")];
     expect(withoutHands(texts, notes).map(({ text }) => text)).toEqual(["rit.", "L", "R", "D"]);
+    const [hands, sung] = [line(1, 3, "R ", "L"), line(1, 3, "R ", "ain")];
+    expect(sungLines([hands, sung], notes)).toEqual([sung]);
   });
 });
 

@@ -39,6 +39,14 @@ export function withoutHands<Word extends { readonly onset_s: number; readonly t
   return texts.filter(({ onset_s, text }) => !HAND.test(text.trim()) || !isAtStroke(onset_s));
 }
 
+/** The lines that are sung: those of hands at strokes are none. */
+export function sungLines(
+  lines: readonly LyricLine[],
+  notes: Parameters<typeof withoutHands>[1],
+): readonly LyricLine[] {
+  return lines.filter(({ syllables }) => withoutHands(syllables, notes).length > 0);
+}
+
 /** The line that is sung, or will be within seconds; null between. */
 export function lyricLineAt(lines: readonly LyricLine[], time: number): LyricLine | null {
   const following = lines.findIndex(({ start_s }) => start_s > time);
