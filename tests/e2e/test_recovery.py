@@ -53,7 +53,7 @@ def test_a_session_that_ends_says_so_and_offers_a_way_on(visit: Visit, client: h
 def test_the_keyboard_chooses_a_part(visit: Visit, client: httpx.Client) -> None:
     opened = visit(size=(1100, 620)).open_files(*DUET)
     opened.page.keyboard.press("p")
-    parts = opened.page.get_by_role("group", name="Part the trumpet plays")
+    parts = opened.page.get_by_role("group", name="Part for the trumpet")
     chosen = parts.get_by_role("radio", checked=True)
     chosen.focus()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 1

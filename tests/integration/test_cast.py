@@ -140,6 +140,11 @@ def test_a_show_moves_each_player_and_keeps_what_a_smaller_cast_has_not(pair: Ow
         ([{"part": 1}, {"part": 7}], "castings/1/part", "there are 0 to 1"),
         ([{"part": 1}, {"part": 1}], "castings/1/part", "part 1 is played by another player already"),
         ([{"seat": "left"}, {"seat": "left"}], "castings/1/seat", "taken already"),
+        (
+            [{"instrument": "drums"}, {"instrument": "drums"}],
+            "castings/1/instrument",
+            "one drum kit on the stage",
+        ),
     ],
 )
 def test_a_cast_that_cannot_play_is_refused_with_its_place(

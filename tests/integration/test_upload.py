@@ -56,7 +56,7 @@ def test_the_api_and_inspect_tell_a_musician_the_same(
     session = upload(client, sung(), "sung.mid")
     findings = session.body["findings"]
     assert [one["text"] for one in findings] == [
-        "No trumpet in this file: she plays Vocals",
+        "No trumpet in this file: the player plays Vocals",
         "2 of 11 notes lie outside the trumpet's range; an octave up, none would",
         "Plays the top note of 3 chords",
         "Leaves out 2 notes below the trumpet's range",

@@ -42,7 +42,7 @@ class Instrument(ABC):
     pieces: tuple[str, ...] = ()
     """What of it can be struck, by name, as the drums of a kit; empty where it is not struck."""
     seat: str | None = None
-    """Where it stands by itself, whoever else plays; None where it stands with the others."""
+    """Where it stands by itself, one of it, whoever else plays; None where it stands with the others."""
     show_parameters: tuple[Parameter, ...] = ()
     """What a show may choose of it; the paths begin with ``player/``."""
 

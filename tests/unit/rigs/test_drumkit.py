@@ -66,6 +66,15 @@ def test_the_kit_has_every_piece_and_zone(kit: Rig) -> None:
     assert set(kit.zones) == ZONES
 
 
+def test_notes_come_to_it_over_the_toms_and_before_the_bass_drum() -> None:
+    contacts = {item["name"]: item["offset"] for item in read_rig("drumkit")["contacts"]}
+    shells = {item["piece"]: item for item in read_rig("drumkit")["cylinders"] if item["joint"] == "kit"}
+    toms = [shells[f"tom_{name}"]["from"] for name in ("high", "mid")]
+    assert contacts["lane"][1] > max(tom[1] for tom in toms) + 0.2
+    assert min(tom[0] for tom in toms) < contacts["lane"][0] < max(tom[0] for tom in toms)
+    np.testing.assert_allclose(contacts["lane_kick"], shells["kick"]["to"], atol=1e-6)
+
+
 def test_a_zone_that_is_not_there_is_named_with_those_that_are(kit: Rig) -> None:
     with pytest.raises(RigError, match=r"no zone 'bell' of 'snare'.*snare rim"):
         kit.zone("snare", "bell")

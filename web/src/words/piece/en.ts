@@ -3,7 +3,7 @@ import { counted, filled, words } from "../words";
 /** Who plays which part, and how it is played. */
 export const piece = words("piece", {
   notes: counted({ one: "{count} note", other: "{count} notes" }),
-  partOf: filled("Part the {instrument} plays"),
+  partOf: filled("Part for the {instrument}"),
   alsoPlays: filled("{part} also plays"),
   othersToo: "Play other parts too",
   othersMeans: "For music of one player that the file spreads over several parts",
@@ -53,7 +53,7 @@ export const piece = words("piece", {
   metre: "Metre",
   metreChanging: filled("{upper}/{lower}, changing"),
   noteNames: "Note names",
-  namesWritten: "Note names: written, for the trumpet",
+  namesWritten: "Note names: as written",
   namesSounding: "Note names: sounding",
   written: "Written",
   sounding: "Sounding",
