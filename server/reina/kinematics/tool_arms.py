@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import ArrayLike, FloatArray
 
 ROUNDS = 4
-"""How often wrist and tool are balanced; fixed, so that a pose is a function of its target alone."""
+"""How often wrist and tool are balanced at most; fixed, so that a pose is a function of its target alone."""
 
 GAIN = 0.75
 """How much of what a wrist is bent too far is taken back in a round."""
