@@ -119,10 +119,8 @@ class _Strokes:
         self._at: FloatArray = np.concatenate([part for at in at_s for part in ([-np.inf], at, [np.inf])])
         loud = [part for row in rows for part in ([0.0], [hit.velocity for hit in row], [0.0])]
         gaps = [np.diff(at, prepend=-np.inf, append=np.inf) for at in at_s]
-        before, after = (
-            np.concatenate([part for gap in gaps for part in ([np.inf], own(gap), [np.inf])])
-            for own in (lambda gap: gap[:-1], lambda gap: gap[1:])
-        )
+        before = np.concatenate([part for gap in gaps for part in ([np.inf], gap[:-1], [np.inf])])
+        after = np.concatenate([part for gap in gaps for part in ([np.inf], gap[1:], [np.inf])])
         self._lands: FloatArray = self._at - np.minimum(EARLY_S, 0.3 * before)
         self._swing: FloatArray = np.minimum(SWING_S, SHARE * before)
         self._leaves: FloatArray = self._at + np.minimum(CONTACT_S, 0.1 * after)
