@@ -51,7 +51,7 @@ from reina.show import ShowPlan
 from reina.skeleton import load_hold, load_rig
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator
 
     from reina.kinematics.tool_arms import ToolPose
     from reina.kinematics.two_bone import LimbPose
@@ -122,7 +122,7 @@ def parts(evaluate: Callable[[int], object], blocks: int, repetitions: int) -> N
 
 
 @contextmanager
-def _timed(owner: type, name: str, label: str, taken: dict[str, float]) -> Iterator[None]:
+def _timed(owner: type, name: str, label: str, taken: dict[str, float]) -> Generator[None]:
     real: Callable[..., Any] = getattr(owner, name)
 
     def run(*arguments: Any, **named: Any) -> Any:

@@ -25,7 +25,7 @@ from reina.sessions.stage import Stage
 from reina.skeleton import Limits, load_hold, load_rig
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator
 
     from reina.performance import Performance
     from reina.rotations.arrays import FloatArray
@@ -89,7 +89,7 @@ def record(stage: Stage, data: bytes) -> Recorded:
 
 
 @contextmanager
-def _kept(owner: Any, name: str) -> Iterator[list[Call]]:
+def _kept(owner: Any, name: str) -> Generator[list[Call]]:
     """All calls of a function while this lasts."""
     calls: list[Call] = []
     real = getattr(owner, name)

@@ -19,7 +19,7 @@ from reina.instruments.player.trunk_reach import SIGNALS as REACHING
 from reina.kinematics import TwoBoneLimbs
 from reina.kinematics.sampled_curves import SampledCurves
 from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
-from reina.rotations import conjugate, multiply, rotate
+from reina.rotations import conjugate, cross, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
@@ -246,8 +246,8 @@ class _Feet:
         pure = np.concatenate([rotate(conjugate(self._rotations), axis), np.zeros((2, 1))], axis=1)
         self._raised: FloatArray = multiply(self._rotations, pure)
         self._lever: FloatArray = balls - held.positions[ankles]
-        self._across: FloatArray = np.cross(axis, self._lever)
-        self._turning: FloatArray = np.cross(self._across, axis)
+        self._across: FloatArray = cross(axis, self._lever)
+        self._turning: FloatArray = cross(self._across, axis)
 
     def solve(self, kit: FloatArray, heels: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Where the ankles are ``(F, 2, 3)``, metres, and the feet's rotations ``(F, 2, 4)``.
