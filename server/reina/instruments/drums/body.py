@@ -19,7 +19,7 @@ from reina.instruments.player.trunk_reach import SIGNALS as REACHING
 from reina.kinematics import TwoBoneLimbs
 from reina.kinematics.sampled_curves import SampledCurves
 from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
-from reina.rotations import conjugate, from_axis_angle, multiply, rotate
+from reina.rotations import conjugate, cross, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
@@ -238,13 +238,16 @@ class _Feet:
         self._rotations: FloatArray = held.world[ankles]
         _, boards = forward_kinematics(kit.skeleton, kit.skeleton.rest_rotations)
         balls = self._hinges + rotate(boards[self._boards], self._offsets)
-        self._balls: FloatArray = rotate(conjugate(self._rotations), balls - held.positions[ankles])
-        # About the foot's own side, in its frame.
+        # About the foot's own side.
         ahead = rotate(self._rotations, np.array([0.0, 0.0, 1.0]))
         side = np.stack([ahead[:, 2], np.zeros(2), -ahead[:, 0]], axis=-1)
-        self._sideways: FloatArray = rotate(
-            conjugate(self._rotations), side / np.linalg.norm(side, axis=-1)[:, None]
-        )
+        axis = side / np.linalg.norm(side, axis=-1)[:, None]
+        # A foot's rotation goes as cosine and sine of half the heel's angle, its lever as those of the whole.
+        pure = np.concatenate([rotate(conjugate(self._rotations), axis), np.zeros((2, 1))], axis=1)
+        self._raised: FloatArray = multiply(self._rotations, pure)
+        self._lever: FloatArray = balls - held.positions[ankles]
+        self._across: FloatArray = cross(axis, self._lever)
+        self._turning: FloatArray = cross(self._across, axis)
 
     def solve(self, kit: FloatArray, heels: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Where the ankles are ``(F, 2, 3)``, metres, and the feet's rotations ``(F, 2, 4)``.
@@ -254,5 +257,8 @@ class _Feet:
             heels: How far each heel is up, ``(F, 2)``: 0 down, 1 as far as it goes.
         """
         balls = self._hinges + rotate(kit[:, self._boards], self._offsets)
-        rotations = multiply(self._rotations, from_axis_angle(self._sideways, HEEL_RAD * (heels - HELD_HEEL)))
-        return balls - rotate(rotations, self._balls), rotations
+        half = 0.5 * HEEL_RAD * (heels - HELD_HEEL)[..., None]
+        sine, cosine = np.sin(half), np.cos(half)
+        rotations = cosine * self._rotations + sine * self._raised
+        turned = 2.0 * sine * (cosine * self._across - sine * self._turning)
+        return balls - self._lever - turned, rotations
