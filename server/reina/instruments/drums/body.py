@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from reina.instruments.drums.hit import DrumHit
     from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.instruments.player.engagement import Engagement
+    from reina.instruments.player.body import Standing
     from reina.instruments.player.instrument_body import BodyMotion
     from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
@@ -40,8 +41,11 @@ STICKS = ("left_stick", "right_stick")
 
 DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
-ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
-"""Where elbows point: down, out and a little back."""
+ELBOWS = np.array([[0.45, -1.0, 0.0], [-0.45, -1.0, 0.0]])
+"""Where elbows point where an arm is stretched ahead: down and out."""
+OWN_SIDES = np.array([1.0, -1.0])
+WRIST_M = 0.34
+"""About from the tip of a stick to the wrist behind it."""
 SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
 NEAREST_M, YIELDING_M = 0.43, 0.03
 """No tip comes nearer to its shoulder than about the first, seen from above, unless it strikes there."""
@@ -53,6 +57,8 @@ INWARD_RAD = np.radians([-20.0, 20.0])
 """How far a stick points inward from the line from elbow to tip, about +Y."""
 RAISED_M, RAISED_OUT = (0.95, 0.25), 4.0
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
+ASIDE_M = (0.12, 0.2)
+"""But only farther to their own side than the first, wholly so at the second beyond it."""
 FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
 DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
@@ -101,6 +107,7 @@ class DrumsBody:
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
         self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
+        self._ahead: FloatArray = rotate(conjugate(chest), np.array([[0.0, 0.0, 1.0]]))
         self._outward: FloatArray = rotate(conjugate(chest), ELBOWS * [RAISED_OUT, 0.0, 0.0])
         self._feet = _Feet(rig, kit, held)
         sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
@@ -155,6 +162,26 @@ class DrumsBody:
         kept[:, [0, joints]] = 0.0
         return kept
 
+    def _elbows(self, standing: Standing, tips: FloatArray, directions: FloatArray) -> FloatArray:
+        """Which way the elbows point, ``(F, 2, 3)``: as they hang before the chest, turned with the arms.
+
+        A fixed way would be along an arm sooner or later, and the elbow would flip over.
+        """
+        own = tips[..., 0] * OWN_SIDES
+        raised = np.minimum(np.maximum(tips[..., 1] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
+        raised = raised * np.minimum(np.maximum(own - ASIDE_M[0], 0.0) / ASIDE_M[1], 1.0)
+        poles = self._poles + raised[..., None] * self._outward
+        chest = standing.world[:, self._chest, None]
+        poles, ahead = rotate(chest, poles), rotate(chest, self._ahead)
+        arms = tips - WRIST_M * directions - standing.limbs[:, :2]
+        arms = arms / np.sqrt(np.einsum("...i,...i->...", arms, arms))[..., None]
+        # The least turn that takes ahead to the arm.
+        both = ahead + arms
+        along = np.einsum("...i,...i->...", arms, poles) / np.maximum(
+            np.einsum("...i,...i->...", arms, both), 0.05
+        )
+        return poles - along[..., None] * both
+
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
         times = motion.times_s
@@ -169,8 +196,7 @@ class DrumsBody:
         drummed = self._motion.evaluate(times)
         tips = _at_arms_length(drummed.sticks.tip[:, ::-1], self._nearest)
         directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
-        raised = np.minimum(np.maximum(tips[..., 1:2] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
-        poles = rotate(standing.world[:, self._chest, None], self._poles + raised * self._outward)
+        poles = self._elbows(standing, tips, directions)
         sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
         kit = self._kit.rotations(drummed)
         feet, feet_rotations = self._feet.solve(kit, drummed.feet.heel[:, ::-1])
