@@ -8,6 +8,7 @@ rebounds into what comes next.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -92,6 +93,15 @@ THROUGH_M: Final = 0.07
 
 THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
 
+HEADROOM_M: Final = {"cowbell": 0.07}
+"""So high a stick may be lifted where a cymbal hangs over what it strikes."""
+
+AROUND_M: Final = np.array([0.0, 0.0, -0.2])
+"""It comes there, and leaves, from the player's side: so far from the straight way at its middle."""
+
+CLEAR_SHARE: Final = 0.5
+"""It is out from beneath after this part of the way."""
+
 SAME_PLACE_M: Final = 0.02
 
 TRAVEL: Final = (0.04, 0.86)
@@ -121,6 +131,7 @@ class Station:
         swings: Row of `SWINGS` whose tilt moves the point; -1 if it does not move.
         pivot: (3,) what it turns about.
         is_hi_hat: Whether it goes down as the hi-hat is closed.
+        headroom_m: How high the stick may be lifted there.
     """
 
     point: FloatArray
@@ -130,6 +141,7 @@ class Station:
     swings: int
     pivot: FloatArray
     is_hi_hat: bool = False
+    headroom_m: float = np.inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,6 +151,7 @@ class StickPlan:
     Attributes:
         stations: Where it is, in their order; the first and the last are its rest.
         moves: (M, 2) from when to when it goes from station m to m + 1.
+        around: (M, 3) how far from the straight way it goes at its middle.
         heights: (H, 4) what the tip's height above its station does: from, to, height at the end, and `RISE`,
             `FALL` or `GLIDE`.
         strokes_s: (K,) the onsets.
@@ -147,6 +160,7 @@ class StickPlan:
 
     stations: list[Station]
     moves: FloatArray
+    around: FloatArray
     heights: FloatArray
     strokes_s: FloatArray
     through: FloatArray
@@ -180,6 +194,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     return StickPlan(
         maker.stations,
         np.array(maker.moves).reshape(-1, 2),
+        np.array([_around(*way) for way in pairwise(maker.stations)]).reshape(-1, 3),
         np.array(maker.heights).reshape(-1, 4),
         np.array([hit.onset_s for hit in hits]),
         np.array([_through(hit) for hit in hits]),
@@ -208,19 +223,29 @@ class _PlanMaker:
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
             lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
+        lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
             fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
         elif room > LONG_S:
             fall_s = self._waiting(before, lift, far, lands_s)
         else:
             fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
-            self.moves.append((self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room))
-            self.heights.append((self._free_s, fall_s, lift, RISE))
+            begin_s, end_s = self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room
+            self.moves.append((begin_s, end_s))
+            self._rise(begin_s + CLEAR_SHARE * (end_s - begin_s), fall_s, lift)
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
         held_s = (GRIP_S, 0.5 * after_s) if isinstance(hit, Grip) else (CONTACT_S, CONTACT_SHARE * after_s)
         self._free_s = hit.onset_s + min(held_s)
         self._before = hit
+
+    def _rise(self, clear_s: float, top_s: float, lift: float) -> None:
+        """From the surface to the top of the next stroke; from beneath a cymbal only once it is clear of it."""
+        headroom = self.stations[-1].headroom_m
+        if lift <= headroom or clear_s >= top_s:
+            self.heights.append((self._free_s, top_s, min(lift, headroom), RISE))
+            return
+        self.heights += [(self._free_s, clear_s, headroom, GLIDE), (clear_s, top_s, lift, GLIDE)]
 
     def finish(self) -> None:
         """Add the way to rest after the last stroke."""
@@ -229,9 +254,11 @@ class _PlanMaker:
 
     def _to_rest(self, before: DrumHit) -> None:
         leave_s = self._free_s + LEAVE_AFTER_S
+        back = min(_rebound(before), self.stations[-1].headroom_m)
+        over = min(max(OVER_M, back), self.stations[-1].headroom_m)
         self.heights += [
-            (self._free_s, self._free_s + RISE_S, _rebound(before), RISE),
-            (leave_s, leave_s + 0.3, max(OVER_M, _rebound(before)), GLIDE),
+            (self._free_s, self._free_s + RISE_S, back, RISE),
+            (leave_s, leave_s + 0.3, over, GLIDE),
             (leave_s + 0.65, leave_s + 1.1, 0.0, GLIDE),
         ]
         self.moves.append((leave_s, leave_s + GO_REST_S))
@@ -253,10 +280,17 @@ class _PlanMaker:
     def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
         """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
         free_s, fall_s = self._free_s, lands_s - FALL_S
-        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
-        self.moves.append((free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)))
+        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else min(WAIT_M, lift)
+        begin_s, end_s = free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)
+        self.moves.append((begin_s, end_s))
+        back = max(_rebound(before), wait if far > SAME_PLACE_M else 0.0)
+        if self.stations[-1].headroom_m < back:
+            clear_s = begin_s + CLEAR_SHARE * (end_s - begin_s)
+            self._rise(clear_s, end_s, wait)
+            self.heights.append((fall_s - RISE_S, fall_s, lift, GLIDE))
+            return fall_s
         self.heights += [
-            (free_s, free_s + REBOUND_S, max(_rebound(before), wait if far > SAME_PLACE_M else 0.0), RISE),
+            (free_s, free_s + REBOUND_S, back, RISE),
             (free_s + REBOUND_S, free_s + REBOUND_S + SETTLE_S, wait, GLIDE),
             (fall_s - RISE_S, fall_s, lift, GLIDE),
         ]
@@ -301,7 +335,15 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
         swings.index(hit.piece) if hit.piece in swings else -1,
         zone.pivot,
         hit.piece == "hi_hat",
+        HEADROOM_M.get(hit.piece, np.inf),
     )
+
+
+def _around(before: Station, after: Station) -> FloatArray:
+    """How far from the straight way between two stations a stick goes at its middle."""
+    far = float(np.linalg.norm(after.point - before.point))
+    is_beneath = min(before.headroom_m, after.headroom_m) < np.inf
+    return AROUND_M if is_beneath and far > SAME_PLACE_M else np.zeros(3)
 
 
 def _grip(hit: Grip, zone: ZonePlace, heading: FloatArray, swings: Sequence[str]) -> Station:
