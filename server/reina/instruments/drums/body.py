@@ -55,6 +55,10 @@ ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
 """Where the elbows are at ease, across and ahead, metres."""
 INWARD_RAD = np.radians([-20.0, 20.0])
 """How far a stick points inward from the line from elbow to tip, about +Y."""
+FAR_M, FAR_LESS = (0.5, 0.2), 0.5
+"""Where a tip is farther ahead than the first, less so, by that part at the second beyond it."""
+OUTER_M, HIGH_M, OUTER_LESS = (0.40, 0.2), (0.75, 0.2), 1.4
+"""So it is where a tip is out to its own side and high: there a cymbal hangs over the hand."""
 RAISED_M, RAISED_OUT = (0.95, 0.25), 4.0
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
 ASIDE_M = (0.12, 0.2)
@@ -245,10 +249,15 @@ def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:
     ahead = tips[..., [0, 2]] - ELBOW_PLACES
     ahead = ahead / np.sqrt(np.einsum("...i,...i->...", ahead, ahead))[..., None]
     level = np.sqrt(np.maximum(1.0 - directions[..., 1] ** 2, 0.0))
+    far = np.minimum(np.maximum((tips[..., 2] - FAR_M[0]) / FAR_M[1], 0.0), 1.0)
+    outer = np.minimum(np.maximum((tips[..., 0] * OWN_SIDES - OUTER_M[0]) / OUTER_M[1], 0.0), 1.0)
+    outer = outer * np.minimum(np.maximum((tips[..., 1] - HIGH_M[0]) / HIGH_M[1], 0.0), 1.0)
+    inward = INWARD_RAD * (1.0 - FAR_LESS * far - OUTER_LESS * outer)
+    cosine, sine = np.cos(inward), np.sin(inward)
     result = np.empty_like(directions)
-    result[..., 0] = level * (ahead[..., 0] * np.cos(INWARD_RAD) + ahead[..., 1] * np.sin(INWARD_RAD))
+    result[..., 0] = level * (ahead[..., 0] * cosine + ahead[..., 1] * sine)
     result[..., 1] = directions[..., 1]
-    result[..., 2] = level * (ahead[..., 1] * np.cos(INWARD_RAD) - ahead[..., 0] * np.sin(INWARD_RAD))
+    result[..., 2] = level * (ahead[..., 1] * cosine - ahead[..., 0] * sine)
     return result
 
 

@@ -66,6 +66,9 @@ SETTLE_S: Final = 0.25
 WAIT_M: Final = 0.09
 """Where it waits."""
 
+GO_M_S: Final = (0.25, 1.6)
+"""It goes there at once: it takes the first, and at the second so many metres a second."""
+
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
 
@@ -281,7 +284,8 @@ class _PlanMaker:
         """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
         free_s, fall_s = self._free_s, lands_s - FALL_S
         wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else min(WAIT_M, lift)
-        begin_s, end_s = free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)
+        begin_s = free_s + 0.15
+        end_s = min(begin_s + GO_M_S[0] + far / GO_M_S[1], max(free_s + 0.5, fall_s - RISE_S))
         self.moves.append((begin_s, end_s))
         back = max(_rebound(before), wait if far > SAME_PLACE_M else 0.0)
         if self.stations[-1].headroom_m < back:

@@ -46,7 +46,7 @@ STATIC_LEFT_HAT: Final = 1.6
 IN_PASSING: Final = 0.6
 """Arms that cross one after the other disturb each other by this part of what they do at once, at most."""
 
-FREE_S: Final = (0.3, 0.6)
+FREE_S: Final = (0.22, 0.45)
 """From the first gap on a hand is free to leave the crossing to the other, at the second wholly so."""
 
 REST_S: Final = 2.6

@@ -148,7 +148,8 @@ def _distances() -> FloatArray:
 def _crossings() -> FloatArray:
     side = np.array([PLACES_M[piece][0] for piece in PIECES])
     over = np.maximum(side[None, :] - side[:, None] - 0.12, 0.0)
-    cost = np.minimum(2.0 * over, 2.5)
+    # Arms lie across each other where it is far.
+    cost = np.minimum(2.0 * over + 4.0 * np.maximum(over - 0.3, 0.0), 3.5)
     for right, left in FREE_CROSSINGS:
         cost[PIECES.index(right), PIECES.index(left)] = 0.0
     return cost
