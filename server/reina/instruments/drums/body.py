@@ -55,11 +55,11 @@ ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
 """Where the elbows are at ease, across and ahead, metres."""
 INWARD_RAD = np.radians([-20.0, 20.0])
 """How far a stick points inward from the line from elbow to tip, about +Y."""
-FAR_M, FAR_LESS = (0.5, 0.2), 0.5
+FAR_M, FAR_LESS = (0.5, 0.2), 0.7
 """Where a tip is farther ahead than the first, less so, by that part at the second beyond it."""
 OUTER_M, HIGH_M, OUTER_LESS = (0.40, 0.2), (0.75, 0.2), 1.4
 """So it is where a tip is out to its own side and high: there a cymbal hangs over the hand."""
-RAISED_M, RAISED_OUT = (0.95, 0.25), 4.0
+RAISED_M, RAISED_OUT = (0.95, 0.25), 1.5
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
 ASIDE_M = (0.12, 0.2)
 """But only farther to their own side than the first, wholly so at the second beyond it."""

@@ -67,7 +67,9 @@ WAIT_M: Final = 0.09
 """Where it waits."""
 
 GO_M_S: Final = (0.25, 1.6)
-"""It goes there at once: it takes the first, and at the second so many metres a second."""
+"""What it takes to go there: the first, and at the second so many metres a second."""
+
+HOMEWARD_M: Final = 0.1
 
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
@@ -91,16 +93,23 @@ APART_M: Final = 0.03
 APART_SHARE: Final = 0.55
 """And no farther than this part of the zone's radius."""
 
+NARROW_M: Final = 0.02
+"""Zones no wider than this are struck in their middle."""
+
 THROUGH_M: Final = 0.07
 """How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
 
 THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
 
-HEADROOM_M: Final = {"cowbell": 0.07}
+HEADROOM_M: Final = {"cowbell": 0.07, "tom_mid": 0.3}
 """So high a stick may be lifted where a cymbal hangs over what it strikes."""
 
+OVER_CHINA_M: Final = 0.2
+"""The edge of a china turns up: a stick that comes or goes passes so high above."""
+
 AROUND_M: Final = np.array([0.0, 0.0, -0.2])
-"""It comes there, and leaves, from the player's side: so far from the straight way at its middle."""
+"""From beneath to a cymbal, and anywhere where that is less than `CLEARANCE_M`, it goes on the player's side:
+so far from the straight way at its middle."""
 
 CLEAR_SHARE: Final = 0.5
 """It is out from beneath after this part of the way."""
@@ -185,7 +194,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     Raises:
         RigError: The kit lacks a piece.
     """
-    maker = _PlanMaker(_rest(places, side))
+    maker = _PlanMaker(_rest(places, side), side)
     known: dict[tuple[str, str, bool], Station] = {}
     for place, hit in enumerate(hits):
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
@@ -207,8 +216,9 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
 class _PlanMaker:
     """Makes the plan of one hand, stroke by stroke."""
 
-    def __init__(self, rest: Station) -> None:
+    def __init__(self, rest: Station, side: int) -> None:
         self._rest = rest
+        self._own_side = 1.0 if side else -1.0
         self._before: DrumHit | None = None
         self._free_s = -np.inf  # since when the tip is off what it struck last
         self.stations = [rest]
@@ -225,12 +235,13 @@ class _PlanMaker:
         far = float(np.linalg.norm(station.point - self.stations[-1].point))
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
-            lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
+            clearance = OVER_CHINA_M if self._is_china(hit) else CLEARANCE_M
+            lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
         lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
             fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
         elif room > LONG_S:
-            fall_s = self._waiting(before, lift, far, lands_s)
+            fall_s = self._waiting(hit, station, lift, lands_s)
         else:
             fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
             begin_s, end_s = self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room
@@ -280,14 +291,32 @@ class _PlanMaker:
         self.moves.append((start_s, fall_s + 0.4 * FALL_S))
         return fall_s
 
-    def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
-        """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
+    def _is_china(self, hit: DrumHit) -> bool:
+        """Whether a way leads to the china or from it."""
+        return "china" in (hit.piece, self._before.piece if self._before else "")
+
+    def _is_homeward(self, station: Station) -> bool:
+        """Whether a way goes to the hand's own side, or straight: then it leaves the other room at once."""
+        return float(station.point[0] - self.stations[-1].point[0]) * self._own_side > -HOMEWARD_M
+
+    def _waiting(self, hit: DrumHit, station: Station, lift: float, lands_s: float) -> float:
+        """Rebound, wait above a piece, and rise again; returns when the stroke falls.
+
+        Away from its own side a hand goes as late as it can: the other may be at work there.
+        """
         free_s, fall_s = self._free_s, lands_s - FALL_S
-        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else min(WAIT_M, lift)
-        begin_s = free_s + 0.15
-        end_s = min(begin_s + GO_M_S[0] + far / GO_M_S[1], max(free_s + 0.5, fall_s - RISE_S))
+        far = float(np.linalg.norm(station.point - self.stations[-1].point))
+        least = OVER_CHINA_M if self._is_china(hit) else WAIT_M
+        wait = max(least, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
+        wait = min(wait, station.headroom_m)
+        begin_s, end_s = free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)
+        takes_s = min(GO_M_S[0] + far / GO_M_S[1], end_s - begin_s)
+        if self._is_homeward(station):
+            end_s = begin_s + takes_s
+        else:
+            begin_s = end_s - takes_s
         self.moves.append((begin_s, end_s))
-        back = max(_rebound(before), wait if far > SAME_PLACE_M else 0.0)
+        back = max(_rebound(self._before or hit), wait if far > SAME_PLACE_M else 0.0)
         if self.stations[-1].headroom_m < back:
             clear_s = begin_s + CLEAR_SHARE * (end_s - begin_s)
             self._rise(clear_s, end_s, wait)
@@ -329,24 +358,31 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
     across = np.cross(UP, heading)  # to the stick's left
     across = across - zone.normal * float(across @ zone.normal)
     across = across / np.linalg.norm(across)
-    apart = min(APART_M, APART_SHARE * zone.radius) * (1.0 if side else -1.0)
+    apart = min(APART_M, APART_SHARE * zone.radius) if zone.radius > NARROW_M else 0.0
+    apart *= 1.0 if side else -1.0
     through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
+    headroom = HEADROOM_M.get(hit.piece, np.inf)
+    # As near to the player as the zone goes, if there is so little room.
+    nearer = 0.9 * zone.radius * heading if headroom < CLEARANCE_M else np.zeros(3)
+    nearer = nearer - zone.normal * float(nearer @ zone.normal)
     return Station(
-        zone.position + apart * across,
+        zone.position + apart * across - nearer,
         zone.normal,
         heading,
         through,
         swings.index(hit.piece) if hit.piece in swings else -1,
         zone.pivot,
         hit.piece == "hi_hat",
-        HEADROOM_M.get(hit.piece, np.inf),
+        headroom,
     )
 
 
 def _around(before: Station, after: Station) -> FloatArray:
     """How far from the straight way between two stations a stick goes at its middle."""
     far = float(np.linalg.norm(after.point - before.point))
-    is_beneath = min(before.headroom_m, after.headroom_m) < np.inf
+    headroom = min(before.headroom_m, after.headroom_m)
+    is_cymbal = max(before.swings, after.swings) >= 0
+    is_beneath = headroom < (np.inf if is_cymbal else CLEARANCE_M)
     return AROUND_M if is_beneath and far > SAME_PLACE_M else np.zeros(3)
 
 
