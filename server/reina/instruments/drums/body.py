@@ -42,7 +42,8 @@ STICKS = ("left_stick", "right_stick")
 DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
 ELBOWS = np.array([[0.45, -1.0, 0.0], [-0.45, -1.0, 0.0]])
-"""Where elbows point where an arm is stretched ahead: down and out."""
+"""Where elbows point where an arm is stretched as `STRETCHED` says: down and out."""
+STRETCHED = np.array([[0.3, -0.15, 0.9], [-0.3, -0.15, 0.9]])
 OWN_SIDES = np.array([1.0, -1.0])
 WRIST_M = 0.34
 """About from the tip of a stick to the wrist behind it."""
@@ -57,9 +58,9 @@ INWARD_RAD = np.radians([-20.0, 20.0])
 """How far a stick points inward from the line from elbow to tip, about +Y."""
 FAR_M, FAR_LESS = (0.5, 0.2), 0.7
 """Where a tip is farther ahead than the first, less so, by that part at the second beyond it."""
-OUTER_M, HIGH_M, OUTER_LESS = (0.40, 0.2), (0.75, 0.2), 1.4
+OUTER_M, HIGH_M, OUTER_LESS = (0.40, 0.2), (0.75, 0.2), 1.1
 """So it is where a tip is out to its own side and high: there a cymbal hangs over the hand."""
-RAISED_M, RAISED_OUT = (0.95, 0.25), 1.5
+RAISED_M, RAISED_OUT = (0.95, 0.25), 1.0
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
 ASIDE_M = (0.12, 0.2)
 """But only farther to their own side than the first, wholly so at the second beyond it."""
@@ -110,9 +111,13 @@ class DrumsBody:
         self._arms = self._tool_arms(engagement, TwoBoneLimbs(rig, LIMBS[:2]))
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
-        self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
-        self._ahead: FloatArray = rotate(conjugate(chest), np.array([[0.0, 0.0, 1.0]]))
-        self._outward: FloatArray = rotate(conjugate(chest), ELBOWS * [RAISED_OUT, 0.0, 0.0])
+        ahead = STRETCHED / np.linalg.norm(STRETCHED, axis=1)[:, None]
+        outward = ELBOWS * [RAISED_OUT, 0.0, 0.0]
+        self._ahead: FloatArray = rotate(conjugate(chest), ahead)
+        self._poles, self._outward = (
+            rotate(conjugate(chest), way - ahead * np.einsum("ki,ki->k", way, ahead)[:, None])
+            for way in (ELBOWS, outward)
+        )
         self._feet = _Feet(rig, kit, held)
         sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
         self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(

@@ -79,6 +79,9 @@ LEAVE_AFTER_S: Final = 0.45
 OVER_M: Final = 0.16
 """On its way to rest a stick goes at least so high over what it leaves: the other may lie there already."""
 
+FIRST_UP: Final = 0.35
+"""By this part of its time a stick that comes from rest to the other's side goes up before it goes over."""
+
 REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
 """How much of a stroke's height the stick gets back by itself; a loose head gives less."""
 
@@ -239,7 +242,9 @@ class _PlanMaker:
             lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
         lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
-            fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
+            homeward = self._is_homeward(station)
+            clear = CLEARANCE_M if homeward else OVER_M
+            fall_s = self._from_rest(min(max(lift, clear), station.headroom_m), lands_s, homeward=homeward)
         elif room > LONG_S:
             fall_s = self._waiting(hit, station, lift, lands_s)
         else:
@@ -278,8 +283,11 @@ class _PlanMaker:
         self.moves.append((leave_s, leave_s + GO_REST_S))
         self.stations.append(self._rest)
 
-    def _from_rest(self, lift: float, lands_s: float) -> float:
-        """Rest since the stroke before, then come to this one; returns when the stroke falls."""
+    def _from_rest(self, lift: float, lands_s: float, *, homeward: bool) -> float:
+        """Rest since the stroke before, then come to this one; returns when the stroke falls.
+
+        Over to the other's side a stick is lifted first.
+        """
         fall_s = lands_s - FALL_S
         start_s = fall_s - GO_REST_S
         if self._before is not None:
@@ -287,8 +295,9 @@ class _PlanMaker:
         else:
             # What begins with the song is prepared when it does, if there is time.
             start_s = max(start_s, min(0.0, fall_s - RISE_S))
-        self.heights.append((start_s, fall_s, lift, GLIDE))
-        self.moves.append((start_s, fall_s + 0.4 * FALL_S))
+        way_s = 0.0 if homeward else FIRST_UP * (fall_s - start_s)
+        self.heights.append((start_s, fall_s - way_s, lift, GLIDE))
+        self.moves.append((start_s + way_s, fall_s + 0.4 * FALL_S))
         return fall_s
 
     def _is_china(self, hit: DrumHit) -> bool:
