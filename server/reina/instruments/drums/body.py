@@ -10,6 +10,8 @@ import numpy as np
 from reina.instruments.drums.drum_part import drum_fingering
 from reina.instruments.drums.motion.drummer_motion import DrummerMotion
 from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
+from reina.instruments.drums.motion.looks import plan_looks
+from reina.instruments.drums.motion.nods import nods
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
 from reina.instruments.player.held_pose import HeldPose
@@ -27,8 +29,8 @@ if TYPE_CHECKING:
 
     from reina.instruments.drums.hit import DrumHit
     from reina.instruments.drums.motion.kit_places import KitPlaces
-    from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.body import Standing
+    from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import BodyMotion
     from reina.rotations.arrays import FloatArray
     from reina.skeleton import Rig
@@ -77,6 +79,17 @@ SMOOTHING_S = 0.8
 """The trunk follows where the hands are over this long."""
 HEAD_TURNED_TO = 0.4
 """How much of the way to the middle of both hands the head turns beyond the trunk."""
+HEAD: tuple[str, ...] = ("head_turn", "head_bow", "eyes_left", "eyes_up")
+PLANNED = (*REACHING, "head_turn", "nod", "bounce", "look_left", "look_down", "eyes_left", "eyes_up")
+"""What is worked out for the whole piece."""
+NOD_RAD, BOUNCE_RAD, FIRST_S = 0.115, 0.028, 0.04
+"""How far head and trunk go with the beat at most, and how much earlier the trunk does."""
+LOOK_HEAD, LOOK_EYES = (0.5, 0.22), (0.35, 0.3)
+"""Which part of the way to a piece head and eyes turn, aside and down."""
+KIT_EYES_RAD = 0.16
+"""How far the eyes look down to the kit otherwise."""
+BAND_HEAD, BAND_UP_RAD = 0.8, 0.05
+"""Which part of the way to the one who is looked at the head turns, and how far it comes up."""
 HEEL_RAD, HELD_HEEL = 0.26, 0.4
 """How far a heel goes from down to up, and where on that way it is in the hold."""
 
@@ -123,9 +136,7 @@ class DrumsBody:
         self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
             np.float32
         )
-        self._trunk = self._plan_trunk(
-            engagement.score.duration_s, held.positions[rig.skeleton.index("spine")]
-        )
+        self._gestures = self._plan_gestures(engagement, fingering.hits, places, held)
 
     def _attachments(self, engagement: Engagement) -> FloatArray:
         lost = [name for name in STICKS if name not in engagement.hold.attachments]
@@ -142,8 +153,8 @@ class DrumsBody:
             tools.append(Tool(attached.position, direction, rotate(attached.rotation, tip)))
         return ToolArms(arms, tools, DORSAL, WristRange(FLEXION_RAD, DEVIATION_RAD))
 
-    def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
-        """How trunk and head follow the hands, over the whole piece."""
+    def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> FloatArray:
+        """How trunk and head follow the hands, over the whole piece, `SAMPLED_HZ` times a second."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
         sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
         tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
@@ -160,7 +171,41 @@ class DrumsBody:
         turned = reach_out(self._body, wrists, pivot, signals)
         middle = wrists.mean(axis=1) - pivot
         head = HEAD_TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
-        return SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
+        reached = SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
+        return reached.evaluate(np.arange(count) / SAMPLED_HZ)
+
+    def _plan_gestures(
+        self, engagement: Engagement, hits: Sequence[DrumHit], places: KitPlaces, held: HeldPose
+    ) -> SampledCurves:
+        """All that trunk, head and eyes do, over the whole piece, in the order of `PLANNED`."""
+        score, rig = engagement.score, engagement.player_rig
+        reached = self._plan_trunk(score.duration_s, held.positions[rig.skeleton.index("spine")])
+        count = len(reached)
+        at = np.arange(count) / SAMPLED_HZ
+        seat = engagement.seat
+        bars = score.metre_map.bar_lines(len(self._beats) - 1.0)
+        looks = plan_looks(
+            count,
+            SAMPLED_HZ,
+            hits,
+            places,
+            head=held.positions[rig.skeleton.index("head")],
+            bars_s=score.tempo_map.seconds(bars),
+            bearings_rad=[seat.bearing_rad(other) for other in engagement.others] or [0.0],
+            seed=engagement.seed,
+        )
+        at_kit = 1.0 - looks.band
+        beyond = looks.band_left - reached[:, REACHING.index("torso_turn")]
+        reached[:, -1] *= at_kit * (1.0 - 0.5 * looks.share)
+        planned = [
+            nods(at, hits, self._beats),
+            nods(at + FIRST_S, hits, self._beats),
+            at_kit * LOOK_HEAD[0] * looks.left + looks.band * BAND_HEAD * beyond,
+            at_kit * LOOK_HEAD[1] * looks.down - looks.band * BAND_UP_RAD,
+            at_kit * LOOK_EYES[0] * looks.left + looks.band * (1.0 - BAND_HEAD) * beyond,
+            -at_kit * (LOOK_EYES[1] * looks.down + (1.0 - looks.share) * KIT_EYES_RAD),
+        ]
+        return SampledCurves(np.concatenate([reached, np.stack(planned, axis=1)], axis=1), SAMPLED_HZ)
 
     def _seated(self, stance: FloatArray | None) -> FloatArray | None:
         """What is left of a way of standing for who sits: hips stay on the stool, feet on the pedals."""
@@ -194,13 +239,19 @@ class DrumsBody:
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
         times = motion.times_s
-        trunk = self._trunk.evaluate(times)
+        gestures = dict(zip(PLANNED, self._gestures.evaluate(times).T, strict=True))
         # Who sits sways from the waist; feet are on their pedals.
         signals = {
             name: SEATED * signal if name in SWAYING else signal for name, signal in motion.signals.items()
         }
-        for column, name in enumerate((*REACHING, "head_turn")):
-            signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
+        sway, gaze = motion.amounts["sway"], motion.amounts["gaze"]
+        gestures["torso_bow"] = gestures["torso_bow"] + BOUNCE_RAD * sway * gestures["bounce"]
+        gestures["head_turn"] = gestures["head_turn"] + gaze * gestures["look_left"]
+        gestures["head_bow"] = NOD_RAD * sway * gestures["nod"] + gaze * gestures["look_down"]
+        gestures["eyes_left"] = gaze * gestures["eyes_left"]
+        gestures["eyes_up"] = gaze * gestures["eyes_up"]
+        for name in (*REACHING, *HEAD):
+            signals[name] = signals[name] + gestures[name] if name in signals else gestures[name]
         standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
         tips = _at_arms_length(drummed.sticks.tip[:, ::-1], self._nearest)

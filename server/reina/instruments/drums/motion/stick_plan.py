@@ -259,7 +259,7 @@ class _PlanMaker:
         self._before = hit
 
     def _rise(self, clear_s: float, top_s: float, lift: float) -> None:
-        """From the surface to the top of the next stroke; from beneath a cymbal only once it is clear of it."""
+        """From the surface to the top of the next stroke; from beneath a cymbal, once it is clear of it."""
         headroom = self.stations[-1].headroom_m
         if lift <= headroom or clear_s >= top_s:
             self.heights.append((self._free_s, top_s, min(lift, headroom), RISE))
