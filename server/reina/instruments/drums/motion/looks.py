@@ -22,13 +22,13 @@ LEAD_S: Final = 0.3
 TURNING_S: Final = 0.7
 """What a look takes, there and back."""
 
-HOME_M: Final = (0.3, 0.35)
+HOME_M: Final = (0.42, 0.3)
 """A piece nearer to the snare than the first needs no look; one at the second farther needs a whole one."""
 
 AGAIN_S, AGAIN = 1.5, 0.3
 """What has been struck so shortly before needs that part of a look."""
 
-HELD: Final = 0.5
+HELD: Final = 0.4
 """How much it takes to turn the head off its way."""
 
 BAND_REST_S: Final = 1.6
