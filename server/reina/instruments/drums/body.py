@@ -45,7 +45,7 @@ DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
 ELBOWS = np.array([[0.45, -1.0, 0.0], [-0.45, -1.0, 0.0]])
 """Where elbows point where an arm is stretched as `STRETCHED` says: down and out."""
-STRETCHED = np.array([[0.3, -0.15, 0.9], [-0.3, -0.15, 0.9]])
+STRETCHED = np.array([[0.12, 0.0, 0.9], [-0.12, 0.0, 0.9]])
 OWN_SIDES = np.array([1.0, -1.0])
 WRIST_M = 0.34
 """About from the tip of a stick to the wrist behind it."""

@@ -114,6 +114,9 @@ AROUND_M: Final = np.array([0.0, 0.0, -0.2])
 """From beneath to a cymbal, and anywhere where that is less than `CLEARANCE_M`, it goes on the player's side:
 so far from the straight way at its middle."""
 
+INSIDE_M: Final = 0.15
+"""Between the ride and the china, which hangs over it, it goes so far on the inner side."""
+
 CLEAR_SHARE: Final = 0.5
 """It is out from beneath after this part of the way."""
 
@@ -147,6 +150,7 @@ class Station:
         pivot: (3,) what it turns about.
         is_hi_hat: Whether it goes down as the hi-hat is closed.
         headroom_m: How high the stick may be lifted there.
+        piece: What is struck; nothing at rest.
     """
 
     point: FloatArray
@@ -157,6 +161,7 @@ class Station:
     pivot: FloatArray
     is_hi_hat: bool = False
     headroom_m: float = np.inf
+    piece: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -383,6 +388,7 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
         zone.pivot,
         hit.piece == "hi_hat",
         headroom,
+        hit.piece,
     )
 
 
@@ -392,6 +398,8 @@ def _around(before: Station, after: Station) -> FloatArray:
     headroom = min(before.headroom_m, after.headroom_m)
     is_cymbal = max(before.swings, after.swings) >= 0
     is_beneath = headroom < (np.inf if is_cymbal else CLEARANCE_M)
+    if {before.piece, after.piece} == {"ride", "china"}:
+        return INSIDE_M * np.array([-np.sign(after.point[0]), 0.0, 0.0])
     return AROUND_M if is_beneath and far > SAME_PLACE_M else np.zeros(3)
 
 
