@@ -47,6 +47,8 @@ ELBOWS = np.array([[0.45, -1.0, 0.0], [-0.45, -1.0, 0.0]])
 """Where elbows point where an arm is stretched as `STRETCHED` says: down and out."""
 STRETCHED = np.array([[0.12, 0.0, 0.9], [-0.12, 0.0, 0.9]])
 OWN_SIDES = np.array([1.0, -1.0])
+FOLDED_M, ASIDE = (0.3, 0.15), np.array([[1.2, 0.0, 0.0], [-1.2, 0.0, 0.0]])
+"""A wrist nearer to its shoulder than the first sends the elbow aside, wholly so at the second less."""
 WRIST_M = 0.34
 """About from the tip of a stick to the wrist behind it."""
 SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
@@ -71,7 +73,7 @@ DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
 
 SEATED, SWAYING = 0.35, ("sway_side", "sway_fore", "sway_turn", "lean", "turn")
-"""How much of what turns a standing player's hips is left."""
+"""How much of what turns who stands is left for who sits."""
 PLANNED_HZ = 10.0
 """How often a second it is worked out how the trunk stands."""
 SAMPLED_HZ = 40.0
@@ -212,7 +214,7 @@ class DrumsBody:
         if stance is None:
             return None
         joints = len(self._body.trunk)
-        kept = stance[:, : joints + 1].copy()
+        kept = SEATED * stance[:, : joints + 1]
         kept[:, [0, joints]] = 0.0
         return kept
 
@@ -228,13 +230,15 @@ class DrumsBody:
         chest = standing.world[:, self._chest, None]
         poles, ahead = rotate(chest, poles), rotate(chest, self._ahead)
         arms = tips - WRIST_M * directions - standing.limbs[:, :2]
-        arms = arms / np.sqrt(np.einsum("...i,...i->...", arms, arms))[..., None]
+        length = np.sqrt(np.einsum("...i,...i->...", arms, arms))
+        arms = arms / length[..., None]
         # The least turn that takes ahead to the arm.
         both = ahead + arms
         along = np.einsum("...i,...i->...", arms, poles) / np.maximum(
             np.einsum("...i,...i->...", arms, both), 0.05
         )
-        return poles - along[..., None] * both
+        folded = np.minimum(np.maximum((FOLDED_M[0] - length) / FOLDED_M[1], 0.0), 1.0)
+        return poles - along[..., None] * both + folded[..., None] * ASIDE
 
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""

@@ -83,7 +83,7 @@ def plan_looks(
         places: The kit as it stands.
         head: Where the head is, metres, ``(3,)``.
         bars_s: When the bars begin, seconds, ascending.
-        bearings_rad: Where the others stand, to the left; one is chosen at each look.
+        bearings_rad: Where the others stand, to the left, one at least; one is chosen at each look.
         seed: Which of many equal choices.
     """
     hands = [hit for hit in hits if hit.limb.endswith("hand")]
@@ -110,7 +110,7 @@ def plan_looks(
     towards = np.maximum(share, 1e-9)
     gaps = _band_times([hit.onset_s for hit in hands], bars_s, looked, rate_hz)
     chance = np.random.default_rng([seed, len(gaps)])
-    others = chance.integers(0, len(bearings_rad), size=len(gaps)) if bearings_rad else []
+    others: list[int] = chance.integers(0, len(bearings_rad), size=len(gaps)).tolist()
     at = np.arange(count) / rate_hz
     band, band_left = _band_curves(gaps, [bearings_rad[other] for other in others]).evaluate(at)
     return Looks(left / towards * looked, down / towards * looked, looked, band, band_left)
