@@ -12,6 +12,7 @@ from reina.instruments.drums.motion.drummer_motion import DrummerMotion
 from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
 from reina.instruments.drums.motion.looks import plan_looks
 from reina.instruments.drums.motion.nods import nods
+from reina.instruments.drums.stick_ways import OWN_SIDES, at_arms_length, from_elbows, nearest_m
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
 from reina.instruments.player.held_pose import HeldPose
@@ -46,24 +47,10 @@ DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
 ELBOWS = np.array([[0.45, -1.0, 0.0], [-0.45, -1.0, 0.0]])
 """Where elbows point where an arm is stretched as `STRETCHED` says: down and out."""
 STRETCHED = np.array([[0.12, 0.0, 0.9], [-0.12, 0.0, 0.9]])
-OWN_SIDES = np.array([1.0, -1.0])
 FOLDED_M, ASIDE = (0.3, 0.15), np.array([[1.2, 0.0, 0.0], [-1.2, 0.0, 0.0]])
 """A wrist nearer to its shoulder than the first sends the elbow aside, wholly so at the second less."""
 WRIST_M = 0.34
 """About from the tip of a stick to the wrist behind it."""
-SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
-NEAREST_M, YIELDING_M = 0.43, 0.03
-"""No tip comes nearer to its shoulder than about the first, seen from above, unless it strikes there."""
-LANDING_M = 0.03
-"""Tips land within this of a zone's middle."""
-ELBOW_PLACES = np.array([[0.30, -0.15], [-0.30, -0.15]])
-"""Where the elbows are at ease, across and ahead, metres."""
-INWARD_RAD = np.radians([-20.0, 20.0])
-"""How far a stick points inward from the line from elbow to tip, about +Y."""
-FAR_M, FAR_LESS = (0.5, 0.2), 0.7
-"""Where a tip is farther ahead than the first, less so, by that part at the second beyond it."""
-OUTER_M, HIGH_M, OUTER_LESS = (0.40, 0.2), (0.75, 0.2), 1.1
-"""So it is where a tip is out to its own side and high: there a cymbal hangs over the hand."""
 RAISED_M, RAISED_OUT = (0.95, 0.25), 1.0
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
 ASIDE_M = (0.12, 0.2)
@@ -113,7 +100,7 @@ class DrumsBody:
         beats = np.arange(int(np.ceil(engagement.score.tempo_map.beats(engagement.score.duration_s))) + 1)
         self._beats: FloatArray = engagement.score.tempo_map.seconds(beats.astype(np.float64))
         fingering, places = drum_fingering(engagement.played), kit_places(kit)
-        self._nearest = _nearest_m(fingering.hits, places)
+        self._nearest = nearest_m(fingering.hits, places)
         self._motion = DrummerMotion(
             fingering,
             places,
@@ -159,8 +146,8 @@ class DrumsBody:
         """How trunk and head follow the hands, over the whole piece, `SAMPLED_HZ` times a second."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
         sticks = self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks
-        tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
-        directions = _from_elbows(tips, sticks.direction[:, ::-1])
+        tips = at_arms_length(sticks.tip[:, ::-1], self._nearest)
+        directions = from_elbows(tips, sticks.direction[:, ::-1])
         wrists = self._arms.wrists(tips, directions)
         reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
         window = np.hanning(2 * reach + 3)[1:-1]
@@ -258,8 +245,8 @@ class DrumsBody:
             signals[name] = signals[name] + gestures[name] if name in signals else gestures[name]
         standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
-        tips = _at_arms_length(drummed.sticks.tip[:, ::-1], self._nearest)
-        directions = _from_elbows(tips, drummed.sticks.direction[:, ::-1])
+        tips = at_arms_length(drummed.sticks.tip[:, ::-1], self._nearest)
+        directions = from_elbows(tips, drummed.sticks.direction[:, ::-1])
         poles = self._elbows(standing, tips, directions)
         sticks = self._arms.solve(standing.limbs[:, :2], tips, directions, poles)
         kit = self._kit.rotations(drummed)
@@ -278,47 +265,6 @@ class DrumsBody:
         roots[:, 0] = standing.hips
         roots[:, 2:] = sticks.fulcrums
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
-
-
-def _nearest_m(hits: Sequence[DrumHit], places: KitPlaces) -> FloatArray:
-    """How near to their shoulders tips may come, from above: as near as what they strike, m, ``(2,)``."""
-    nearest = np.full(2, NEAREST_M)
-    for piece, zone, limb in {(hit.piece, hit.zone, hit.limb) for hit in hits}:
-        if limb.endswith("hand"):
-            side = 0 if limb == "left_hand" else 1
-            away = places[piece, zone].position[[0, 2]] - SHOULDER_PLACES[side]
-            nearest[side] = min(nearest[side], float(np.hypot(*away)) - LANDING_M)
-    return nearest
-
-
-def _at_arms_length(tips: FloatArray, nearest_m: FloatArray) -> FloatArray:
-    """Tips that go round the body on their way to what they strike, ``(F, 2, 3)``."""
-    away = tips[..., [0, 2]] - SHOULDER_PLACES
-    distance = np.sqrt(np.einsum("...i,...i->...", away, away))
-    near = np.maximum(nearest_m - distance, 0.0)
-    if not near.any():
-        return tips
-    share = near * near / ((near + YIELDING_M) * np.maximum(distance, 1e-6))
-    result = tips.copy()
-    result[..., [0, 2]] += away * share[..., None]
-    return result
-
-
-def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:
-    """Sticks as steep as they are asked to be, that come from where the elbows are, ``(F, 2, 3)``."""
-    ahead = tips[..., [0, 2]] - ELBOW_PLACES
-    ahead = ahead / np.sqrt(np.einsum("...i,...i->...", ahead, ahead))[..., None]
-    level = np.sqrt(np.maximum(1.0 - directions[..., 1] ** 2, 0.0))
-    far = np.minimum(np.maximum((tips[..., 2] - FAR_M[0]) / FAR_M[1], 0.0), 1.0)
-    outer = np.minimum(np.maximum((tips[..., 0] * OWN_SIDES - OUTER_M[0]) / OUTER_M[1], 0.0), 1.0)
-    outer = outer * np.minimum(np.maximum((tips[..., 1] - HIGH_M[0]) / HIGH_M[1], 0.0), 1.0)
-    inward = INWARD_RAD * (1.0 - FAR_LESS * far - OUTER_LESS * outer)
-    cosine, sine = np.cos(inward), np.sin(inward)
-    result = np.empty_like(directions)
-    result[..., 0] = level * (ahead[..., 0] * cosine + ahead[..., 1] * sine)
-    result[..., 1] = directions[..., 1]
-    result[..., 2] = level * (ahead[..., 1] * cosine - ahead[..., 0] * sine)
-    return result
 
 
 class _Feet:
