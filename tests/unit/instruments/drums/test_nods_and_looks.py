@@ -7,11 +7,12 @@ from tests.unit.instruments.drums.charted import kit_places
 from reina.instruments.drums.hit import DrumHit
 from reina.instruments.drums.motion.looks import LEAD_S, Looks, plan_looks
 from reina.instruments.drums.motion.nods import nods
+from reina.rotations.arrays import FloatArray
 
 PLACES = kit_places()
 RATE_HZ = 40.0
 HEAD = np.array([0.0, 1.25, 0.02])
-BEATS = 0.5 * np.arange(80)
+BEATS: FloatArray = np.arange(80, dtype=np.float64) * 0.5
 
 
 def groove(until_s: float = 20.0, begin_s: float = 2.0, velocity: float = 0.7) -> list[DrumHit]:
@@ -37,13 +38,13 @@ def looks(hits: list[DrumHit], bearings: tuple[float, ...] = (0.3,), seed: int =
     )  # fmt: skip
 
 
-def at(curve: np.ndarray, time_s: float) -> float:
+def at(curve: FloatArray, time_s: float) -> float:
     return float(curve[round(time_s * RATE_HZ)])
 
 
 @pytest.mark.parametrize(("beat_s", "step"), [(0.5, 1), (0.8, 1), (0.3, 2), (0.15, 4)])
 def test_the_nod_is_lowest_on_the_beats(beat_s: float, step: int) -> None:
-    beats = beat_s * np.arange(160)
+    beats: FloatArray = np.arange(160, dtype=np.float64) * beat_s
     times = np.arange(4.0, 16.0, 1 / 240)
     down = nods(times, groove(), beats)
     lowest = times[1:-1][(down[1:-1] > down[:-2]) & (down[1:-1] >= down[2:]) & (down[1:-1] > 0.0)]
