@@ -56,20 +56,33 @@ SCORES: dict[str, tuple[float, Hits]] = {
     ),
     "softer and softer": (120, [(2 + 0.5 * i, 38, max(1, 120 - 5 * i)) for i in range(24)]),
     "a long rest": (120, [(1, 38, 100), (2, 49, 100), (42, 38, 100), (43, 43, 90)]),
+    "hi-hat and floor tom in turn": (140, [(4 + 0.5 * i, (42, 43)[i % 2], 100) for i in range(32)]),
+    "bell, snare, china": (130, [(2 + 0.5 * i, (53, 38, 52)[i % 3], 100) for i in range(36)]),
+    "the farthest pieces": (140, [(4 + 0.5 * i, (42, 52, 49, 43, 46, 51)[i % 6], 110) for i in range(36)]),
+    "anything anywhere": (
+        120,
+        [
+            (2 + 0.8 * i, int(key), int(velocity))
+            for i, (key, velocity) in enumerate(
+                zip(
+                    np.random.default_rng(11).choice(
+                        [38, 42, 46, 50, 47, 43, 49, 57, 51, 53, 52, 55, 56], size=60
+                    ),
+                    np.random.default_rng(12).integers(30, 125, size=60),
+                    strict=True,
+                )
+            )
+        ],
+    ),
 }
 EXAMPLES = ("when-the-saints.mid",)
 SCORES_FOLDER = Path(__file__).parents[2] / "examples" / "scores"
 
 TOUCH_M = 0.002
 INSIDE_M = 0.003
-GRAZED_M = {"the whole kit at once": 0.010, "a long rest": 0.033}
-"""Known faults: a stick that goes from the splash to the cowbell beneath touches its edge, and the left arm
-that crosses to the floor tom lies over the right stick on the snare."""
 PEDAL_M = 0.002
 HAND_SPEED, STICK_SPEED = 15.0, 30.0
-LIMIT_DEG = 4.0
-REACHING_DEG = 10.0
-"""Where every hit is on another piece at the other end of the kit, the right arm goes so far across."""
+LIMIT_DEG = 1.5
 FINE_FPS = 240
 EARLY_S = 1 / 60
 
@@ -188,8 +201,7 @@ def test_joints_are_within_their_limits(drummed: Drummed) -> None:
     for index, joint in enumerate(pose.rig["joints"]):
         if "limits" in joint:
             beyond = np.degrees(excess(joint, Rotation.from_quat(local[:, index])))
-            allowed = REACHING_DEG if drummed.name == "the whole kit at once" else LIMIT_DEG
-            assert beyond <= allowed, f"{joint['name']}: {beyond:.1f} degrees"
+            assert beyond <= LIMIT_DEG, f"{joint['name']}: {beyond:.1f} degrees"
 
 
 def test_hands_and_sticks_are_no_faster_than_they_can_be(drummed: Drummed) -> None:
@@ -257,7 +269,6 @@ def samples(drummed: Drummed, frames: Take) -> dict[str, list[tuple[str, Points,
 
 def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -> None:
     frames = drummed.frames
-    allowed = GRAZED_M.get(drummed.name, INSIDE_M)
     spheres = samples(drummed, frames)
     for piece, middle, axis, half, radius in solids(drummed, frames):
         for side, own in spheres.items():
@@ -269,7 +280,7 @@ def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -
                 outside: Points = np.hypot(np.maximum(out, 0), np.maximum(over, 0))
                 deep: Points = thick - outside - np.minimum(np.maximum(out, over), 0.0)
                 worst = int(deep.argmax())
-                assert deep[worst] <= allowed, (
+                assert deep[worst] <= INSIDE_M, (
                     f"{frames.song_time_s[worst]:.3f} s: the {side} {what} is {1000 * deep[worst]:.1f} mm"
                     f" inside the {piece}"
                 )
@@ -277,7 +288,7 @@ def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -
         for other, right, broad in spheres["right"]:
             deep = thick + broad - np.linalg.norm(left - right, axis=1)
             worst = int(deep.argmax())
-            assert deep[worst] <= allowed, (
+            assert deep[worst] <= INSIDE_M, (
                 f"{frames.song_time_s[worst]:.3f} s: left {what}, right {other}: {1000 * deep[worst]:.1f} mm"
             )
 

@@ -115,7 +115,17 @@ class Production:
         seats = seats_of(stage, cast)
         glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, heard, part, registry, looks, poses)
+            stage.performer(
+                casting,
+                number,
+                seat,
+                heard,
+                part,
+                registry,
+                looks,
+                poses,
+                others=tuple(other for other in seats if other != seat),
+            )
             for number, (casting, seat, part, looks) in enumerate(
                 zip(castings, seats, played, glances, strict=True)
             )

@@ -166,6 +166,7 @@ class Stage:
         registry: ParameterRegistry,
         glances: Mapping[str, Curve],
         stances: Mapping[str, HumanPose],
+        others: tuple[Seat, ...] = (),
     ) -> Performer:
         """Who plays a casting that names what there is.
 
@@ -178,6 +179,7 @@ class Stage:
             registry: The show's parameters.
             glances: How the player looks at the others.
             stances: Poses to stand in, by name.
+            others: Where the other players are.
         """
         instrument = self.kinds[casting.instrument]
         return Performer(
@@ -191,6 +193,7 @@ class Stage:
                 registry=registry,
                 number=number,
                 seat=seat,
+                others=others,
                 seed=number,
                 glances=glances,
                 stances=stances,

@@ -35,6 +35,7 @@ class Engagement:
         registry: The show's parameters.
         number: The player's place in the cast, the first being 0.
         seat: Where the player stands.
+        others: Where the other players of the cast are.
         seed: Which of many equal ways of moving.
         glances: How the player looks at the others, as `plan_glances` gives it.
         stances: Poses that the player can stand in beside those of the rig, by name, in the order of the
@@ -49,6 +50,7 @@ class Engagement:
     registry: ParameterRegistry
     number: int = 0
     seat: Seat = SEATS["middle"]
+    others: tuple[Seat, ...] = ()
     seed: int = 0
     glances: Mapping[str, Curve] = field(default_factory=dict[str, "Curve"])
     stances: Mapping[str, HumanPose] = field(default_factory=dict[str, "HumanPose"])

@@ -126,6 +126,7 @@ class _Stick:
         self._outward = np.stack([_level(arm) for arm in self._arm])
         self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
         self._moves = plan.moves
+        self._around = np.concatenate([plan.around, np.zeros((1, 3))])
         self._from = np.concatenate([[-np.inf], plan.heights[:, 0]])
         self._to = np.concatenate([[-np.inf], plan.heights[:, 1]])
         self._height = np.concatenate([[0.0], plan.heights[:, 2]])
@@ -147,6 +148,7 @@ class _Stick:
         blend = done[:, None]
         height = self._heights(times_s)
         point = self._point[station] * (1.0 - blend) + self._point[after] * blend
+        point = point + self._around[station] * (16.0 * (blend * (1.0 - blend)) ** 2)
         normal = self._normal[station] * (1.0 - blend) + self._normal[after] * blend
         normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
         turn = self._azimuth[after] - self._azimuth[station]

@@ -8,6 +8,7 @@ rebounds into what comes next.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -65,6 +66,11 @@ SETTLE_S: Final = 0.25
 WAIT_M: Final = 0.09
 """Where it waits."""
 
+GO_M_S: Final = (0.25, 1.6)
+"""What it takes to go there: the first, and at the second so many metres a second."""
+
+HOMEWARD_M: Final = 0.1
+
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
 
@@ -72,6 +78,9 @@ GO_REST_S: Final = 0.9
 LEAVE_AFTER_S: Final = 0.45
 OVER_M: Final = 0.16
 """On its way to rest a stick goes at least so high over what it leaves: the other may lie there already."""
+
+FIRST_UP: Final = 0.35
+"""By this part of its time a stick that comes from rest to the other's side goes up before it goes over."""
 
 REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
 """How much of a stroke's height the stick gets back by itself; a loose head gives less."""
@@ -87,10 +96,29 @@ APART_M: Final = 0.03
 APART_SHARE: Final = 0.55
 """And no farther than this part of the zone's radius."""
 
+NARROW_M: Final = 0.02
+"""Zones no wider than this are struck in their middle."""
+
 THROUGH_M: Final = 0.07
 """How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
 
 THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
+
+HEADROOM_M: Final = {"cowbell": 0.07, "tom_mid": 0.3}
+"""So high a stick may be lifted where a cymbal hangs over what it strikes."""
+
+OVER_CHINA_M: Final = 0.2
+"""The edge of a china turns up: a stick that comes or goes passes so high above."""
+
+AROUND_M: Final = np.array([0.0, 0.0, -0.2])
+"""From beneath to a cymbal, and anywhere where that is less than `CLEARANCE_M`, it goes on the player's side:
+so far from the straight way at its middle."""
+
+INSIDE_M: Final = 0.15
+"""Between the ride and the china, which hangs over it, it goes so far on the inner side."""
+
+CLEAR_SHARE: Final = 0.5
+"""It is out from beneath after this part of the way."""
 
 SAME_PLACE_M: Final = 0.02
 
@@ -121,6 +149,8 @@ class Station:
         swings: Row of `SWINGS` whose tilt moves the point; -1 if it does not move.
         pivot: (3,) what it turns about.
         is_hi_hat: Whether it goes down as the hi-hat is closed.
+        headroom_m: How high the stick may be lifted there.
+        piece: What is struck; nothing at rest.
     """
 
     point: FloatArray
@@ -130,6 +160,8 @@ class Station:
     swings: int
     pivot: FloatArray
     is_hi_hat: bool = False
+    headroom_m: float = np.inf
+    piece: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,6 +171,7 @@ class StickPlan:
     Attributes:
         stations: Where it is, in their order; the first and the last are its rest.
         moves: (M, 2) from when to when it goes from station m to m + 1.
+        around: (M, 3) how far from the straight way it goes at its middle.
         heights: (H, 4) what the tip's height above its station does: from, to, height at the end, and `RISE`,
             `FALL` or `GLIDE`.
         strokes_s: (K,) the onsets.
@@ -147,6 +180,7 @@ class StickPlan:
 
     stations: list[Station]
     moves: FloatArray
+    around: FloatArray
     heights: FloatArray
     strokes_s: FloatArray
     through: FloatArray
@@ -168,7 +202,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     Raises:
         RigError: The kit lacks a piece.
     """
-    maker = _PlanMaker(_rest(places, side))
+    maker = _PlanMaker(_rest(places, side), side)
     known: dict[tuple[str, str, bool], Station] = {}
     for place, hit in enumerate(hits):
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
@@ -180,6 +214,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     return StickPlan(
         maker.stations,
         np.array(maker.moves).reshape(-1, 2),
+        np.array([_around(*way) for way in pairwise(maker.stations)]).reshape(-1, 3),
         np.array(maker.heights).reshape(-1, 4),
         np.array([hit.onset_s for hit in hits]),
         np.array([_through(hit) for hit in hits]),
@@ -189,8 +224,9 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
 class _PlanMaker:
     """Makes the plan of one hand, stroke by stroke."""
 
-    def __init__(self, rest: Station) -> None:
+    def __init__(self, rest: Station, side: int) -> None:
         self._rest = rest
+        self._own_side = 1.0 if side else -1.0
         self._before: DrumHit | None = None
         self._free_s = -np.inf  # since when the tip is off what it struck last
         self.stations = [rest]
@@ -207,20 +243,33 @@ class _PlanMaker:
         far = float(np.linalg.norm(station.point - self.stations[-1].point))
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
-            lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
+            clearance = OVER_CHINA_M if self._is_china(hit) else CLEARANCE_M
+            lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
+        lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
-            fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
+            homeward = self._is_homeward(station)
+            clear = CLEARANCE_M if homeward else OVER_M
+            fall_s = self._from_rest(min(max(lift, clear), station.headroom_m), lands_s, homeward=homeward)
         elif room > LONG_S:
-            fall_s = self._waiting(before, lift, far, lands_s)
+            fall_s = self._waiting(hit, station, lift, lands_s)
         else:
             fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
-            self.moves.append((self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room))
-            self.heights.append((self._free_s, fall_s, lift, RISE))
+            begin_s, end_s = self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room
+            self.moves.append((begin_s, end_s))
+            self._rise(begin_s + CLEAR_SHARE * (end_s - begin_s), fall_s, lift)
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
         held_s = (GRIP_S, 0.5 * after_s) if isinstance(hit, Grip) else (CONTACT_S, CONTACT_SHARE * after_s)
         self._free_s = hit.onset_s + min(held_s)
         self._before = hit
+
+    def _rise(self, clear_s: float, top_s: float, lift: float) -> None:
+        """From the surface to the top of the next stroke; from beneath a cymbal, once it is clear of it."""
+        headroom = self.stations[-1].headroom_m
+        if lift <= headroom or clear_s >= top_s:
+            self.heights.append((self._free_s, top_s, min(lift, headroom), RISE))
+            return
+        self.heights += [(self._free_s, clear_s, headroom, GLIDE), (clear_s, top_s, lift, GLIDE)]
 
     def finish(self) -> None:
         """Add the way to rest after the last stroke."""
@@ -229,16 +278,21 @@ class _PlanMaker:
 
     def _to_rest(self, before: DrumHit) -> None:
         leave_s = self._free_s + LEAVE_AFTER_S
+        back = min(_rebound(before), self.stations[-1].headroom_m)
+        over = min(max(OVER_M, back), self.stations[-1].headroom_m)
         self.heights += [
-            (self._free_s, self._free_s + RISE_S, _rebound(before), RISE),
-            (leave_s, leave_s + 0.3, max(OVER_M, _rebound(before)), GLIDE),
+            (self._free_s, self._free_s + RISE_S, back, RISE),
+            (leave_s, leave_s + 0.3, over, GLIDE),
             (leave_s + 0.65, leave_s + 1.1, 0.0, GLIDE),
         ]
         self.moves.append((leave_s, leave_s + GO_REST_S))
         self.stations.append(self._rest)
 
-    def _from_rest(self, lift: float, lands_s: float) -> float:
-        """Rest since the stroke before, then come to this one; returns when the stroke falls."""
+    def _from_rest(self, lift: float, lands_s: float, *, homeward: bool) -> float:
+        """Rest since the stroke before, then come to this one; returns when the stroke falls.
+
+        Over to the other's side a stick is lifted first.
+        """
         fall_s = lands_s - FALL_S
         start_s = fall_s - GO_REST_S
         if self._before is not None:
@@ -246,17 +300,44 @@ class _PlanMaker:
         else:
             # What begins with the song is prepared when it does, if there is time.
             start_s = max(start_s, min(0.0, fall_s - RISE_S))
-        self.heights.append((start_s, fall_s, lift, GLIDE))
-        self.moves.append((start_s, fall_s + 0.4 * FALL_S))
+        way_s = 0.0 if homeward else FIRST_UP * (fall_s - start_s)
+        self.heights.append((start_s, fall_s - way_s, lift, GLIDE))
+        self.moves.append((start_s + way_s, fall_s + 0.4 * FALL_S))
         return fall_s
 
-    def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
-        """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
+    def _is_china(self, hit: DrumHit) -> bool:
+        """Whether a way leads to the china or from it."""
+        return "china" in (hit.piece, self._before.piece if self._before else "")
+
+    def _is_homeward(self, station: Station) -> bool:
+        """Whether a way goes to the hand's own side, or straight: then it leaves the other room at once."""
+        return float(station.point[0] - self.stations[-1].point[0]) * self._own_side > -HOMEWARD_M
+
+    def _waiting(self, hit: DrumHit, station: Station, lift: float, lands_s: float) -> float:
+        """Rebound, wait above a piece, and rise again; returns when the stroke falls.
+
+        Away from its own side a hand goes as late as it can: the other may be at work there.
+        """
         free_s, fall_s = self._free_s, lands_s - FALL_S
-        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
-        self.moves.append((free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)))
+        far = float(np.linalg.norm(station.point - self.stations[-1].point))
+        least = OVER_CHINA_M if self._is_china(hit) else WAIT_M
+        wait = max(least, lift - 0.15) if far > SAME_PLACE_M else WAIT_M
+        wait = min(wait, station.headroom_m)
+        begin_s, end_s = free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)
+        takes_s = min(GO_M_S[0] + far / GO_M_S[1], end_s - begin_s)
+        if self._is_homeward(station):
+            end_s = begin_s + takes_s
+        else:
+            begin_s = end_s - takes_s
+        self.moves.append((begin_s, end_s))
+        back = max(_rebound(self._before or hit), wait if far > SAME_PLACE_M else 0.0)
+        if self.stations[-1].headroom_m < back:
+            clear_s = begin_s + CLEAR_SHARE * (end_s - begin_s)
+            self._rise(clear_s, end_s, wait)
+            self.heights.append((fall_s - RISE_S, fall_s, lift, GLIDE))
+            return fall_s
         self.heights += [
-            (free_s, free_s + REBOUND_S, max(_rebound(before), wait if far > SAME_PLACE_M else 0.0), RISE),
+            (free_s, free_s + REBOUND_S, back, RISE),
             (free_s + REBOUND_S, free_s + REBOUND_S + SETTLE_S, wait, GLIDE),
             (fall_s - RISE_S, fall_s, lift, GLIDE),
         ]
@@ -291,17 +372,35 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
     across = np.cross(UP, heading)  # to the stick's left
     across = across - zone.normal * float(across @ zone.normal)
     across = across / np.linalg.norm(across)
-    apart = min(APART_M, APART_SHARE * zone.radius) * (1.0 if side else -1.0)
+    apart = min(APART_M, APART_SHARE * zone.radius) if zone.radius > NARROW_M else 0.0
+    apart *= 1.0 if side else -1.0
     through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
+    headroom = HEADROOM_M.get(hit.piece, np.inf)
+    # As near to the player as the zone goes, if there is so little room.
+    nearer = 0.9 * zone.radius * heading if headroom < CLEARANCE_M else np.zeros(3)
+    nearer = nearer - zone.normal * float(nearer @ zone.normal)
     return Station(
-        zone.position + apart * across,
+        zone.position + apart * across - nearer,
         zone.normal,
         heading,
         through,
         swings.index(hit.piece) if hit.piece in swings else -1,
         zone.pivot,
         hit.piece == "hi_hat",
+        headroom,
+        hit.piece,
     )
+
+
+def _around(before: Station, after: Station) -> FloatArray:
+    """How far from the straight way between two stations a stick goes at its middle."""
+    far = float(np.linalg.norm(after.point - before.point))
+    headroom = min(before.headroom_m, after.headroom_m)
+    is_cymbal = max(before.swings, after.swings) >= 0
+    is_beneath = headroom < (np.inf if is_cymbal else CLEARANCE_M)
+    if {before.piece, after.piece} == {"ride", "china"}:
+        return INSIDE_M * np.array([-np.sign(after.point[0]), 0.0, 0.0])
+    return AROUND_M if is_beneath and far > SAME_PLACE_M else np.zeros(3)
 
 
 def _grip(hit: Grip, zone: ZonePlace, heading: FloatArray, swings: Sequence[str]) -> Station:
