@@ -29,21 +29,22 @@ def build_left_handed_kit(raw: Path, rig_folder: Path) -> None:
 
 
 def mirrored_model(glb: bytes) -> bytes:
-    """A model whose nodes are the mirror images of another's, and whose meshes are scaled by -1 across.
+    """A model whose nodes are the mirror images of another's, each with its mesh on a node that mirrors it.
 
-    No vertex changes: in glTF triangles turn round where a node mirrors them.
+    No vertex changes: in glTF triangles turn round where a node mirrors them. Joints keep a scale of 1.
     """
     (length,) = struct.unpack_from("<I", glb, 12)
     content: dict[str, Any] = json.loads(glb[20 : 20 + length])
-    for node in content["nodes"]:
+    nodes: list[dict[str, Any]] = content["nodes"]
+    for node in list(nodes):
         if "translation" in node:
             node["translation"] = place(node["translation"])
         if "rotation" in node:
             node["rotation"] = turn(node["rotation"])
         if "mesh" in node:
-            if node.get("children"):
-                raise ValueError(f"{node['name']} has nodes on it, which would be mirrored twice")
-            node["scale"] = [-1.0, 1.0, 1.0]
+            node.setdefault("children", []).append(len(nodes))
+            name = f"{node['name']}_mirrored"
+            nodes.append({"name": name, "mesh": node.pop("mesh"), "scale": [-1.0, 1.0, 1.0]})
     text = json.dumps(content, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     rest = glb[20 + length :]

@@ -20,7 +20,16 @@ from reina.cli.score_tables import (
     words_lines,
 )
 from reina.errors import InputError, ReinaError
-from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, score_findings
+from reina.instruments import (
+    HANDEDNESS,
+    INSTRUMENTS,
+    Instrument,
+    PartRanking,
+    PlayedPart,
+    describe_score,
+    refuse_handedness,
+    score_findings,
+)
 from reina.music import Score, read_score
 from reina.notation import keys_of
 from reina.sessions.production import Production
@@ -54,6 +63,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--usual-fingerings", action="store_true", help="take no fingering but the usual one of each note"
     )
+    parser.add_argument(
+        "--handedness",
+        choices=HANDEDNESS,
+        default="right",
+        help="which hand leads, where it can be played so",
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -66,6 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
             return _print(text)
         score = read_score(file.read_bytes(), filename=file.name, sequence=arguments.sequence)
         instrument = INSTRUMENTS[arguments.instrument]
+        refuse_handedness(instrument, arguments.handedness)
         rankings = instrument.rank_parts(score)
         part = rankings[0].part if arguments.part is None else arguments.part
         played = instrument.play(
@@ -76,6 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
             octave_fit=arguments.octave_fit,
             joined_parts=arguments.joined_parts,
             usual_fingerings=arguments.usual_fingerings,
+            handedness=arguments.handedness,
         )
     except (OSError, ReinaError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
@@ -102,6 +119,7 @@ def _of_cast(file: Path, arguments: argparse.Namespace) -> str:
         "octave_fit": False,
         "joined_parts": (),
         "usual_fingerings": False,
+        "handedness": "right",
     }
     said = [f"--{name.replace('_', '-')}" for name, value in alone.items() if vars(arguments)[name] != value]
     if said:

@@ -176,3 +176,12 @@ def test_a_reader_may_stop_reading():
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 0
+
+
+def test_who_leads_with_the_left_hand(capsys: pytest.CaptureFixture[str]):
+    saints = str(MARCH.with_name("when-the-saints.mid"))
+    described = json.loads(output(capsys, saints, "--json", "--instrument", "drums", "--handedness", "left"))
+    struck = [note["fingering"] for note in described["notes"] if note["fingering"]]
+    assert {one["hand"] for one in struck if one["piece"] == "ride"} == {"left"}
+    assert main(["inspect", saints, "--handedness", "left"]) == 1
+    assert "the B♭ trumpet is played right-handed, not left-handed" in capsys.readouterr().err

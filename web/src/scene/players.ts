@@ -4,6 +4,7 @@ import { type Object3D, type Ray, Vector3 } from "three";
 
 import type { RigModel } from "../rig";
 import type { KitPlace } from "./kit-views";
+import { LEFT_HANDED_KIT_RIG } from "./room";
 
 /** How near to a player's middle a ray has to pass, metres: an arm's breadth. */
 const REACH = 0.3;
@@ -23,6 +24,7 @@ interface StandingPlayer {
   readonly feet: readonly Object3D[];
   readonly bell: Bell | null;
   readonly kit: Object3D | null;
+  readonly kitMirrored: boolean;
 }
 
 /** Where a player stands and which way, metres and radians about +Y from facing the audience. */
@@ -49,6 +51,7 @@ export class Players {
         feet: ["leftFoot", "rightFoot"].flatMap((joint) => findJoint(own, joint) ?? []),
         bell: findBell(own),
         kit: findJoint(own, KIT_JOINT),
+        kitMirrored: own.some(({ rig }) => rig === LEFT_HANDED_KIT_RIG),
       });
     }
   }
@@ -76,11 +79,11 @@ export class Players {
 
   /** Where a player's drum kit stands; null of who has none. */
   kit(player: number): KitPlace | null {
-    const kit = this.#players[player]?.kit ?? null;
+    const { kit = null, kitMirrored: mirrored = false } = this.#players[player] ?? {};
     if (kit === null) return null;
     const { x, y, z } = low.setFromMatrixPosition(kit.matrixWorld);
     ahead.setFromMatrixColumn(kit.matrixWorld, 2);
-    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z) };
+    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z), mirrored };
   }
 
   /** The player whom a ray meets first, a place in the cast; null for none. */
