@@ -335,9 +335,6 @@ def test_hands_are_told_and_a_left_handed_trumpeter_is_refused(client: httpx.Cli
     made.change("DELETE")
 
 
-LEFT = ("left", "right")
-
-
 def trumpet_and_drums() -> bytes:
     """A few notes, and two bars of rock under them."""
     melody = mido.MidiTrack(
@@ -371,7 +368,8 @@ def test_a_drummer_leads_with_the_left_hand_and_does_so_after_a_restart(tmp_path
         skeletons = client.get(f"{path}/manifest").raise_for_status().json()["skeletons"]
         return next(one["rig"] for one in skeletons if one["name"] == "players/2/drums")
 
-    left, right = ({("hi_hat", one), ("snare", other), ("kick", one)} for one, other in (LEFT, LEFT[::-1]))
+    left = {("hi_hat", "left"), ("snare", "right"), ("kick", "left")}
+    right = {("hi_hat", "right"), ("snare", "left"), ("kick", "right")}
     with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30.0) as client:
         listed = client.get("/api/v1/instruments").json()["instruments"]
         assert {one["name"]: one["handedness"] for one in listed}["drums"] == ["right", "left"]
