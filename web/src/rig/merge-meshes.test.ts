@@ -128,7 +128,7 @@ describe("mergeMeshes", () => {
     const { scene } = mergeMeshes(mirrored(), false);
     expect(corners(scene)).toEqual(before);
     const merged = meshes(scene).find(({ name }) => name === "body cap");
-    if (merged === undefined) throw new Error("not merged");
+    if (!(merged instanceof SkinnedMesh)) throw new Error("not merged");
     scene.updateMatrixWorld(true);
     (merged as SkinnedMesh).skeleton.update();
     const { index } = merged.geometry;
