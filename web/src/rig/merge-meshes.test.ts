@@ -127,10 +127,11 @@ describe("mergeMeshes", () => {
     const before = corners(mirrored().scene);
     const { scene } = mergeMeshes(mirrored(), false);
     expect(corners(scene)).toEqual(before);
-    const merged = meshes(scene).find(({ name }) => name === "body cap");
-    if (!(merged instanceof SkinnedMesh)) throw new Error("not merged");
+    const found = meshes(scene).find(({ name }) => name === "body cap");
+    if (!(found instanceof SkinnedMesh)) throw new Error("not merged");
+    const merged = found as SkinnedMesh;
     scene.updateMatrixWorld(true);
-    (merged as SkinnedMesh).skeleton.update();
+    merged.skeleton.update();
     const { index } = merged.geometry;
     const at = (i: number): Vector3 => merged.getVertexPosition(index?.getX(i) ?? i, new Vector3());
     for (const [first, middle] of [
