@@ -357,7 +357,8 @@ def trumpet_and_drums() -> bytes:
 
 def test_a_drummer_leads_with_the_left_hand_and_does_so_after_a_restart(tmp_path: Path) -> None:
     """Chosen with the upload, changed by PUT and PATCH, kept; frames are those of the mirrored kit."""
-    castings = [{"part": 0}, {"part": 1, "instrument": "drums", "player": "soloist", "handedness": "left"}]
+    drummer = {"part": 1, "instrument": "drums", "player": "soloist", "handedness": "left"}
+    castings: list[dict[str, Any]] = [{"part": 0}, drummer]
 
     def hands(client: httpx.Client, path: str) -> set[tuple[str, str]]:
         notes = client.get(f"{path}/score").raise_for_status().json()["notes"]
@@ -373,8 +374,8 @@ def test_a_drummer_leads_with_the_left_hand_and_does_so_after_a_restart(tmp_path
     with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30.0) as client:
         listed = client.get("/api/v1/instruments").json()["instruments"]
         assert {one["name"]: one["handedness"] for one in listed}["drums"] == ["right", "left"]
-        song_s = {"song": ("s.wav", song(8.0))}
-        made = upload(client, trumpet_and_drums(), **song_s, cast=json.dumps({"castings": castings}))
+        files: dict[str, Any] = {"song": ("s.wav", song(8.0))}
+        made = upload(client, trumpet_and_drums(), **files, cast=json.dumps({"castings": castings}))
         told = client.get(f"{made.path}/cast").json()["castings"]
         assert [one["handedness"] for one in told] == ["right", "left"]
         assert (hands(client, made.path), kit(client, made.path)) == (left, "drumkit_left_handed")

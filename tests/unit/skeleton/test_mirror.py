@@ -53,7 +53,7 @@ def test_every_place_of_a_pose_is_on_the_other_side(name: str) -> None:
 @pytest.mark.parametrize("name", PLAYERS)
 def test_twice_reflected_is_the_same_to_the_last_bit(name: str) -> None:
     rig = load_rig(RIGS / name)
-    mirror, pose = Mirror(rig.skeleton), bent(rig, 2).astype(np.float32)
+    mirror, pose = Mirror(rig.skeleton), bent(rig, 2)
     assert np.array_equal(mirror.rotations(mirror.rotations(pose)), pose)
     rest = rig.skeleton.rest_rotations
     assert (dot(mirror.rotations(rest), rest) > 0.999).all()
