@@ -76,6 +76,8 @@ SCORES: dict[str, tuple[float, Hits]] = {
     ),
 }
 EXAMPLES = ("when-the-saints.mid",)
+LEFT_HANDED = "when the saints, left-handed"
+"""The same example; who plays it leads with the left hand, on the mirror image of the kit."""
 SCORES_FOLDER = Path(__file__).parents[2] / "examples" / "scores"
 
 TOUCH_M = 0.002
@@ -138,17 +140,34 @@ class Drummed:
         return moved
 
 
-@pytest.fixture(scope="module", params=[*SCORES, *EXAMPLES], ids=lambda name: name.replace(" ", "-"))
+@pytest.fixture(
+    scope="module", params=[*SCORES, *EXAMPLES, LEFT_HANDED], ids=lambda name: name.replace(" ", "-")
+)
 def drummed(request: pytest.FixtureRequest, client: httpx.Client) -> Iterator[Drummed]:
     """A score with drums, as it is cast by itself."""
     name = request.param
-    data = (SCORES_FOLDER / name).read_bytes() if name in EXAMPLES else midi(*SCORES[name])
-    files = {"score": ("drums.mid", data), "song": ("song.wav", song())}
+    example = EXAMPLES[0] if name == LEFT_HANDED else name
+    data = (SCORES_FOLDER / example).read_bytes() if example in EXAMPLES else midi(*SCORES[name])
+    # The song is longer than any of the scores: what comes after its end is not played.
+    files = {"score": ("drums.mid", data), "song": ("song.wav", song(70.0))}
     # In time as it is: no search for the score in the recording moves the music meanwhile.
     made = client.post("/api/v1/sessions", files=files, data={"in_time": "true"}).raise_for_status().json()
-    yield Drummed(client, made, name)
     headers = {"Authorization": f"Bearer {made['control_token']}"}
+    if name == LEFT_HANDED:
+        lead_with_the_left(client, f"/api/v1/sessions/{made['id']}/cast", headers)
+    yield Drummed(client, made, name)
     client.delete(f"/api/v1/sessions/{made['id']}", headers=headers).raise_for_status()
+
+
+def lead_with_the_left(client: httpx.Client, path: str, headers: dict[str, str]) -> None:
+    """Let the drummer of a cast lead with the left hand."""
+    castings = client.get(path).raise_for_status().json()["castings"]
+    fields = [
+        {name: casting[name] for name in ("part", "instrument", "player")}
+        | {"handedness": "left" if casting["instrument"] == "drums" else "right"}
+        for casting in castings
+    ]
+    client.put(path, json={"castings": fields}, headers=headers).raise_for_status()
 
 
 def struck(note: dict[str, Any]) -> dict[str, Any]:
@@ -299,3 +318,17 @@ def test_a_frame_is_the_same_by_seek_and_by_play(drummed: Drummed) -> None:
     first = round(middle * 60)
     whole = drummed.frames.raw[first : first + len(one.raw), 24:]
     np.testing.assert_array_equal(one.raw[:, 24:], whole)
+
+
+def test_a_left_handed_player_leads_with_the_left_on_a_mirrored_kit(drummed: Drummed) -> None:
+    kit, is_left = drummed.pose(drummed.frames, "drums"), drummed.name == LEFT_HANDED
+    assert kit.rig["name"] == ("drumkit_left_handed" if is_left else "drumkit")
+    assert (kit.positions["hi_hat_top"][:, 0].max() < -0.3) == is_left
+    if drummed.name not in (*EXAMPLES, LEFT_HANDED):
+        return
+    leading = [struck(note) for note in drummed.notes if struck(note) and struck(note)["piece"] != "snare"]
+    side = "left" if is_left else "right"
+    hats = [one["hand"] for one in leading if one["piece"] == "hi_hat" and one["hand"]]
+    assert hats.count(side) > 0.8 * len(hats) > 0
+    kicks = [one["foot"] for one in leading if one["piece"] == "kick"]
+    assert kicks.count(side) > 0.8 * len(kicks) > 0

@@ -23,12 +23,14 @@ from reina.cli.score_tables import (
 from reina.cli.usual_cast import further_lines, further_players, usual_castings
 from reina.errors import InputError, ReinaError
 from reina.instruments import (
+    HANDEDNESS,
     INSTRUMENTS,
     Casting,
     Instrument,
     PartRanking,
     PlayedPart,
     describe_score,
+    refuse_handedness,
     score_findings,
 )
 from reina.music import Score, read_score
@@ -69,6 +71,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--usual-fingerings", action="store_true", help="take no fingering but the usual one of each note"
     )
+    parser.add_argument(
+        "--handedness",
+        choices=HANDEDNESS,
+        default="right",
+        help="which hand leads, where it can be played so",
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -83,6 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
         said = _said(arguments)
         lead, *others = usual_castings(score, arguments.instrument, arguments.part, alone=bool(said))
         instrument = INSTRUMENTS[lead.instrument]
+        refuse_handedness(instrument, arguments.handedness)
         rankings = instrument.rank_parts(score)
         asked = {name: vars(arguments)[name] for name in said if name != "part"}
         played = _played(score, replace(lead, **asked), rankings)
@@ -107,6 +116,7 @@ ALONE = {
     "octave_fit": False,
     "joined_parts": (),
     "usual_fingerings": False,
+    "handedness": "right",
 }
 """What can be asked of one player, and what it is by default."""
 

@@ -208,3 +208,12 @@ def test_every_player_of_a_band_is_told_unless_one_is_asked_for(capsys: pytest.C
     for asked in (("--instrument", "trumpet"), ("--transposition", "2"), ("--part", "0")):
         assert json.loads(output(capsys, band, "--json", *asked))["further_players"] == []
     assert json.loads(output(capsys, band, "--json", "--part", "3"))["instrument"] == "drums"
+
+
+def test_who_leads_with_the_left_hand(capsys: pytest.CaptureFixture[str]):
+    saints = str(MARCH.with_name("when-the-saints.mid"))
+    described = json.loads(output(capsys, saints, "--json", "--instrument", "drums", "--handedness", "left"))
+    struck = [note["fingering"] for note in described["notes"] if note["fingering"]]
+    assert {one["hand"] for one in struck if one["piece"] == "ride"} == {"left"}
+    assert main(["inspect", saints, "--handedness", "left"]) == 1
+    assert "the B♭ trumpet is played right-handed, not left-handed" in capsys.readouterr().err

@@ -8,7 +8,7 @@ import { drummerView, KIT_VIEWS, kitView, type KitPlace } from "./kit-views";
 import { ROOM } from "./room/plan";
 
 /** Where the room has its kit. */
-const KIT: KitPlace = { x: 0, y: 0.2, z: -2.15, facing: 0 };
+const KIT: KitPlace = { x: 0, y: 0.2, z: -2.15, facing: 0, mirrored: false };
 const [SNARE, HI_HAT, RIGHT_PEDAL, LEFT_PEDAL, HEAD] = [
   [0.04, 0.65, 0.4],
   [0.4, 0.87, 0.58],
@@ -97,8 +97,8 @@ describe("kitView", () => {
   });
 
   it("turns and moves with the kit", () => {
-    const [x, y, z] = drummerView({ x: 0, y: 0, z: 0, facing: 0 }).position;
-    const turned = drummerView({ x: 1, y: 0.5, z: 2, facing: Math.PI / 2 }).position;
+    const [x, y, z] = drummerView({ x: 0, y: 0, z: 0, facing: 0, mirrored: false }).position;
+    const turned = drummerView({ x: 1, y: 0.5, z: 2, facing: Math.PI / 2, mirrored: false }).position;
     expect(turned[0]).toBeCloseTo(1 + z);
     expect(turned[1]).toBeCloseTo(y + 0.5);
     expect(turned[2]).toBeCloseTo(2 - x);
@@ -126,6 +126,20 @@ describe("kitView", () => {
         expect([name, x, nearest.distanceTo(head) > 0.4]).toEqual([name, x, true]);
         expect([name, x, Math.hypot(view.position[0] - x, view.position[2] - z) > 0.5]).toEqual([name, x, true]);
       }
+    }
+  });
+
+  it("sees a left-handed player's kit from the other side", () => {
+    for (const name of Object.keys(SHOWS)) {
+      const [view, other] = [kitView(name, KIT), kitView(name, { ...KIT, mirrored: true })];
+      if (view === null || other === null) throw new Error(name);
+      for (const point of ["position", "target"] as const) {
+        const [x, y, z] = view[point];
+        expect([name, ...other[point]]).toEqual([name, expect.closeTo(-x), y, expect.closeTo(z)]);
+      }
+      const [hat, mirrored] = [seen(view, HI_HAT), seen(other, [-HI_HAT[0], HI_HAT[1], HI_HAT[2]])];
+      expect(mirrored.x).toBeCloseTo(-hat.x);
+      expect(mirrored.y).toBeCloseTo(hat.y);
     }
   });
 

@@ -10,13 +10,15 @@ export interface KitPlace {
   readonly y: number;
   readonly z: number;
   readonly facing: number;
+  /** It is a left-handed player's, the mirror image of the other. */
+  readonly mirrored: boolean;
 }
 
 export interface KitView extends FramedView {
   readonly name: "kit_behind" | "kit_overhead" | "kit_hi_hat" | "kit_feet";
 }
 
-/** In the kit's frame: from below the stool, +Z ahead and +X to the drummer's left. */
+/** In a right-handed player's kit's frame: from below the stool, +Z ahead and +X to the drummer's left. */
 export const KIT_VIEWS: readonly KitView[] = [
   { name: "kit_behind", position: [0.62, 1.95, -1.35], target: [-0.05, 0.72, 0.5], fov: 0.72 },
   { name: "kit_overhead", position: [-0.12, 2.9, 0.1], target: [-0.12, 0.7, 0.42], fov: 0.78 },
@@ -73,12 +75,11 @@ function hides({ x, z }: Stand, { position, target }: FramedView): boolean {
   return away < IN_THE_WAY && position[1] + at * (target[1] - position[1]) < TALL;
 }
 
-function viewFrom(view: FramedView, { x, y, z, facing }: KitPlace): FramedView {
+function viewFrom(view: FramedView, { x, y, z, facing, mirrored }: KitPlace): FramedView {
   const [sin, cos] = [Math.sin(facing), Math.cos(facing)];
-  const placed = ([px, py, pz]: readonly [number, number, number]): [number, number, number] => [
-    x + px * cos + pz * sin,
-    y + py,
-    z - px * sin + pz * cos,
-  ];
+  const placed = ([across, py, pz]: readonly [number, number, number]): [number, number, number] => {
+    const px = mirrored ? -across : across;
+    return [x + px * cos + pz * sin, y + py, z - px * sin + pz * cos];
+  };
   return { position: placed(view.position), target: placed(view.target), fov: view.fov };
 }

@@ -5,6 +5,7 @@ import { type Object3D, type Ray, Vector3 } from "three";
 import type { RigModel, RigPoint } from "../rig";
 import { DRUM_PIECES } from "./blocks/staff";
 import type { KitPlace } from "./kit-views";
+import { LEFT_HANDED_KIT_RIG } from "./room";
 
 /** How near to a player's middle a ray has to pass, metres: an arm's breadth. */
 const REACH = 0.3;
@@ -24,6 +25,7 @@ interface StandingPlayer {
   /** Where the notes of each of `DRUM_PIECES` come to. */
   readonly pieces: readonly (RigPoint | null)[];
   readonly kit: Object3D | null;
+  readonly kitMirrored: boolean;
 }
 
 /** Where a player stands and which way, metres and radians about +Y from facing the audience. */
@@ -51,6 +53,7 @@ export class Players {
         lane: findLane(own),
         pieces: DRUM_PIECES.map((piece) => findPiece(own, piece)),
         kit: findJoint(own, KIT_JOINT),
+        kitMirrored: own.some(({ rig }) => rig === LEFT_HANDED_KIT_RIG),
       });
     }
   }
@@ -88,11 +91,11 @@ export class Players {
 
   /** Where a player's drum kit stands; null of who has none. */
   kit(player: number): KitPlace | null {
-    const kit = this.#players[player]?.kit ?? null;
+    const { kit = null, kitMirrored: mirrored = false } = this.#players[player] ?? {};
     if (kit === null) return null;
     const { x, y, z } = low.setFromMatrixPosition(kit.matrixWorld);
     ahead.setFromMatrixColumn(kit.matrixWorld, 2);
-    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z) };
+    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z), mirrored };
   }
 
   /** The player whom a ray meets first, a place in the cast; null for none. */

@@ -27,7 +27,7 @@ import { overview, PictureSpace, type PicturePoint, type Place, type ShowCamera 
 import { Players, type Stand } from "./players";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
-import { FOOT_JOINTS, KIT_RIG, RoomReflections, createRoom, type Room } from "./room";
+import { FOOT_JOINTS, KIT_RIG, LEFT_HANDED_KIT_RIG, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show-binding";
 import { StillShots } from "./still-shots";
@@ -194,8 +194,8 @@ export class Stage {
     this.#players = new Players(models.map((model, i) => ({ model, player: hello.skeletons[i]?.player ?? 0 })));
     this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
-    const kit = models.find(({ rig }) => rig === KIT_RIG);
-    this.#room.kit.set(kit?.findJoint(kit.jointNames[0] ?? "") ?? null);
+    const kit = models.find(({ rig }) => rig === KIT_RIG || rig === LEFT_HANDED_KIT_RIG);
+    this.#room.kit.set(kit?.findJoint(kit.jointNames[0] ?? "") ?? null, kit?.rig === LEFT_HANDED_KIT_RIG);
     await this.#compile();
   }
 
