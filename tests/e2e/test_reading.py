@@ -102,7 +102,7 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
         notice.locator("strong").inner_text(),
         *notice.locator("li").all_inner_texts(),
     }
-    assert opened.overflowing() == []
+    opened.until_nothing_overflows()
 
     notice.get_by_role("button", name="Change the part").tap()
     chosen = page.get_by_role("group", name="Part the trumpet plays").get_by_role("radio", checked=True)
@@ -110,8 +110,7 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
     assert chosen.input_value() == "0"
     page.keyboard.press("Escape")
 
-    opened.choose_files(("sung.mid", "audio/midi", sung()))
-    opened.until_another_session(opened.session)
+    opened.open_files(("sung.mid", "audio/midi", sung()))
     path = f"/api/v1/sessions/{opened.session}"
     offer = notice.get_by_role("button", name="Move an octave up")
     opened.press_until(offer, notice.get_by_text("Moved an octave up"))
