@@ -82,8 +82,8 @@ def test_a_sound_that_cannot_be_had_is_said_and_the_music_plays_without(visit: C
     )
     opened.open_files(("short.mid", "audio/midi", scale(40, bpm=131.0)))
     page.keyboard.press("Space")
-    opened.until("window.reina.playing")
     page.get_by_text("No sound: see Piece").wait_for()
+    opened.until("window.reina.playing")
 
 
 def test_a_browser_without_opus_takes_the_whole_as_flac(visit: Callable[..., Opened]) -> None:
