@@ -110,8 +110,7 @@ def test_little_is_loaded_before_the_first_picture_and_less_the_second_time(
     traffic = Traffic(opened.page)
     # It is there before the page is loaded, and goes once the stage is seen.
     opened.go("/", wait_until="commit")
-    poster = opened.page.locator("#poster img")
-    assert poster.evaluate("image => image.decode().then(() => image.naturalWidth)") > 300
+    opened.until("document.querySelector('#poster img')?.naturalWidth > 300")
     opened.until_drawn()
     first = sum(traffic.sizes.values())
     assert 300_000 < first < MAX_FIRST_BYTES
