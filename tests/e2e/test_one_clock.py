@@ -124,6 +124,7 @@ def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: 
             one.page.wait_for_timeout(500)
         else:
             pytest.fail(f"picture less sound, ms: {np.round(1000 * apart(one)).tolist()}")
+    heard: list[HeardIn] = []
     for _ in range(LISTENINGS):
         heard = [heard_in(one, transport) for one in (pair.near, pair.far)]
         near, far = (each.late_s for each in heard)
