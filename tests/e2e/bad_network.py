@@ -126,9 +126,10 @@ class BadNetwork:
         """Send packets on their way, none before another."""
         now = asyncio.get_running_loop().time
         comes = 0.0
-        while packet := await reader.read(PACKET):
-            comes = max(comes, now() + self._weather.takes(self._dice))
-            await under_way.put((comes, packet))
+        with contextlib.suppress(ConnectionError):
+            while packet := await reader.read(PACKET):
+                comes = max(comes, now() + self._weather.takes(self._dice))
+                await under_way.put((comes, packet))
         await under_way.put((comes, b""))
 
     async def _give(
@@ -144,4 +145,7 @@ class BadNetwork:
             if number > self._forgotten:
                 writer.write(packet)
                 await writer.drain()
+        if number <= self._forgotten:
+            # Nobody is told of the end of what was forgotten, either.
+            await asyncio.Event().wait()
         writer.close()
