@@ -111,6 +111,8 @@ def test_a_browser_in_german_gets_german_from_the_first_sentence_on(visit: Visit
     page.get_by_text("E-Dur").first.wait_for()
     # A German player's B is B flat, and H is B natural.
     page.get_by_role("tab", name="Grifftabelle").click()
-    names = page.locator(".chart .names").all_inner_texts()
+    shown = page.locator(".chart .names")
+    shown.first.wait_for()
+    names = shown.all_inner_texts()
     assert "h′" in names
     assert any(name.startswith("b′") or name.endswith("b′") for name in names)

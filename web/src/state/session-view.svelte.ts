@@ -126,15 +126,20 @@ export class SessionView {
   #queue: FrameQueue | null = null;
   #followed: TransportState | null = null;
   #readings = 0;
+  /** The clock's epoch when the score was read, until the stream has greeted; null where it was lost since. */
+  #readAt: number | null;
+  /** The stream has greeted, and tells of every change from there on. */
+  #greeted = false;
 
   /** Get a session's score and clock and join its stream. Throws ProblemError when there is none. */
   static async open(id: string, token: string | null, surroundings: Surroundings): Promise<SessionView> {
     const { api } = surroundings;
-    const [session, score, cast, transport] = await Promise.all([
+    const [transport, session, score, cast] = await Promise.all([
+      // First: by its epoch the stream's greeting tells whether anything of the rest is another since.
+      api.transport(id),
       api.session(id),
       api.score(id),
       api.cast(id),
-      api.transport(id),
     ]);
     return new SessionView(session, score, cast, transport, token, surroundings);
   }
@@ -161,6 +166,7 @@ export class SessionView {
     this.alignment = $state.raw(session.alignment);
     this.duration = session.duration_s;
     this.songTime = transport.song_time_s;
+    this.#readAt = transport.epoch;
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
       {
@@ -475,6 +481,7 @@ export class SessionView {
         this.#lead.begin(message.transport.server_time_s);
         this.hello = message;
         this.duration = message.duration_s;
+        this.#takeGreeting(message.transport.epoch);
         this.#setTransport(message.transport, true);
         this.followAlignment(message.alignment);
         this.#song.load(message.song);
@@ -557,7 +564,17 @@ export class SessionView {
       this.#surroundings.answered();
       this.#lead.forgetAsked();
     }
-    if (state === "lost") void this.#lookWhetherGone();
+    if (state === "lost") {
+      this.#greeted = false;
+      this.#readAt = null;
+      void this.#lookWhetherGone();
+    }
+  }
+
+  /** Read what changed before the stream told of changes: another cast, or a recording in which the score was found. */
+  #takeGreeting(epoch: number): void {
+    if (!this.#greeted && epoch !== this.#readAt) void this.#attempt(() => this.#readAnew());
+    this.#greeted = true;
   }
 
   async #lookWhetherGone(): Promise<void> {
@@ -571,12 +588,14 @@ export class SessionView {
   async #readAnew(): Promise<void> {
     const { api } = this.#surroundings;
     const reading = ++this.#readings;
+    const { answers } = this.cast;
     const [session, score, cast] = await Promise.all([api.session(this.id), api.score(this.id), api.cast(this.id)]);
     // What was overtaken by another change is out of date.
     if (reading !== this.#readings) return;
     this.session = session;
     this.score = score;
-    this.cast.take(cast);
+    // The answer to a change is newer, and the stream tells of that change too.
+    if (this.cast.answers === answers) this.cast.take(cast);
   }
 
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
