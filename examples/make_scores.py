@@ -519,7 +519,8 @@ STREET = {
         "k": "k..k..k. k...k.K.",
         "1": "........ ...1.1..",
         "2": "........ ....2...",
-        "3": "........ ......33",
+        # The last eighth is left to come from the floor tom to the crash.
+        "3": "........ ......3.",
     },
 }
 SWUNG = 2.0 / 3.0

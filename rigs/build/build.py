@@ -1,8 +1,8 @@
 """Build the rigs: fetch the source, make the models, reduce and compress them, validate them, write rig.json.
 
-`python rigs/build/build.py` writes a rig for each file of figures/ and of instruments/, the drum kit and its
-sticks, or those of them that are named; the same input gives the same bytes. How a player holds an instrument
-is committed data and solved apart, by solve_hold.py.
+`python rigs/build/build.py` writes a rig for each file of figures/ and of instruments/, the drum kits and
+the sticks, or those of them that are named; the same input gives the same bytes. How a player holds an
+instrument is committed data and solved apart, by solve_hold.py.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from common.rig_file import write_json
 from common.source import default_cache, fetch
 from drums.kit import NAME as KIT
 from drums.kit import SIDES, build_kit, build_stick
+from drums.mirrored import LEFT_HANDED, build_left_handed_kit
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -72,7 +73,7 @@ def main() -> None:
     sticks = {f"{side}_stick": side for side in SIDES}
     triangles = {figure.name: PLAYER_TRIANGLES for figure in figures}
     triangles |= {horn.name: INSTRUMENT_TRIANGLES for horn in instruments}
-    triangles |= {KIT: KIT_TRIANGLES} | dict.fromkeys(sticks, STICK_TRIANGLES)
+    triangles |= dict.fromkeys((KIT, LEFT_HANDED), KIT_TRIANGLES) | dict.fromkeys(sticks, STICK_TRIANGLES)
     unknown = sorted(set(arguments.names) - set(triangles))
     if unknown:
         parser.error(f"there is no rig {unknown[0]!r}; there are {', '.join(triangles)}")
@@ -89,6 +90,8 @@ def main() -> None:
             build_instrument(raw, arguments.rigs / horn.name, horn)
     if KIT in wanted:
         build_kit(raw, arguments.rigs / KIT)
+    if LEFT_HANDED in wanted:
+        build_left_handed_kit(raw, arguments.rigs / LEFT_HANDED)
     for name, side in sticks.items():
         if name in wanted:
             build_stick(raw, arguments.rigs / name, side)

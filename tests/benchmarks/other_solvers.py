@@ -1,7 +1,8 @@
-"""One finger for other libraries' solvers: the same joints, limits and targets as Reina has them.
+"""One chain for other libraries' solvers: the same joints, limits and targets as Reina has them.
 
-Each solver begins at rest, stops within `TOLERANCE_M` of a target and has `ROUNDS` rounds, as Reina's
-iterative ones do. A library that is not installed is said to be missing, and left out.
+Each solver begins at rest or where it is told to, or (warm) at what it found for the target before; it stops
+within `TOLERANCE_M` of a target and has `ROUNDS` rounds, as Reina's iterative ones do. A library that is not
+installed is said to be missing, and left out.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ THREE = Path(__file__).parents[2] / "web" / "node_modules" / "three"
 
 @dataclass(frozen=True)
 class Hinge:
-    """One angle of a finger: a link from the hinge before it, a fixed turn, the axis that it turns about."""
+    """One angle of a chain: a link from the hinge before it, a fixed turn, the axis that it turns about."""
 
     name: str
     link_m: NDArray[np.float64]
@@ -47,7 +48,7 @@ class Hinge:
 
 @dataclass(frozen=True)
 class Finger:
-    """Hinges from the hand on, and where the pad is beyond the last one, ``(3,)``, metres."""
+    """Hinges from the base on, and where the pad or other tip is beyond the last one, ``(3,)``, metres."""
 
     hinges: list[Hinge]
     pad_m: NDArray[np.float64]
@@ -93,7 +94,32 @@ def _timed(solve: Callable[[Any], float], targets: Any) -> Measured:
     return Measured(np.array(errors), took)
 
 
-def by_ikpy(finger: Finger, targets: NDArray[np.float64]) -> Measured:
+class _Start:
+    """The angles that a solver begins with: always the same, or (warm) those it came to the last time."""
+
+    def __init__(self, angles: NDArray[np.float64], *, warm: bool) -> None:
+        self._angles, self._warm = angles, warm
+
+    def get(self) -> NDArray[np.float64]:
+        return self._angles
+
+    def came_to(self, angles: NDArray[np.float64]) -> None:
+        if self._warm:
+            self._angles = np.array(angles)
+
+
+def _begin(finger: Finger, start: NDArray[np.float64] | None, warm: bool) -> _Start:
+    angles = np.zeros(len(finger.hinges)) if start is None else start
+    return _Start(angles, warm=warm)
+
+
+def by_ikpy(
+    finger: Finger,
+    targets: NDArray[np.float64],
+    start: NDArray[np.float64] | None = None,
+    *,
+    warm: bool = False,
+) -> Measured:
     """ikpy: nonlinear least squares by SciPy on a chain of URDF links."""
     chain: Any = importlib.import_module("ikpy.chain")
     link: Any = importlib.import_module("ikpy.link")
@@ -112,16 +138,24 @@ def by_ikpy(finger: Finger, targets: NDArray[np.float64]) -> Measured:
     pad = link.URDFLink("pad", finger.pad_m.tolist(), [0.0, 0.0, 0.0], joint_type="fixed", rotation=None)
     mask = [False, *([True] * len(finger.hinges)), False]
     whole = chain.Chain([*links, pad], active_links_mask=mask)
-    rest = np.zeros(len(mask))
+    begin = _begin(finger, start, warm)
 
     def solve(target: NDArray[np.float64]) -> float:
-        found = whole.inverse_kinematics(target, initial_position=rest, max_iter=ROUNDS)
+        initial = np.concatenate([[0.0], begin.get(), [0.0]])
+        found = whole.inverse_kinematics(target, initial_position=initial, max_iter=ROUNDS)
+        begin.came_to(found[1:-1])
         return float(np.linalg.norm(whole.forward_kinematics(found)[:3, 3] - target))
 
     return _timed(solve, targets)
 
 
-def by_pink(finger: Finger, targets: NDArray[np.float64]) -> Measured:
+def by_pink(
+    finger: Finger,
+    targets: NDArray[np.float64],
+    start: NDArray[np.float64] | None = None,
+    *,
+    warm: bool = False,
+) -> Measured:
     """Pink: quadratic programs on Pinocchio's kinematics."""
     pin: Any = importlib.import_module("pinocchio")
     pink: Any = importlib.import_module("pink")
@@ -137,23 +171,29 @@ def by_pink(finger: Finger, targets: NDArray[np.float64]) -> Measured:
     model.addFrame(pin.Frame("pad", parent, parent, place, pin.FrameType.OP_FRAME))
     data = model.createData()
     task = pink.tasks.FrameTask("pad", position_cost=1.0, orientation_cost=0.0, lm_damping=1e-6)
-    rest = np.zeros(model.nq)
+    begin = _begin(finger, start, warm)
 
     def solve(target: NDArray[np.float64]) -> float:
-        configuration = pink.Configuration(model, data, rest)
+        configuration = pink.Configuration(model, data, begin.get())
         task.set_target(pin.SE3(np.eye(3), target))
         for _ in range(ROUNDS):
-            error = _apart(configuration.get_transform_frame_to_world("pad").translation, target)
-            if error <= TOLERANCE_M:
-                return error
+            if _apart(configuration.get_transform_frame_to_world("pad").translation, target) <= TOLERANCE_M:
+                break
             velocity = pink.solve_ik(configuration, [task], 1.0, solver="daqp", safety_break=False)
             configuration.integrate_inplace(velocity, 1.0)
+        begin.came_to(configuration.q)
         return _apart(configuration.get_transform_frame_to_world("pad").translation, target)
 
     return _timed(solve, targets)
 
 
-def by_mink(finger: Finger, targets: NDArray[np.float64]) -> Measured:
+def by_mink(
+    finger: Finger,
+    targets: NDArray[np.float64],
+    start: NDArray[np.float64] | None = None,
+    *,
+    warm: bool = False,
+) -> Measured:
     """Mink: quadratic programs on MuJoCo's kinematics."""
     mujoco: Any = importlib.import_module("mujoco")
     mink: Any = importlib.import_module("mink")
@@ -170,17 +210,20 @@ def by_mink(finger: Finger, targets: NDArray[np.float64]) -> Measured:
     model = spec.compile()
     task = mink.FrameTask("pad", "site", position_cost=1.0, orientation_cost=0.0, lm_damping=1e-6)
     limits = [mink.ConfigurationLimit(model)]
-    rest = np.zeros(model.nq)
+    begin = _begin(finger, start, warm)
 
     def solve(target: NDArray[np.float64]) -> float:
-        configuration = mink.Configuration(model, q=rest)
+        configuration = mink.Configuration(model, q=begin.get())
         task.set_target(mink.SE3.from_translation(target))
         for _ in range(ROUNDS):
-            error = _apart(configuration.get_transform_frame_to_world("pad", "site").translation(), target)
-            if error <= TOLERANCE_M:
-                return error
+            if (
+                _apart(configuration.get_transform_frame_to_world("pad", "site").translation(), target)
+                <= TOLERANCE_M
+            ):
+                break
             velocity = mink.solve_ik(configuration, [task], 1.0, solver="daqp", limits=limits)
             configuration.integrate_inplace(velocity, 1.0)
+        begin.came_to(configuration.q)
         return _apart(configuration.get_transform_frame_to_world("pad", "site").translation(), target)
 
     return _timed(solve, targets)
@@ -284,7 +327,7 @@ class Other:
     """A solver to stand beside: how it is called, what must be there for it, how many targets it is given."""
 
     name: str
-    run: Callable[[Finger, NDArray[np.float64]], Measured]
+    run: Callable[..., Measured]
     modules: tuple[str, ...]
     targets: int
 

@@ -86,9 +86,10 @@ class BadNetwork:
         """End every connection."""
         if self._server:
             self._server.close()
-        for connection in self._connections:
+        connections = tuple(self._connections)
+        for connection in connections:
             connection.cancel()
-        await asyncio.gather(*self._connections, return_exceptions=True)
+        await asyncio.gather(*connections, return_exceptions=True)
 
     async def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         connection = asyncio.current_task()
@@ -96,43 +97,55 @@ class BadNetwork:
         self._connections.add(connection)
         self._made += 1
         number = self._made
+        ends = [writer]
         try:
             # The handshake goes there and back before anything is sent.
             await asyncio.sleep(2 * self._weather.delay_s)
             far_reader, far_writer = await asyncio.open_connection(self._host, self._port)
-            for each in (writer, far_writer):
+            ends.append(far_writer)
+            for each in ends:
                 each.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            with contextlib.suppress(ConnectionError):
-                await asyncio.gather(
-                    self._carry(number, reader, far_writer), self._carry(number, far_reader, writer)
-                )
-        except (asyncio.CancelledError, OSError):
-            writer.close()
+            # Where one way breaks, nothing of the other goes on behind it.
+            async with asyncio.TaskGroup() as ways:
+                for taken, given in ((reader, far_writer), (far_reader, writer)):
+                    under_way: asyncio.Queue[tuple[float, bytes]] = asyncio.Queue(ON_ITS_WAY)
+                    ways.create_task(self._take(taken, under_way))
+                    ways.create_task(self._give(number, under_way, given))
+        except* (asyncio.CancelledError, OSError):
+            pass
         finally:
+            for each in ends:
+                each.close()
+                with contextlib.suppress(OSError):
+                    await each.wait_closed()
             self._connections.discard(connection)
 
-    async def _carry(self, number: int, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """Carry packets one way, each as long as the weather has it, none before another."""
-        loop = asyncio.get_running_loop()
-        under_way: asyncio.Queue[tuple[float, bytes]] = asyncio.Queue(ON_ITS_WAY)
-
-        async def send() -> None:
-            comes = 0.0
+    async def _take(
+        self, reader: asyncio.StreamReader, under_way: asyncio.Queue[tuple[float, bytes]]
+    ) -> None:
+        """Send packets on their way, none before another."""
+        now = asyncio.get_running_loop().time
+        comes = 0.0
+        with contextlib.suppress(ConnectionError):
             while packet := await reader.read(PACKET):
-                comes = max(comes, loop.time() + self._weather.takes(self._dice))
+                comes = max(comes, now() + self._weather.takes(self._dice))
                 await under_way.put((comes, packet))
-            await under_way.put((comes, b""))
+        await under_way.put((comes, b""))
 
-        sending = asyncio.create_task(send())
-        try:
-            while True:
-                comes, packet = await under_way.get()
-                await asyncio.sleep(max(comes - loop.time(), 0.0))
-                if not packet:
-                    break
-                if number > self._forgotten:
-                    writer.write(packet)
-                    await writer.drain()
-        finally:
-            sending.cancel()
-            writer.close()
+    async def _give(
+        self, number: int, under_way: asyncio.Queue[tuple[float, bytes]], writer: asyncio.StreamWriter
+    ) -> None:
+        """Hand packets over as they come; the end of them ends the connection."""
+        now = asyncio.get_running_loop().time
+        while True:
+            comes, packet = await under_way.get()
+            await asyncio.sleep(max(comes - now(), 0.0))
+            if not packet:
+                break
+            if number > self._forgotten:
+                writer.write(packet)
+                await writer.drain()
+        if number <= self._forgotten:
+            # Nobody is told of the end of what was forgotten, either.
+            await asyncio.Event().wait()
+        writer.close()

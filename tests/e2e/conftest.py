@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, sync_playwright
-from tests.e2e.opened import Opened
+from playwright.sync_api import Browser, expect, sync_playwright
+from tests.e2e.opened import PATIENCE_S, Opened
 from tests.e2e.shows import WINDOW, ShowPage, made_session, remembering
 from tests.integration.server import Running, serve
 
@@ -45,6 +45,9 @@ EXPECTED = ("409", "412", "ERR_FAILED")
 SMALL = (760, 430)
 """Width and height of the window: software GL draws a picture of this size in about a tenth of a second."""
 
+
+# What is expected of a page is waited for as long as all else; Playwright's own patience is five seconds.
+expect.set_options(timeout=PATIENCE_S * 1000)
 
 FAILED = pytest.StashKey[bool]()
 

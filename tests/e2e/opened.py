@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 from urllib.parse import urlsplit
 
 import numpy as np
@@ -29,6 +30,11 @@ OVERFLOWING = """() => [...document.querySelectorAll("html, .pane, .pane button,
   })
   .map((element) => element.outerHTML.slice(0, 120))"""
 
+STATE = """() => [document.querySelector(".notices")?.innerText, window.reina?.drawn,
+  document.activeElement?.outerHTML.slice(0, 120)]"""
+STILL = """() => document.getAnimations().every(
+  (each) => each.playState !== "running" || each.effect?.getComputedTiming().endTime === Infinity)"""
+
 
 class Opened:
     """One open page."""
@@ -43,13 +49,15 @@ class Opened:
         page.on("console", self._hear)
 
     def _hear(self, message: ConsoleMessage) -> None:
-        expected = any(part in message.text for part in self._refusals)
+        # A segment asked for in the moment in which the sound becomes another: the page goes over to that.
+        overtaken = "/song/segments/" in message.location["url"] and "410" in message.text
+        expected = overtaken or any(part in message.text for part in self._refusals)
         if message.type == "error" and not expected:
             self.errors.append(message.text)
 
-    def go(self, path: str) -> None:
+    def go(self, path: str, wait_until: Literal["commit", "load"] = "load") -> None:
         """Load an address of the server, drawn with the least effort."""
-        self.page.goto(f"{self._address}{path}{'&' if '?' in path else '?'}tier=low")
+        self.page.goto(f"{self._address}{path}{'&' if '?' in path else '?'}tier=low", wait_until=wait_until)
 
     def until_at_rest(self, transport: dict[str, Any]) -> int:
         """Wait until the frame of a paused clock's state is drawn, unblended; returns its index."""
@@ -91,9 +99,19 @@ class Opened:
         image = Image.open(io.BytesIO(self.page.screenshot(timeout=PATIENCE_S * 1000))).convert("RGB")
         return np.asarray(image).astype(np.int16)
 
-    def overflowing(self) -> list[str]:
-        """What of the panels goes beyond the window, as HTML; the document itself where it is wider."""
-        return self.page.evaluate(OVERFLOWING)
+    def until_redrawn(self, pictures: int) -> None:
+        """Wait for a picture after so many: what a key has changed is on the stage then."""
+        self.until("(pictures) => window.reina.pictures > pictures", pictures)
+
+    def until_still(self) -> None:
+        """Wait until nothing fades or moves any more, but for what turns for as long as something is on."""
+        self.until(STILL)
+
+    def until_nothing_overflows(self) -> None:
+        """Wait until nothing of the panels is beyond the window: what has room is counted after a change."""
+        with contextlib.suppress(LateError):
+            self.until(f"({OVERFLOWING})().length === 0")
+        assert self.page.evaluate(OVERFLOWING) == [], "as HTML; the document itself where it is wider"
 
     def hide_panels(self) -> None:
         """Leave nothing in the window but the stage."""
@@ -115,9 +133,10 @@ class Opened:
 
     def account(self) -> str:
         """What a person would see of the page's state, for the report of a test that failed."""
-        said = self.page.locator(".notices").first.inner_text()
-        figures = self.page.evaluate("[window.reina?.drawn, document.activeElement?.outerHTML.slice(0, 120)]")
-        return f"{self.page.url}: notices {said!r}; drawn, focus {figures}; errors {self.errors}"
+        if self.page.is_closed():
+            return f"{self.page.url}: closed; errors {self.errors}"
+        figures = self.page.evaluate(STATE)
+        return f"{self.page.url}: notices, drawn, focus {figures}; errors {self.errors}"
 
     def press_until(self, button: Locator, sign: Locator) -> None:
         """Tap a button; once more, as a person would, where the first tap came while the page changed."""

@@ -44,6 +44,12 @@ ROOM_MADE = """() => {
   return foot.querySelector("[aria-label^=Position]") === null && known === `${foot.clientHeight}px`;
 }"""
 """The transport below the editor has become lower for it."""
+LAID_OUT = """() => {
+  const { show } = window.reina;
+  const lanes = document.querySelector(".lanes").getBoundingClientRect();
+  return lanes.width > 0 && Math.abs(show.time(show.window[1]).x - lanes.right) < 1;
+}"""
+"""The timeline knows how wide it is: a browser tells with its next picture."""
 
 
 class ShowPage:
@@ -63,7 +69,12 @@ class ShowPage:
         self.page.keyboard.press("s")
         self.opened.until("window.reina.show !== undefined && window.reina.show.keyframes > 0")
         self.opened.until(ROOM_MADE)
+        self.until_laid_out()
         return self
+
+    def until_laid_out(self) -> None:
+        """Wait until what the timeline draws stands where its width has it."""
+        self.opened.until(LAID_OUT)
 
     def afresh(self) -> ShowPage:
         """Put the show above there again, and open the editor anew."""

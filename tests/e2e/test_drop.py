@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import httpx
+    from playwright.sync_api import Route
     from tests.e2e.opened import Opened
 
     Visit = Callable[..., Opened]
@@ -42,6 +43,24 @@ def drop(opened: Opened, *files: Path) -> None:
     drag(opened, "drop", files=files)
     opened.until_another_session(first)
     veil.wait_for(state="detached")
+
+
+def test_a_score_chosen_before_the_first_piece_is_open_stays(visit: Visit, client: httpx.Client) -> None:
+    opened = visit("/lab")
+    page = opened.page
+    held: list[Route] = []
+    # The bundled piece's session is under way while a file is chosen.
+    page.route("**/api/v1/sessions", lambda route: held.append(route), times=1)
+    with page.expect_request(lambda asked: asked.method == "POST" and asked.url.endswith("/sessions")):
+        opened.go("/", wait_until="commit")
+    opened.choose_files(("scale.mid", "audio/midi", scale(32)))
+    opened.until("window.reina?.session && window.reina.drawn")
+    own = opened.session
+    with page.expect_response(lambda answer: answer.request.method == "DELETE"):
+        held[0].continue_()
+    page.get_by_text("Opening").wait_for(state="detached")
+    assert opened.session == opened.measure("session") == own
+    assert client.get(f"/api/v1/sessions/{own}").json()["notes"] == 32
 
 
 def until_played(opened: Opened) -> None:

@@ -195,6 +195,7 @@ def test_curves_bend_by_their_handles_and_the_camera_takes_this_view(show: ShowP
     page.mouse.click(*show.key(EXPOSURE, "k3"))
     page.keyboard.press("v")
     show.opened.until("Number(document.querySelector('[data-curves]')?.dataset.curves) > 0")
+    show.opened.until("window.reina.show.curvesSettled()")
 
     # A keyframe is taken in time and in value.
     x, y = show.key(EXPOSURE, "k2")

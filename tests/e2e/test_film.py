@@ -204,8 +204,10 @@ def test_a_view_of_ones_own_is_held_through_the_film(clean: Opened, session: Own
     clean.page.get_by_role("application").focus()
     for _ in range(6):
         clean.page.keyboard.press("ArrowRight")
+    drawn = clean.measure("pictures")
     clean.page.keyboard.press("+")
     clean.page.evaluate("document.activeElement.blur()")
+    clean.until_redrawn(drawn)
     own = clean.picture()
     assert difference(own, shows) > 2 * CODING
     for camera, seen in (("mine", own), ("show", shows)):

@@ -42,8 +42,9 @@ def test_a_dropped_recording_is_found_and_put_right_by_hand(visit: Visit, client
     page = opened.page
     score = (SCORES / SCORE).read_bytes()
     opened.choose_files((SCORE, "application/json", score), ("ode.flac", "audio/flac", recording()))
-    opened.until("window.reina?.session && window.reina.drawn")
+    # A word in passing, which a busy machine may show before its first picture.
     page.get_by_text("In time with the recording · ").first.wait_for()
+    opened.until("window.reina?.session && window.reina.drawn")
 
     def kept() -> dict[str, Any]:
         return client.get(f"/api/v1/sessions/{opened.session}/alignment").json()
@@ -123,8 +124,8 @@ def test_what_the_server_does_not_decode_is_decoded_here(visit: Visit, client: h
     song = as_coded(made.samples, RATE, "webm")
     score = (SCORES / SCORE).read_bytes()
     opened.choose_files((SCORE, "application/json", score), ("ode.webm", "audio/webm", song))
-    opened.until("window.reina?.session && window.reina.drawn")
     page.get_by_text("In time with the recording · ").first.wait_for()
+    opened.until("window.reina?.session && window.reina.drawn")
     page.keyboard.press("h")
     panel = page.get_by_role("region", name="score and recording")
     panel.get_by_role("button", name="Look again").wait_for()
@@ -144,7 +145,6 @@ def test_what_the_server_does_not_decode_is_decoded_here(visit: Visit, client: h
     fingered.select_option("as the recording sounds: 2 semitones lower")
     page.locator("section[data-key='recording']").wait_for()
     assert first_pitch() == written - 2
-    page.screenshot(path="/tmp/key_align.png")
     assert faults(opened) == []
     panel.get_by_role("button", name="Undo").click()
     page.locator("section[data-key='score']").wait_for()

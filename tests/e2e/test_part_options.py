@@ -121,6 +121,9 @@ def test_parts_are_joined_in_the_page(visit: Visit, client: httpx.Client) -> Non
     page.get_by_text("Trumpet + Trumpet (muted)").wait_for()
     assert client.get(path).json()["joined_parts"] == [1]
     assert not client.get(f"{path}/transport").json()["playing"], "the key is the box's alone"
+    # The notes come by another way than the choice of parts.
+    joined = [note for note in client.get(f"{path}/score").json()["notes"] if note["player"] == 0]
+    opened.until("(count) => window.reina.laneNotes[0] === count", len(joined))
     assert blocks() > without + 0.002, "the blocks of the joined notes are in the picture"
     client.post(f"{path}/transport", json={"action": "seek", "song_time_s": 0.0}, headers=opened.headers)
     # The drummer's part has a player too: whose notes these are takes the room of one.

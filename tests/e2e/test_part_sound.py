@@ -33,9 +33,9 @@ AudioNode.prototype.connect = function (to, ...rest) {
 };
 """
 """Hears what leaves the page, two thirds of a second of it."""
-HEARD = """() => {
-  const samples = new Float32Array(tap.fftSize);
-  tap.getFloatTimeDomainData(samples);
+HEARD = """(kept) => {
+  const samples = kept ? window.full : new Float32Array(tap.fftSize);
+  if (!kept) tap.getFloatTimeDomainData(samples);
   let text = "";
   for (const byte of new Uint8Array(samples.buffer)) text += String.fromCharCode(byte);
   return { samples: btoa(text), rate: tap.context.sampleRate };
@@ -44,8 +44,13 @@ FULL = """() => {
   const samples = new Float32Array(tap.fftSize);
   tap.getFloatTimeDomainData(samples);
   const sounds = (from) => samples.subarray(from, from + 8192).some((sample) => sample > 0.03);
-  return [0, 8192, 16384, 24576].every(sounds);
+  const whole = [0, 8192, 16384, 24576].every(sounds);
+  if (whole) window.full = samples;
+  return whole;
 }"""
+"""Whether what is heard now has no gap; it is kept."""
+ROUNDS = 20
+"""How often it is listened again until what is heard has gone over to what was chosen."""
 
 
 def tone(seconds: float = 30.0, rate: int = 48000) -> bytes:
@@ -59,17 +64,17 @@ def tone(seconds: float = 30.0, rate: int = 48000) -> bytes:
     return file.getvalue()
 
 
-def spectrum(opened: Opened) -> tuple[NDArray[np.float64], float]:
-    """What is heard now, as the strength of each of many frequencies, and how far apart those are in Hz."""
-    heard = opened.page.evaluate(HEARD)
+def spectrum(opened: Opened, *, kept: bool = False) -> tuple[NDArray[np.float64], float]:
+    """What is heard now, or was kept: the strength of many frequencies, and how far apart those are in Hz."""
+    heard = opened.page.evaluate(HEARD, kept)
     samples = np.frombuffer(base64.b64decode(heard["samples"]), dtype=np.float32).astype(np.float64)
     size = 4 * len(samples)
     return np.abs(np.fft.rfft(samples * np.hanning(len(samples)), size)), heard["rate"] / size
 
 
 def pitch(opened: Opened, near_hz: float) -> float:
-    """The strongest frequency within a third of an octave of one, Hz."""
-    strengths, step = spectrum(opened)
+    """The strongest frequency of what was kept within a third of an octave of one, Hz."""
+    strengths, step = spectrum(opened, kept=True)
     low, high = (round(near_hz * 2 ** (third / 6) / step) for third in (-1, 1))
     peak = low + int(np.argmax(strengths[low:high]))
     before, top, after = np.log(strengths[peak - 1 : peak + 2])
@@ -110,9 +115,7 @@ def test_at_half_and_a_quarter_of_the_speed_the_pitch_is_kept(
         opened.until("tap.context.currentTime > window.changed + 1.5")
         opened.until(FULL)
         assert abs(1200 * np.log2(pitch(opened, TONE_HZ) / TONE_HZ)) < CENTS
-    ahead = opened.measure("soundAhead")
-    assert ahead is not None
-    assert abs(ahead) < 0.06
+    opened.until("Math.abs(window.reina.soundAhead ?? 1) < 0.06")
     assert opened.page.get_by_text("The pitch goes with the speed").count() == 0
     assert opened.page.get_by_text("A recording is heard as it is").count() == 1
 
@@ -121,6 +124,8 @@ def test_one_plays_along_without_the_part(visit: Callable[..., Opened], client: 
     opened = listening(visit, ("d.mid", "audio/midi", duet()))
     page = opened.page
     control(opened, client, action="loop", start_s=0.0, end_s=2.0)
+    # Panels that no pointer is on leave while the music plays.
+    page.get_by_role("region", name="Practice", exact=True).hover()
     page.keyboard.press("Space")
     opened.until("window.reina.playing && window.reina.soundLevel > 0.01")
 
@@ -132,6 +137,14 @@ def test_one_plays_along_without_the_part(visit: Callable[..., Opened], client: 
         power = strengths**2
         return float(power[round(300 / step) : round(550 / step)].sum() / power[round(300 / step) :].sum())
 
+    def until_share(fits: Callable[[float], bool]) -> float:
+        shares: list[float] = []
+        for _ in range(ROUNDS):
+            shares.append(share_of_trumpet())
+            if fits(shares[-1]):
+                return shares[-1]
+        pytest.fail(f"of what is heard the trumpet has {shares}")
+
     def chosen(name: str, stems: int) -> None:
         with page.expect_response(lambda answer: "/song/segments/" in answer.url and answer.status == 200):
             page.get_by_label(name, exact=True).check()
@@ -142,13 +155,11 @@ def test_one_plays_along_without_the_part(visit: Callable[..., Opened], client: 
     page.on("request", lambda asked: stem_states.append(asked.url) if "stem=" in asked.url else None)
     together = share_of_trumpet()
     chosen("Without", 2)
-    without = share_of_trumpet()
+    until_share(lambda without: without < 0.05 * together)
     page.get_by_label("Alone", exact=True).check()
-    alone = share_of_trumpet()
-    assert without < 0.05 * together
-    assert alone > together
+    until_share(lambda alone: alone > together)
     assert page.evaluate("JSON.parse(localStorage['reina-part-sound'])[window.reina.session]") == {
         "balance": 1,
         "semitones": 0,
     }
-    assert opened.overflowing() == []
+    opened.until_nothing_overflows()

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
+from playwright.sync_api import expect
 from tests.integration.scores import scale, song
 
 if TYPE_CHECKING:
@@ -54,18 +55,18 @@ def test_pieces_are_listed_with_pictures_deleted_and_brought_back(visit: Visit, 
     items.nth(1).wait_for()
     assert items.count() == 2
     assert items.nth(0).get_by_role("button").first.get_attribute("aria-current") == "page"
-    assert panel.locator("img").count() == 2
-    widths = panel.locator("img").evaluate_all("(images) => images.map((image) => image.naturalWidth)")
-    assert widths == [640, 640]
-    assert all(brightness > 20 for brightness in panel.locator("img").evaluate_all(BRIGHTNESS))
+    pictures = panel.locator("img")
+    widths = "(images) => Promise.all(images.map((image) => image.decode().then(() => image.naturalWidth)))"
+    assert pictures.evaluate_all(widths) == [640, 640]
+    assert all(brightness > 20 for brightness in pictures.evaluate_all(BRIGHTNESS))
 
     # What is open and deleted is left for the other; Undo brings it back, and the server has it still.
     title = client.get(f"/api/v1/sessions/{own}").json()["title"]
     panel.get_by_role("button", name=f"Delete {title}").click()
-    opened.until("(home) => window.reina.session === home && window.reina.drawn", home)
-    assert items.count() == 1
+    expect(items).to_have_count(1)
     panel.get_by_role("button", name="Undo").click()
-    assert items.count() == 2
+    expect(items).to_have_count(2)
+    opened.until("(home) => window.reina.session === home && window.reina.drawn", home)
     assert client.get(f"/api/v1/sessions/{own}").status_code == 200
 
     # Without Undo it is ended, at the latest when the panel is closed.
@@ -74,7 +75,7 @@ def test_pieces_are_listed_with_pictures_deleted_and_brought_back(visit: Visit, 
         panel.get_by_role("button", name="Close my pieces").click()
     assert ended.value.status == 204
     assert client.get(f"/api/v1/sessions/{own}").status_code == 404
-    assert own not in opened.page.evaluate("JSON.parse(localStorage.reina).tokens")
+    opened.until("(own) => !(own in JSON.parse(localStorage.reina).tokens)", own)
 
 
 def test_links_to_watch_and_to_control(visit: Visit) -> None:

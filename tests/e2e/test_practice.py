@@ -35,8 +35,9 @@ WHEN = """() => {
       return start.call(this, when, ...rest);
     };
     kind.prototype.stop = function (when) {
-      const early = when === undefined && this.begins > this.context.currentTime;
-      if (early) times.splice(times.indexOf(this.begins), 1);
+      // What is to end before it begins is never heard, as what a voice that is started anew had planned.
+      const unheard = (when ?? this.context.currentTime) <= this.begins;
+      if (unheard && times.includes(this.begins)) times.splice(times.indexOf(this.begins), 1);
       return stop.call(this, when);
     };
   };
@@ -128,6 +129,26 @@ def test_a_drummer_has_strokes_note_by_note_and_a_part_of_their_own(visit: Visit
     expect(held.get_by_role("img")).not_to_have_count(0)
     expect(panel.get_by_role("checkbox", name="Let each note be heard")).to_have_count(0)
     expect(panel.get_by_role("button", name="Fingering chart")).to_have_count(0)
+    expect(panel.get_by_role("tab", name="Quiz")).to_have_count(0)
+    expect(page.get_by_role("list", name="The next strokes of player 2, with hand or foot")).to_be_visible()
+    page.keyboard.press("Escape")
+
+    # What is offered elsewhere fits who strikes: no valves, and nothing that takes pitches another way.
+    page.keyboard.press("v")
+    views = page.get_by_role("region", name="views and light")
+    expect(views.get_by_role("button", name="Overhead")).to_have_attribute("aria-keyshortcuts", "3")
+    expect(views.get_by_role("checkbox", name="Feet in a small picture")).to_be_visible()
+    expect(views.get_by_text("Valves")).to_have_count(0)
+    page.keyboard.press("3")
+    opened.until("window.reina.drawnFrom[1] > 2.9 && window.reina.drawnFrom[2] < -1.8")
+    page.keyboard.press("v")
+    page.keyboard.press("p")
+    piece = page.get_by_role("region", name="the piece")
+    piece.get_by_text("Band member, B♭ trumpet").wait_for()
+    for told in ("Transpose", "Usual fingerings only", "Note names"):
+        expect(piece.get_by_text(told)).to_have_count(0)
+    piece.get_by_role("button", name="Add a player").click()
+    piece.get_by_text("Band member, B♭ trumpet").nth(1).wait_for()
     assert opened.errors == []
 
 

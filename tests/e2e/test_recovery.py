@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 import pytest
+from playwright.sync_api import expect
 from tests.e2e.opened import Opened
 from tests.integration.scores import duet, song
 from tests.integration.server import serve
@@ -15,14 +17,15 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     import httpx
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, WebSocketRoute
 
     Visit = Callable[..., Opened]
 
 pytestmark = pytest.mark.browser
 
 DUET = (("duet.mid", "audio/midi", duet()), ("duet.wav", "audio/wav", song(4.0)))
-LOST = ("ERR_CONNECTION_REFUSED", "WebSocket connection to")
+LOST = ("net::ERR_", "WebSocket connection to")
+"""What a browser says of a server that is away, and of one that goes in the middle of an answer."""
 
 
 def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> None:
@@ -37,7 +40,8 @@ def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> 
     with serve(tmp_path, "--port", str(port)):
         opened.page.get_by_text("The connection is lost").wait_for(state="detached")
         opened.page.keyboard.press("k")
-        opened.until("window.reina.playing && window.reina.drawnIndex > 20")
+        opened.until("window.reina.playing")
+        opened.until("window.reina.drawnIndex > 20")
         context.close()
     assert opened.errors == []
 
@@ -50,10 +54,27 @@ def test_a_session_that_ends_says_so_and_offers_a_way_on(visit: Visit, client: h
     opened.until_drawn()
 
 
+def test_what_changed_before_the_stream_began_is_seen(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(size=(1100, 620)).open_files(*DUET)
+    path, headers = f"/api/v1/sessions/{opened.session}", opened.headers
+    first = opened.page.locator(".notes .name").first
+    expect(first).to_have_text("G4")
+
+    # The page has read the score by then, and hears of no change yet.
+    def change_first(stream: WebSocketRoute) -> None:
+        client.patch(path, json={"transposition": 2}, headers=headers).raise_for_status()
+        stream.connect_to_server()
+
+    opened.page.route_web_socket(re.compile("/stream"), change_first)
+    opened.page.reload()
+    opened.until_drawn()
+    expect(first).to_have_text("A4")
+
+
 def test_the_keyboard_chooses_a_part(visit: Visit, client: httpx.Client) -> None:
     opened = visit(size=(1100, 620)).open_files(*DUET)
     opened.page.keyboard.press("p")
-    parts = opened.page.get_by_role("group", name="Part the trumpet plays")
+    parts = opened.page.get_by_role("group", name="Part for the trumpet")
     chosen = parts.get_by_role("radio", checked=True)
     chosen.focus()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 1

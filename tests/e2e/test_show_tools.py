@@ -84,6 +84,7 @@ def test_curves_of_several_units_and_a_colours_handles(show: ShowPage) -> None:
         put(FOV, [0.3, 0.9]),
         put(COLOR, ["#D9A441", "#4C6A9A"], interpolation="cubic_spline"),
     )
+    show.opened.until("window.reina.show.keyframes === 10")
     page.get_by_role("button", name="Curves").click()
     page.get_by_role("treeitem", name="blocks colour").click()
     page.get_by_label("Timeline").focus()

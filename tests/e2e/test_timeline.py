@@ -140,6 +140,7 @@ def test_loops_are_dragged_on_the_editors_ruler_and_its_place_is_chosen(free: Sh
     assert after is not None
     assert after["width"] == pytest.approx(before["width"] + 60, abs=1)
     # What lies there is drawn and taken as below.
+    free.until_laid_out()
     page.mouse.click(*free.key(EXPOSURE, "k2"))
     assert free.measure("chosen") == [[EXPOSURE, "k2"]]
     assert page.evaluate("JSON.parse(localStorage.reina).editorDock") == "right"

@@ -60,12 +60,16 @@ def test_views_lights_and_quality(visit: Visit, client: httpx.Client) -> None:
     # The small picture shows other things than the stage has there, and goes again.
     opened.hide_panels()
     plain = opened.picture()[INSET]
+    drawn = opened.measure("pictures")
     page.keyboard.press("i")
     opened.until("document.querySelector('.inset') !== null")
+    opened.until_redrawn(drawn)
     inset = opened.picture()[INSET]
     assert np.abs(inset - plain).mean() > 8
+    drawn = opened.measure("pictures")
     page.keyboard.press("i")
     opened.until("document.querySelector('.inset') === null")
+    opened.until_redrawn(drawn)
     assert np.abs(opened.picture()[INSET] - plain).mean() < 3
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import json
 from typing import TYPE_CHECKING, Any
 
 import httpx
+import mido
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -140,6 +142,11 @@ def test_a_show_moves_each_player_and_keeps_what_a_smaller_cast_has_not(pair: Ow
         ([{"part": 1}, {"part": 7}], "castings/1/part", "there are 0 to 1"),
         ([{"part": 1}, {"part": 1}], "castings/1/part", "part 1 is played by another player already"),
         ([{"seat": "left"}, {"seat": "left"}], "castings/1/seat", "taken already"),
+        (
+            [{"instrument": "drums"}, {"instrument": "drums"}],
+            "castings/1/instrument",
+            "one drum kit on the stage",
+        ),
     ],
 )
 def test_a_cast_that_cannot_play_is_refused_with_its_place(
@@ -331,3 +338,78 @@ def test_hands_are_told_and_a_left_handed_trumpeter_is_refused(client: httpx.Cli
     assert unknown.status_code == 422
     assert "'left' or 'right'" in unknown.text
     made.change("DELETE")
+
+
+def trumpet_and_drums() -> bytes:
+    """A few notes, and two bars of rock under them."""
+    melody = mido.MidiTrack(
+        [mido.MetaMessage("track_name", name="Trumpet"), mido.Message("program_change", program=56)]
+    )
+    for pitch in (60, 62, 64, 65):
+        melody.append(mido.Message("note_on", note=pitch, time=0))
+        melody.append(mido.Message("note_off", note=pitch, time=960))
+    kit = mido.MidiTrack([mido.MetaMessage("track_name", name="Kit")])
+    for eighth in range(16):
+        keys = [42, *([36] if eighth % 4 == 0 else []), *([38] if eighth % 4 == 2 else [])]
+        for key in keys:
+            kit.append(mido.Message("note_on", channel=9, note=key, velocity=90, time=0))
+        for place, key in enumerate(keys):
+            kit.append(mido.Message("note_off", channel=9, note=key, time=0 if place else 240))
+    data = io.BytesIO()
+    mido.MidiFile(ticks_per_beat=480, tracks=[melody, kit]).save(file=data)
+    return data.getvalue()
+
+
+def test_a_drummer_leads_with_the_left_hand_and_does_so_after_a_restart(tmp_path: Path) -> None:
+    """Chosen with the upload, changed by PUT and PATCH, kept; frames are those of the mirrored kit."""
+    drummer = {"part": 1, "instrument": "drums", "player": "soloist", "handedness": "left"}
+    castings: list[dict[str, Any]] = [{"part": 0}, drummer]
+
+    def hands(client: httpx.Client, path: str) -> set[tuple[str, str]]:
+        notes = client.get(f"{path}/score").raise_for_status().json()["notes"]
+        struck = [note["fingering"] for note in notes if note["player"] == 1]
+        return {(one["piece"], one["hand"] or one["foot"]) for one in struck}
+
+    def kit(client: httpx.Client, path: str) -> str:
+        skeletons = client.get(f"{path}/manifest").raise_for_status().json()["skeletons"]
+        return next(one["rig"] for one in skeletons if one["name"] == "players/2/drums")
+
+    left = {("hi_hat", "left"), ("snare", "right"), ("kick", "left")}
+    right = {("hi_hat", "right"), ("snare", "left"), ("kick", "right")}
+    with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30.0) as client:
+        listed = client.get("/api/v1/instruments").json()["instruments"]
+        assert {one["name"]: one["handedness"] for one in listed}["drums"] == ["right", "left"]
+        files: dict[str, Any] = {"song": ("s.wav", song(8.0))}
+        made = upload(client, trumpet_and_drums(), **files, cast=json.dumps({"castings": castings}))
+        told = client.get(f"{made.path}/cast").json()["castings"]
+        assert [one["handedness"] for one in told] == ["right", "left"]
+        assert (hands(client, made.path), kit(client, made.path)) == (left, "drumkit_left_handed")
+        reasons = {
+            note["reason"] for note in client.get(f"{made.path}/score").json()["notes"] if note["player"]
+        }
+        assert "left leads on the hi-hat" in reasons
+        assert "left foot on the bass drum" in reasons
+        frames = take(client, made.id, 0.0, 2.0)
+
+        castings[1]["handedness"] = "right"
+        made.change("PUT", "/cast", json={"castings": castings}).raise_for_status()
+        assert (hands(client, made.path), kit(client, made.path)) == (right, "drumkit")
+        others = take(client, made.id, 0.0, 2.0)
+        assert not np.array_equal(frames.local["players/2/player"], others.local["players/2/player"])
+        np.testing.assert_array_equal(frames.local["player"], others.local["player"])
+
+        castings[0]["handedness"], castings[1]["handedness"] = "left", "left"
+        refused = made.change("PUT", "/cast", json={"castings": castings})
+        assert refused.status_code == 422
+        assert "castings/0/handedness: the B♭ trumpet is played right-handed, not left" in refused.text
+        castings[0]["handedness"] = "right"
+        made.change("PUT", "/cast", json={"castings": castings}).raise_for_status()
+    with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30.0) as client:
+        assert (hands(client, made.path), kit(client, made.path)) == (left, "drumkit_left_handed")
+        alone = {"castings": [castings[1]]}
+        client.put(f"{made.path}/cast", json=alone, headers=made.headers).raise_for_status()
+        answer = client.patch(made.path, json={"handedness": "right"}, headers=made.headers)
+        assert answer.raise_for_status().json()["handedness"] == "right"
+        assert client.get(f"{made.path}/manifest").json()["skeletons"][1]["rig"] == "drumkit"
+        client.patch(made.path, json={"handedness": "left"}, headers=made.headers).raise_for_status()
+        assert client.get(f"{made.path}/manifest").json()["skeletons"][1]["rig"] == "drumkit_left_handed"

@@ -56,20 +56,35 @@ SCORES: dict[str, tuple[float, Hits]] = {
     ),
     "softer and softer": (120, [(2 + 0.5 * i, 38, max(1, 120 - 5 * i)) for i in range(24)]),
     "a long rest": (120, [(1, 38, 100), (2, 49, 100), (42, 38, 100), (43, 43, 90)]),
+    "hi-hat and floor tom in turn": (140, [(4 + 0.5 * i, (42, 43)[i % 2], 100) for i in range(32)]),
+    "bell, snare, china": (130, [(2 + 0.5 * i, (53, 38, 52)[i % 3], 100) for i in range(36)]),
+    "the farthest pieces": (140, [(4 + 0.5 * i, (42, 52, 49, 43, 46, 51)[i % 6], 110) for i in range(36)]),
+    "anything anywhere": (
+        120,
+        [
+            (2 + 0.8 * i, int(key), int(velocity))
+            for i, (key, velocity) in enumerate(
+                zip(
+                    np.random.default_rng(11).choice(
+                        [38, 42, 46, 50, 47, 43, 49, 57, 51, 53, 52, 55, 56], size=60
+                    ),
+                    np.random.default_rng(12).integers(30, 125, size=60),
+                    strict=True,
+                )
+            )
+        ],
+    ),
 }
 EXAMPLES = ("when-the-saints.mid",)
+LEFT_HANDED = "when the saints, left-handed"
+"""The same example; who plays it leads with the left hand, on the mirror image of the kit."""
 SCORES_FOLDER = Path(__file__).parents[2] / "examples" / "scores"
 
 TOUCH_M = 0.002
 INSIDE_M = 0.003
-GRAZED_M = {"the whole kit at once": 0.010, "a long rest": 0.033}
-"""Known faults: a stick that goes from the splash to the cowbell beneath touches its edge, and the left arm
-that crosses to the floor tom lies over the right stick on the snare."""
 PEDAL_M = 0.002
 HAND_SPEED, STICK_SPEED = 15.0, 30.0
-LIMIT_DEG = 4.0
-REACHING_DEG = 10.0
-"""Where every hit is on another piece at the other end of the kit, the right arm goes so far across."""
+LIMIT_DEG = 1.5
 FINE_FPS = 240
 EARLY_S = 1 / 60
 
@@ -125,17 +140,34 @@ class Drummed:
         return moved
 
 
-@pytest.fixture(scope="module", params=[*SCORES, *EXAMPLES], ids=lambda name: name.replace(" ", "-"))
+@pytest.fixture(
+    scope="module", params=[*SCORES, *EXAMPLES, LEFT_HANDED], ids=lambda name: name.replace(" ", "-")
+)
 def drummed(request: pytest.FixtureRequest, client: httpx.Client) -> Iterator[Drummed]:
     """A score with drums, as it is cast by itself."""
     name = request.param
-    data = (SCORES_FOLDER / name).read_bytes() if name in EXAMPLES else midi(*SCORES[name])
-    files = {"score": ("drums.mid", data), "song": ("song.wav", song())}
+    example = EXAMPLES[0] if name == LEFT_HANDED else name
+    data = (SCORES_FOLDER / example).read_bytes() if example in EXAMPLES else midi(*SCORES[name])
+    # The song is longer than any of the scores: what comes after its end is not played.
+    files = {"score": ("drums.mid", data), "song": ("song.wav", song(70.0))}
     # In time as it is: no search for the score in the recording moves the music meanwhile.
     made = client.post("/api/v1/sessions", files=files, data={"in_time": "true"}).raise_for_status().json()
-    yield Drummed(client, made, name)
     headers = {"Authorization": f"Bearer {made['control_token']}"}
+    if name == LEFT_HANDED:
+        lead_with_the_left(client, f"/api/v1/sessions/{made['id']}/cast", headers)
+    yield Drummed(client, made, name)
     client.delete(f"/api/v1/sessions/{made['id']}", headers=headers).raise_for_status()
+
+
+def lead_with_the_left(client: httpx.Client, path: str, headers: dict[str, str]) -> None:
+    """Let the drummer of a cast lead with the left hand."""
+    castings = client.get(path).raise_for_status().json()["castings"]
+    fields = [
+        {name: casting[name] for name in ("part", "instrument", "player")}
+        | {"handedness": "left" if casting["instrument"] == "drums" else "right"}
+        for casting in castings
+    ]
+    client.put(path, json={"castings": fields}, headers=headers).raise_for_status()
 
 
 def struck(note: dict[str, Any]) -> dict[str, Any]:
@@ -188,8 +220,7 @@ def test_joints_are_within_their_limits(drummed: Drummed) -> None:
     for index, joint in enumerate(pose.rig["joints"]):
         if "limits" in joint:
             beyond = np.degrees(excess(joint, Rotation.from_quat(local[:, index])))
-            allowed = REACHING_DEG if drummed.name == "the whole kit at once" else LIMIT_DEG
-            assert beyond <= allowed, f"{joint['name']}: {beyond:.1f} degrees"
+            assert beyond <= LIMIT_DEG, f"{joint['name']}: {beyond:.1f} degrees"
 
 
 def test_hands_and_sticks_are_no_faster_than_they_can_be(drummed: Drummed) -> None:
@@ -257,7 +288,6 @@ def samples(drummed: Drummed, frames: Take) -> dict[str, list[tuple[str, Points,
 
 def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -> None:
     frames = drummed.frames
-    allowed = GRAZED_M.get(drummed.name, INSIDE_M)
     spheres = samples(drummed, frames)
     for piece, middle, axis, half, radius in solids(drummed, frames):
         for side, own in spheres.items():
@@ -269,7 +299,7 @@ def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -
                 outside: Points = np.hypot(np.maximum(out, 0), np.maximum(over, 0))
                 deep: Points = thick - outside - np.minimum(np.maximum(out, over), 0.0)
                 worst = int(deep.argmax())
-                assert deep[worst] <= allowed, (
+                assert deep[worst] <= INSIDE_M, (
                     f"{frames.song_time_s[worst]:.3f} s: the {side} {what} is {1000 * deep[worst]:.1f} mm"
                     f" inside the {piece}"
                 )
@@ -277,7 +307,7 @@ def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -
         for other, right, broad in spheres["right"]:
             deep = thick + broad - np.linalg.norm(left - right, axis=1)
             worst = int(deep.argmax())
-            assert deep[worst] <= allowed, (
+            assert deep[worst] <= INSIDE_M, (
                 f"{frames.song_time_s[worst]:.3f} s: left {what}, right {other}: {1000 * deep[worst]:.1f} mm"
             )
 
@@ -288,3 +318,17 @@ def test_a_frame_is_the_same_by_seek_and_by_play(drummed: Drummed) -> None:
     first = round(middle * 60)
     whole = drummed.frames.raw[first : first + len(one.raw), 24:]
     np.testing.assert_array_equal(one.raw[:, 24:], whole)
+
+
+def test_a_left_handed_player_leads_with_the_left_on_a_mirrored_kit(drummed: Drummed) -> None:
+    kit, is_left = drummed.pose(drummed.frames, "drums"), drummed.name == LEFT_HANDED
+    assert kit.rig["name"] == ("drumkit_left_handed" if is_left else "drumkit")
+    assert (kit.positions["hi_hat_top"][:, 0].max() < -0.3) == is_left
+    if drummed.name not in (*EXAMPLES, LEFT_HANDED):
+        return
+    leading = [struck(note) for note in drummed.notes if struck(note) and struck(note)["piece"] != "snare"]
+    side = "left" if is_left else "right"
+    hats = [one["hand"] for one in leading if one["piece"] == "hi_hat" and one["hand"]]
+    assert hats.count(side) > 0.8 * len(hats) > 0
+    kicks = [one["foot"] for one in leading if one["piece"] == "kick"]
+    assert kicks.count(side) > 0.8 * len(kicks) > 0

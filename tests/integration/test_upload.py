@@ -7,7 +7,9 @@ import io
 import json
 import time
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 from typing import TYPE_CHECKING
 
 import pytest
@@ -54,7 +56,7 @@ def test_the_api_and_inspect_tell_a_musician_the_same(
     session = upload(client, sung(), "sung.mid")
     findings = session.body["findings"]
     assert [one["text"] for one in findings] == [
-        "No trumpet in this file: she plays Vocals",
+        "No trumpet in this file: the player plays Vocals",
         "2 of 11 notes lie outside the trumpet's range; an octave up, none would",
         "Plays the top note of 3 chords",
         "Leaves out 2 notes below the trumpet's range",
@@ -248,6 +250,29 @@ def test_a_song_is_heard_in_segments_while_it_is_rendered(client: httpx.Client) 
     gone = rendered(client, f"{segments['href']}/0")
     assert gone.status_code == 410
     assert gone.json()["title"] == "The sound is another now"
+    session.change("DELETE").raise_for_status()
+
+
+def test_who_waits_for_a_sound_that_becomes_another_is_told_where_that_is(client: httpx.Client) -> None:
+    session = upload(client, scale(600, bpm=101.0))
+    answers: list[httpx.Response] = []
+
+    def ask_on(href: str, changed: Event) -> None:
+        while not changed.is_set():
+            answers.append(client.get(href))
+
+    for transposition in (1, 2, 3):
+        deadline = time.monotonic() + 60
+        while (state := client.get(f"{session.path}/song/state").json())["segments"] is None:
+            assert time.monotonic() < deadline
+        changed = Event()
+        with ThreadPoolExecutor(1) as waiting:
+            waiting.submit(ask_on, f"{state['segments']['href']}/{state['segments']['count'] - 1}", changed)
+            session.change("PATCH", json={"transposition": transposition}).raise_for_status()
+            changed.set()
+    # What was ready before is sent, and what was asked for after the change is gone.
+    assert {answer.status_code for answer in answers} <= {200, 202, 410}
+    assert {answer.json()["status"] for answer in answers if answer.status_code == 202} == {"rendering"}
     session.change("DELETE").raise_for_status()
 
 

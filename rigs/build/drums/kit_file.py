@@ -18,6 +18,8 @@ SWING_DEG = 30.0
 """How far a cymbal leans about its stand's top, each way."""
 HEAD_TRAVEL = 0.003
 """How far a struck head goes in, at its parameter's 1."""
+LANE = (-0.12, 1.12, 1.0)
+"""Where the lane of notes begins: over the toms, before the cymbals."""
 HEADS = tuple(drum.name for drum in m.DRUMS)
 
 
@@ -86,7 +88,7 @@ def parts() -> list[dict[str, Any]]:
 
 
 def contacts() -> list[dict[str, Any]]:
-    """Where the player sits and where the feet rest; where the beater meets the head."""
+    """Where the player sits and where the feet rest; where the beater meets the head; where notes come to."""
     result: list[dict[str, Any]] = [{"name": "seat", "joint": "kit", "offset": [0.0, m.SEAT_TOP, 0.0]}]
     for side, pedal in (("right", m.KICK_PEDAL), ("left", m.HAT_PEDAL)):
         ball = [0.0, m.BOARD_TOP, m.BALL * pedal.length]
@@ -99,6 +101,10 @@ def contacts() -> list[dict[str, Any]]:
     turn = m.beater_contact_rad()
     felt = [0.0, m.BEATER_REACH + m.BEATER_HALF * np.sin(turn), m.BEATER_HALF * np.cos(turn)]
     result.append({"name": "beater", "joint": "kick_beater", "offset": [float(x) for x in felt]})
+    # Where the notes that come are played into it: over the toms, and the bass drum's front, which is seen.
+    result.append({"name": "lane", "joint": "kit", "offset": list(LANE)})
+    front = m.KICK.at(-m.KICK.depth)
+    result.append({"name": "lane_kick", "joint": "kit", "offset": [float(x) for x in front]})
     return result
 
 

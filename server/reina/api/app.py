@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
 
 DESCRIPTION = """\
-A score becomes a trumpeter. Make a session of a MIDI, MusicXML or JSON score, then watch it: over the
+A score becomes players on a stage. Make a session of a MIDI, MusicXML or JSON score, then watch it: over the
 WebSocket `/api/v1/sessions/{id}/stream` (docs/protocol.md says what comes), or frame by frame over HTTP.
 
 Whatever answers to GET answers to HEAD too, and to conditions (RFC 9110, 13): keep what was answered, and ask

@@ -46,6 +46,8 @@ async def list_instruments(store: Store) -> resources.InstrumentList:
                 handedness=list(INSTRUMENTS[name].handedness),
                 clef=INSTRUMENTS[name].clef,
                 valves=INSTRUMENTS[name].valve_count,
+                pieces=list(INSTRUMENTS[name].pieces),
+                seat=INSTRUMENTS[name].seat,
                 chart=_chart(INSTRUMENTS[name]),
             )
             for name in store.stage.instruments

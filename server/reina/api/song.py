@@ -126,9 +126,11 @@ async def get_song_state(session: Watched, hearing: Heard) -> SongState:
 async def get_segment(session: Watched, rendering: str, number: int) -> Response:
     """A segment of a rendered song, to be heard before the whole is rendered.
 
-    One that is not there yet is rendered next, and the rest after it; the answer waits for it for a second.
+    One that is not there yet is rendered next, and the rest after it; the answer waits for it for a
+    second. Where the sound becomes another meanwhile, the answer is 202 with the present one's state.
     """
-    request = session.heard.request(rendering)
+    heard = session.heard.request(rendering)
+    hearing, request = (AS_WRITTEN, None) if heard is None else heard
     if request is None:
         _song_and_path(session)
         request = session.song.request
@@ -144,9 +146,11 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
         )
     path = await request.segment(number, within_s=SEGMENT_PATIENCE_S)
     if path is None:
+        if request.given_up:
+            return _under_way(session)
         if request.error is not None:
             raise _no_song(str(request.error))
-        return _under_way(session)
+        return _under_way(session, hearing)
     return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=NOSNIFF)
 
 

@@ -5,6 +5,7 @@ import json
 import os
 import sys
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from reina.api.settings import Settings
@@ -19,8 +20,19 @@ from reina.cli.score_tables import (
     warning_lines,
     words_lines,
 )
+from reina.cli.usual_cast import further_lines, further_players, usual_castings
 from reina.errors import InputError, ReinaError
-from reina.instruments import INSTRUMENTS, Instrument, PartRanking, PlayedPart, describe_score, score_findings
+from reina.instruments import (
+    HANDEDNESS,
+    INSTRUMENTS,
+    Casting,
+    Instrument,
+    PartRanking,
+    PlayedPart,
+    describe_score,
+    refuse_handedness,
+    score_findings,
+)
 from reina.music import Score, read_score
 from reina.notation import keys_of
 from reina.sessions.production import Production
@@ -33,7 +45,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file", type=Path, metavar="FILE", help="a MIDI file, MusicXML or a JSON score, gzip'd or zipped too"
     )
     parser.add_argument("--json", action="store_true", help="print JSON and not tables")
-    parser.add_argument("--instrument", choices=sorted(INSTRUMENTS), default="trumpet", help="what plays it")
+    parser.add_argument(
+        "--instrument",
+        choices=sorted(INSTRUMENTS),
+        help="what plays it; by default what plays it when it is opened, and of a score for several players "
+        "every player's part is told",
+    )
     parser.add_argument("--part", type=int, help="the part to be played; the best one by default")
     parser.add_argument("--transposition", type=int, default=0, metavar="SEMITONES", help="move the part")
     parser.add_argument("--written", action="store_true", help="its pitches are written, not sounding ones")
@@ -54,6 +71,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--usual-fingerings", action="store_true", help="take no fingering but the usual one of each note"
     )
+    parser.add_argument(
+        "--handedness",
+        choices=HANDEDNESS,
+        default="right",
+        help="which hand leads, where it can be played so",
+    )
     parser.add_argument("--sequence", type=int, help="which sequence of a MIDI file of format 2, from 0")
 
 
@@ -65,27 +88,55 @@ def run(arguments: argparse.Namespace) -> int:
             text = _of_cast(file, arguments)
             return _print(text)
         score = read_score(file.read_bytes(), filename=file.name, sequence=arguments.sequence)
-        instrument = INSTRUMENTS[arguments.instrument]
+        said = _said(arguments)
+        lead, *others = usual_castings(score, arguments.instrument, arguments.part, alone=bool(said))
+        instrument = INSTRUMENTS[lead.instrument]
+        refuse_handedness(instrument, arguments.handedness)
         rankings = instrument.rank_parts(score)
-        part = rankings[0].part if arguments.part is None else arguments.part
-        played = instrument.play(
-            score,
-            part,
-            arguments.transposition,
-            written=arguments.written,
-            octave_fit=arguments.octave_fit,
-            joined_parts=arguments.joined_parts,
-            usual_fingerings=arguments.usual_fingerings,
-        )
+        asked = {name: vars(arguments)[name] for name in said if name != "part"}
+        played = _played(score, replace(lead, **asked), rankings)
+        further = [(INSTRUMENTS[other.instrument], _played(score, other)) for other in others]
     except (OSError, ReinaError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         print(f"reina inspect: {file}: {reason}", file=sys.stderr)
         return 1
     if arguments.json:
-        text = json.dumps(describe_score(score, instrument, played, rankings=rankings), ensure_ascii=False)
+        described = describe_score(score, instrument, played, rankings=rankings)
+        described["further_players"] = further_players(score, further)
+        text = json.dumps(described, ensure_ascii=False)
     else:
-        text = "\n".join(_lines(score, instrument, rankings, played))
+        text = "\n".join((*_lines(score, instrument, rankings, played), *further_lines(score, further)))
     return _print(text)
+
+
+ALONE = {
+    "part": None,
+    "transposition": 0,
+    "written": False,
+    "octave_fit": False,
+    "joined_parts": (),
+    "usual_fingerings": False,
+    "handedness": "right",
+}
+"""What can be asked of one player, and what it is by default."""
+
+
+def _said(arguments: argparse.Namespace) -> list[str]:
+    """What of `ALONE` the command line asks for."""
+    return [name for name, value in ALONE.items() if vars(arguments)[name] != value]
+
+
+def _played(score: Score, casting: Casting, rankings: Sequence[PartRanking] = ()) -> PlayedPart:
+    """A casting's part as it is played, the best for its instrument where it names none.
+
+    Raises:
+        NotInScoreError: The score has no such part, or parts cannot be joined.
+    """
+    instrument = INSTRUMENTS[casting.instrument]
+    part = casting.part
+    if part is None:
+        part = (rankings or instrument.rank_parts(score))[0].part
+    return casting.play(instrument, score, part)
 
 
 def _of_cast(file: Path, arguments: argparse.Namespace) -> str:
@@ -95,15 +146,7 @@ def _of_cast(file: Path, arguments: argparse.Namespace) -> str:
         InputError: The score or the cast cannot be read, or not be played so.
         OSError: A file cannot be read.
     """
-    alone = {
-        "part": None,
-        "transposition": 0,
-        "written": False,
-        "octave_fit": False,
-        "joined_parts": (),
-        "usual_fingerings": False,
-    }
-    said = [f"--{name.replace('_', '-')}" for name, value in alone.items() if vars(arguments)[name] != value]
+    said = [f"--{name.replace('_', '-')}" for name in _said(arguments)]
     if said:
         raise InputError(f"--cast says what everybody plays; leave out {', '.join(said)}")
     cast = asked_cast(arguments.cast, arguments.sequence)

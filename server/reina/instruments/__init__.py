@@ -4,7 +4,14 @@ Usable without a server: ``INSTRUMENTS["trumpet"].play(score, part)``.
 """
 
 from reina.instruments.cast_reasons import UnplayedPart, casting_reasons, unplayed_parts
-from reina.instruments.casting import HANDEDNESS, MAX_PLAYERS, Cast, CastError, Casting
+from reina.instruments.casting import (
+    HANDEDNESS,
+    MAX_PLAYERS,
+    Cast,
+    CastError,
+    Casting,
+    refuse_handedness,
+)
 from reina.instruments.chart_note import ChartNote
 from reina.instruments.choice_findings import choice_findings, spoken_name
 from reina.instruments.describe import (
@@ -75,6 +82,7 @@ __all__ = [
     "playable_line",
     "player_parameters",
     "rank_parts",
+    "refuse_handedness",
     "score_findings",
     "spell_line",
     "spoken_name",

@@ -24,6 +24,26 @@ class CastError(InputError):
     """A cast names what there is not; the message says what there is."""
 
 
+def refuse_handedness(instrument: "Instrument", handedness: str, place: str = "") -> None:
+    """Refuse a leading hand that an instrument cannot be played with.
+
+    Args:
+        instrument: The instrument.
+        handedness: Which hand leads.
+        place: What stands before the field's name in the cast, as ``castings/0/``.
+
+    Raises:
+        CastError: It is not played so; the message says how it is.
+    """
+    if handedness in instrument.handedness:
+        return
+    known = " or ".join(instrument.handedness)
+    told = f"is played {known}-handed, not {handedness}-handed"
+    if handedness not in HANDEDNESS:
+        told = f"is played {known}-handed; there is no handedness {handedness!r}"
+    raise CastError(f"the {instrument.title} {told}", location=f"{place}handedness")
+
+
 @dataclass(frozen=True)
 class Casting:
     """One player's share.
@@ -77,6 +97,7 @@ class Casting:
             octave_fit=self.octave_fit,
             joined_parts=self.joined_parts,
             usual_fingerings=self.usual_fingerings,
+            handedness=self.handedness,
         )
 
     def changed(self, **changes: Any) -> "Casting":

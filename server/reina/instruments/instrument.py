@@ -37,12 +37,14 @@ class Instrument(ABC):
     """What of it moves in every frame; the paths begin with its name."""
     handedness: tuple[str, ...] = ("right",)
     """With which hand leading it can be played: of `HANDEDNESS`."""
+    left_handed_rig: str = ""
+    """In place of `rig` where the left hand leads: its mirror image; empty where it is held the same."""
     plays_drums: bool = False
     """Whether it plays parts whose keys are drums and no pitches."""
     pieces: tuple[str, ...] = ()
     """What of it can be struck, by name, as the drums of a kit; empty where it is not struck."""
     seat: str | None = None
-    """Where it stands by itself, whoever else plays; None where it stands with the others."""
+    """Where it stands by itself, one of it, whoever else plays; None where it stands with the others."""
     show_parameters: tuple[Parameter, ...] = ()
     """What a show may choose of it; the paths begin with ``player/``."""
 
@@ -50,6 +52,14 @@ class Instrument(ABC):
     def skeletons(self) -> Mapping[str, str]:
         """Its skeletons in the frame by name, and each one's rig; its own is the first."""
         return {self.name: self.rig}
+
+    def skeletons_led_by(self, handedness: str) -> Mapping[str, str]:
+        """`skeletons` as who leads with that hand has them; its own is the first."""
+        if handedness == "right" or not self.left_handed_rig:
+            return self.skeletons
+        return {
+            name: self.left_handed_rig if rig == self.rig else rig for name, rig in self.skeletons.items()
+        }
 
     # --- its part
 
@@ -77,6 +87,7 @@ class Instrument(ABC):
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
         usual_fingerings: bool = False,
+        handedness: str = "right",
     ) -> PlayedPart:
         """Make a part playable and finger it.
 
@@ -88,6 +99,7 @@ class Instrument(ABC):
             octave_fit: Whether to move it by the octaves that bring most of its notes into range.
             joined_parts: Indices of further parts that are played with it, as if their notes were its own.
             usual_fingerings: Whether to take no fingering but the usual one of each note.
+            handedness: Which hand leads, of those that the instrument can be played with.
 
         Raises:
             NotInScoreError: If the score has no such part, or one of `joined_parts` cannot be joined.

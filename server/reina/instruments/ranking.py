@@ -69,6 +69,8 @@ def _rank(part: Part, notes: Notes, most_notes: int, suitability: Suitability) -
         evidence.append((suitability.drums, "drums"))
     evidence += _of_program(part, suitability)
     evidence += _of_name(part, suitability)
+    if part.is_drums and suitability.drums > 0:
+        return _ranked(part, notes, most_notes, evidence)
     inside = float(
         np.mean((notes.sounding_pitch >= suitability.lowest) & (notes.sounding_pitch <= suitability.highest))
     )
@@ -81,6 +83,10 @@ def _rank(part: Part, notes: Notes, most_notes: int, suitability: Suitability) -
     )
     alone = monophony(notes)
     evidence.append((ONE_AT_A_TIME * alone, f"{alone:.0%} one note at a time"))
+    return _ranked(part, notes, most_notes, evidence)
+
+
+def _ranked(part: Part, notes: Notes, most_notes: int, evidence: list[tuple[float, str]]) -> PartRanking:
     if len(notes) < 0.05 * most_notes:
         evidence.append((FEW_NOTES, f"few notes ({len(notes)})"))
     evidence.sort(key=lambda item: -abs(item[0]))

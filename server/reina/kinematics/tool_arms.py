@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.rotations import cross, from_matrix
+from reina.rotations import from_matrix
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import ArrayLike, FloatArray
 
 ROUNDS = 4
-"""How often wrist and tool are balanced; fixed, so that a pose is a function of its target alone."""
+"""How often wrist and tool are balanced at most; fixed, so that a pose is a function of its target alone."""
 
 GAIN = 0.75
 """How much of what a wrist is bent too far is taken back in a round."""
@@ -26,6 +26,11 @@ SLACK = 0.985
 
 FOLDED = 1.04
 """So does one that is folded to less than this many times its shortest."""
+
+_ALONG = 1e-18
+"""No vector across another is taken to be shorter, squared."""
+
+_NEXT, _LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,11 +98,13 @@ class ToolArms:
     def __init__(
         self, arms: TwoBoneLimbs, tools: Sequence[Tool], dorsal: ArrayLike, wrists: WristRange
     ) -> None:
+        # All vectors are kept as rows of components, (3, K, F): on short blocks that is many times faster.
         self._bend: FloatArray = np.asarray(arms.bend)[:, None]
-        self._reach: FloatArray = arms.reach
-        self._nearest: FloatArray = arms.nearest
-        self._upper, self._lower = arms.lengths
-        self._dorsal = np.asarray(dorsal, dtype=np.float64)
+        self._reach: FloatArray = arms.reach[:, None]
+        self._nearest: FloatArray = arms.nearest[:, None]
+        upper, lower = (np.asarray(length)[:, None] for length in arms.lengths)
+        self._squares: tuple[FloatArray, FloatArray] = (upper * upper, upper * upper - lower * lower)
+        self._backs = _Backs(_columns(np.asarray(dorsal, dtype=np.float64)[None]))
         # In the hand: columns direction, back of the hand across it, and their cross.
         held = np.empty((len(tools), 3, 3))
         for basis, tool in zip(held, tools, strict=True):
@@ -106,15 +113,15 @@ class ToolArms:
             basis[:, 0], basis[:, 1] = tool.direction, back / np.linalg.norm(back)
             basis[:, 2] = np.cross(basis[:, 0], basis[:, 1])
         self._to_basis: FloatArray = held.swapaxes(-1, -2)
-        # From the tip to the wrist, and to the fulcrum, in that basis.
+        # From the tip to the wrist, and to the fulcrum, in that basis, (3, K, 1).
         self._wrist, self._fulcrum = (
-            np.stack([-(basis @ vector) for basis, vector in zip(self._to_basis, vectors, strict=True)])[
-                ..., None
-            ]
+            _columns(np.stack([-(vector @ basis) for basis, vector in zip(held, vectors, strict=True)])[None])
             for vectors in ([tool.fulcrum + tool.tip for tool in tools], [tool.tip for tool in tools])
         )
+        # The hand's axes in that basis, axis by axis, (3, 3, K, 1).
+        self._axes: FloatArray = np.ascontiguousarray(held.transpose(1, 2, 0)[..., None])
         self._flexion = wrists.flexion
-        self._deviation = wrists.deviation
+        self._deviation = wrists.deviation.T[..., None]
 
     def solve(
         self,
@@ -138,35 +145,53 @@ class ToolArms:
             dorsal: Which way the backs of the hands look, ``(F, K, 3)``; as ever by default.
             yielding: How far the tools give way where arms cannot, 0 to 1, ``(F, K)``; 1 by default.
         """
-        pointing = directions
-        wrist = self._wrist if held is None else held[..., None]
-        back_way = self._dorsal if dorsal is None else dorsal
+        pointing, pole = _columns(directions), _columns(poles)
+        aim = _columns(tips - shoulders)
+        steep = _dot(pole, pole)
+        wrist = self._wrist if held is None else _columns(held)
+        backs = self._backs if dorsal is None else _Backs(_columns(dorsal))
+        lever = wrist / _dot(wrist, wrist)
+        giving = None if yielding is None else yielding.T
         for _ in range(ROUNDS):
-            basis = self._basis(pointing, back_way)
-            wrists = tips + np.matmul(basis, wrist)[..., 0]
-            forearms, stretched = self._forearms(shoulders, wrists, poles)
-            hands = np.matmul(basis, self._to_basis)
-            in_hand = np.matmul(hands.swapaxes(-1, -2), forearms[..., None])[..., 0]
-            flexion = np.arctan2(in_hand[..., 1], in_hand[..., 0])
-            deviation = np.arctan2(in_hand[..., 2], np.hypot(in_hand[..., 0], in_hand[..., 1]))
-            up = GAIN * _beyond(flexion, *self._flexion)[..., None]
-            aside = GAIN * _beyond(deviation, self._deviation[:, 0], self._deviation[:, 1])[..., None]
-            arm = wrists - tips
-            back = cross(stretched, arm) / np.einsum("...i,...i->...", arm, arm)[..., None]
-            turn = up * hands[..., 2] - aside * hands[..., 1] + back
-            if yielding is not None:
-                turn = turn * yielding[..., None]
-            pointing = pointing + cross(turn, pointing)
-            pointing = pointing / np.sqrt(np.einsum("...i,...i->...", pointing, pointing))[..., None]
-        basis = self._basis(pointing, back_way)
-        wrists = tips + np.matmul(basis, wrist)[..., 0]
-        far = wrists - shoulders
-        distance = np.sqrt(np.einsum("...i,...i->...", far, far))
+            basis = _basis(pointing, backs)
+            arm = _weighted(basis, wrist)
+            forearm, nearer = self._forearms(aim + arm, pole, steep)
+            across = np.add.reduce(basis * forearm, axis=1)
+            x, y, z = np.add.reduce(self._axes * across, axis=1)
+            up = GAIN * _beyond(np.arctan2(y, x), *self._flexion)
+            aside = GAIN * _beyond(np.arctan2(z, np.sqrt(x * x + y * y)), *self._deviation)
+            if giving is not None:
+                up, aside, nearer = up * giving, aside * giving, nearer * giving
+            if not (up.any() or aside.any() or nearer.any()):
+                break  # all further rounds would be the same
+            # The turn (up about the hand's z, aside about its y) × pointing, in the basis.
+            turn = up * self._axes[2] - aside * self._axes[1]
+            # And that by which the wrist comes nearer: (nearer × arm) × pointing / |arm|².
+            pull = _dot(pointing, nearer)
+            pointing = (
+                pointing
+                + turn[2] * basis[1]
+                - turn[1] * basis[2]
+                + pull * _weighted(basis, lever)
+                - lever[0] * nearer
+            )
+            pointing = pointing / np.sqrt(_dot(pointing, pointing))
+        else:
+            basis = _basis(pointing, backs)
+            arm = _weighted(basis, wrist)
+        far = aim + arm
+        distance = np.sqrt(_dot(far, far))
         lacking = np.maximum(distance - self._reach, 0.0) + np.maximum(self._nearest - distance, 0.0)
-        hinges = cross(poles, far) * self._bend
-        hands = from_matrix(np.matmul(basis, self._to_basis))
-        fulcrums = tips + np.matmul(basis, self._fulcrum)[..., 0]
-        return ToolPose(wrists, hands, fulcrums, pointing, hinges, lacking)
+        hinges = _cross(pole, far) * self._bend
+        hands = from_matrix(np.matmul(basis.transpose(3, 2, 1, 0), self._to_basis))
+        return ToolPose(
+            tips + _rows(arm),
+            hands,
+            tips + _rows(_weighted(basis, self._fulcrum)),
+            _rows(pointing),
+            _rows(hinges),
+            np.ascontiguousarray(lacking.T),
+        )
 
     def wrists(
         self,
@@ -176,8 +201,9 @@ class ToolArms:
         dorsal: FloatArray | None = None,
     ) -> FloatArray:
         """Where the wrists would be if no tool gave way, ``(F, K, 3)``, metres; arguments as `solve`."""
-        basis = self._basis(directions, self._dorsal if dorsal is None else dorsal)
-        return tips + np.matmul(basis, self._wrist if held is None else held[..., None])[..., 0]
+        backs = self._backs if dorsal is None else _Backs(_columns(dorsal))
+        wrist = self._wrist if held is None else _columns(held)
+        return tips + _rows(_weighted(_basis(_columns(directions), backs), wrist))
 
     def seen_from(self, points: FloatArray) -> FloatArray:
         """From points in the hands' frames ``(..., K, 3)`` to the wrists, as `solve` takes them, metres."""
@@ -187,34 +213,76 @@ class ToolArms:
         """Vectors in the hands' frames ``(..., K, 3)`` along tool, back of the hand, and across both."""
         return np.matmul(self._to_basis, vectors[..., None])[..., 0]
 
-    @property
-    def dorsal(self) -> FloatArray:
-        """Which way the backs of the hands look as ever, ``(K, 3)``."""
-        return self._dorsal
-
-    def _basis(self, pointing: FloatArray, dorsal: FloatArray) -> FloatArray:
-        """World directions of the held basis, as columns, ``(F, K, 3, 3)``."""
-        basis = np.empty((*pointing.shape, 3))
-        back = dorsal - pointing * np.einsum("...i,...i->...", pointing, dorsal)[..., None]
-        back = back / np.sqrt(np.einsum("...i,...i->...", back, back))[..., None]
-        basis[..., 0], basis[..., 1], basis[..., 2] = pointing, back, cross(pointing, back)
-        return basis
-
     def _forearms(
-        self, shoulders: FloatArray, wrists: FloatArray, poles: FloatArray
+        self, line: FloatArray, pole: FloatArray, steep: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Unit vectors from elbows to wrists, and by how much each wrist must come nearer, as a vector."""
-        line = wrists - shoulders
-        distance = np.sqrt(np.einsum("...i,...i->...", line, line))
-        along = line / np.maximum(distance, 1e-9)[..., None]
+        """Vectors along the forearms, and by how much each wrist must come nearer, as a vector.
+
+        Args:
+            line: From shoulders to wrists, ``(3, K, F)``.
+            pole: Which way the elbows point, ``(3, K, F)``.
+            steep: The squares of its lengths, ``(K, F)``.
+        """
+        distance = np.sqrt(_dot(line, line))
+        along = line / np.maximum(distance, 1e-9)
         within = np.minimum(np.maximum(distance, FOLDED * self._nearest), SLACK * self._reach)
-        pole = poles - along * np.einsum("...i,...i->...", along, poles)[..., None]
-        pole = pole / np.sqrt(np.einsum("...i,...i->...", pole, pole))[..., None]
-        ahead = (within * within + self._upper**2 - self._lower**2) / (2.0 * within)
-        height = np.sqrt(np.maximum(self._upper**2 - ahead * ahead, 0.0))
-        forearm = (within - ahead)[..., None] * along - height[..., None] * pole
-        nearer = (distance - within)[..., None] * along
-        return forearm / self._lower[..., None], nearer
+        ahead = (within * within + self._squares[1]) / (2.0 * within)
+        height = np.sqrt(np.maximum(self._squares[0] - ahead * ahead, 0.0))
+        leaning = _dot(pole, along)
+        height /= np.sqrt(np.maximum(steep - leaning * leaning, _ALONG))
+        forearm = (within - ahead + height * leaning) * along - height * pole
+        return forearm, (distance - within) * along
+
+
+class _Backs:
+    """Which way the backs of the hands look, ``(3, K, F)``, and what `_basis` needs of it."""
+
+    def __init__(self, dorsal: FloatArray) -> None:
+        self.ways = dorsal
+        self.next, self.last = dorsal[_NEXT], dorsal[_LAST]
+        self.square: FloatArray = _dot(dorsal, dorsal)
+
+
+def _basis(pointing: FloatArray, backs: _Backs) -> FloatArray:
+    """World directions of the held basis, vector by vector, ``(3, 3, K, F)``."""
+    basis = np.empty((3, *pointing.shape))
+    leaning = _dot(pointing, backs.ways)
+    basis[0] = pointing
+    np.subtract(backs.ways, pointing * leaning, out=basis[1])
+    # pointing × dorsal, since what was taken away lies along the first.
+    product = pointing.take(_NEXT, axis=0)
+    product *= backs.last
+    np.subtract(product, pointing.take(_LAST, axis=0) * backs.next, out=basis[2])
+    basis[1:] /= np.sqrt(np.maximum(backs.square - leaning * leaning, _ALONG))
+    return basis
+
+
+def _columns(vectors: FloatArray) -> FloatArray:
+    """``(F, K, 3)`` as ``(3, K, F)``."""
+    return np.ascontiguousarray(vectors.transpose(2, 1, 0))
+
+
+def _rows(vectors: FloatArray) -> FloatArray:
+    """``(3, K, F)`` as ``(F, K, 3)``."""
+    return np.ascontiguousarray(vectors.transpose(2, 1, 0))
+
+
+def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Dot products of vectors ``(3, K, F)``."""
+    return np.add.reduce(a * b)
+
+
+def _weighted(basis: FloatArray, weights: FloatArray) -> FloatArray:
+    """Sums of a basis's vectors, ``(3, K, F)``."""
+    return np.add.reduce(basis * weights[:, None])
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Cross products of vectors ``(3, K, F)``."""
+    product = a.take(_NEXT, axis=0)
+    product *= b.take(_LAST, axis=0)
+    product -= a.take(_LAST, axis=0) * b.take(_NEXT, axis=0)
+    return product
 
 
 def _beyond(value: FloatArray, low: FloatArray | float, high: FloatArray | float) -> FloatArray:

@@ -40,7 +40,8 @@ _INTRODUCTION = f"""\
 `WS /api/v1/sessions/{{id}}/stream`, subprotocol `{SUBPROTOCOL}`; another version is refused before
 the handshake ends. Text messages are JSON control messages, told apart by `type`; the first is
 `hello`, and whoever joins late or again needs nothing else. It is said again when another player comes
-on stage. Binary messages are frames. Nothing is compressed.
+on stage. Whoever read score and cast before it reads them again where its epoch is not the one that
+`GET .../transport` said before they were read. Binary messages are frames. Nothing is compressed.
 
 ## Frames
 

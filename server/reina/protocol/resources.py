@@ -435,6 +435,10 @@ class InstrumentSummary(WireModel):
     """The clef that it is written in."""
     valves: int
     """How many it has."""
+    pieces: list[str]
+    """What of it is struck, by name, as the drums of a kit; empty where it is not struck."""
+    seat: str | None
+    """Where it stands by itself: there is room for one of it. null where it stands with the others."""
     chart: list[ChartLine]
     """Every note that it has, from the lowest up."""
 

@@ -20,11 +20,19 @@ def seats_of(stage: Stage, cast: Cast) -> tuple[Seat, ...]:
     """Each player's seat: as asked for, its instrument's own, or by how many play without one of their own.
 
     Raises:
-        CastError: There is no such seat, or two players have one.
+        CastError: There is no such seat, two players have one, or two have an instrument with a seat of its
+            own: beside one of it the stage has no room for another.
     """
     own = [_own_seat(stage, casting) for casting in cast.castings]
-    # Who comes second to an instrument's own seat stands with the others.
-    own = [None if seat in own[:number] else seat for number, seat in enumerate(own)]
+    for number, seat in enumerate(own):
+        if seat is not None and seat in own[:number]:
+            title = stage.kinds[cast.castings[number].instrument].title
+            first = own.index(seat) + 1
+            raise CastError(
+                f"there is room for one {title} on the stage, and player {first} has it; one player can play "
+                "several parts of it (joined_parts)",
+                location=f"castings/{number}/instrument",
+            )
     together = iter(SEATS_FOR.get(own.count(None), ()))
     chosen = [casting.seat for casting in cast.castings if casting.seat is not None]
     seats: list[Seat] = []

@@ -42,12 +42,12 @@ class HeardSongs:
             oldest.close()
         return song
 
-    def request(self, rendering_id: str) -> SongRequest | None:
-        """The rendering of that name, if it is one of them."""
+    def request(self, rendering_id: str) -> tuple[Hearing, SongRequest] | None:
+        """The rendering of that name and what it is of, if it is one of them."""
         for hearing, song in self._songs.items():
             if song.request is not None and song.request.rendering_id == rendering_id:
                 self._songs.move_to_end(hearing)
-                return song.request
+                return hearing, song.request
         return None
 
     @property

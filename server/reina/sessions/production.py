@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from reina.curves import ParameterRegistry
     from reina.instruments import (
+        Casting,
         Instrument,
         PartRanking,
         Performer,
@@ -115,12 +116,22 @@ class Production:
         seats = seats_of(stage, cast)
         glances = plan_glances(played, seats)
         performers = [
-            stage.performer(casting, number, seat, heard, part, registry, looks, poses)
+            stage.performer(
+                casting,
+                number,
+                seat,
+                heard,
+                part,
+                registry,
+                looks,
+                poses,
+                others=tuple(other for other in seats if other != seat),
+            )
             for number, (casting, seat, part, looks) in enumerate(
                 zip(castings, seats, played, glances, strict=True)
             )
         ]
-        show = _show_for(heard, played, seats) if show is None else rebound(show, registry)
+        show = _show_for(heard, played, _places(castings, seats)) if show is None else rebound(show, registry)
         show_plan = show.plan(registry, time_map(heard), triggers=triggers(heard, played))
         performance = Performance(performers, show_plan, duration_s=heard.duration_s)
         return cls(
@@ -150,6 +161,11 @@ class Production:
     def seats(self) -> tuple[Seat, ...]:
         """Where each player stands."""
         return tuple(performer.seat for performer in self.performers)
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """The same as a show that is written for the cast sees them."""
+        return _places(self.cast.castings, self.seats)
 
     @cached_property
     def tune(self) -> tuple[TunePassage, ...]:
@@ -210,7 +226,7 @@ class Production:
     def has_default_show(self) -> bool:
         """Whether the show is still the one that was written from the form of this music."""
         played = [performer.played for performer in self.performers]
-        return self.show == _show_for(self.score, played, self.seats)
+        return self.show == _show_for(self.score, played, self.places)
 
     def with_show(self, show: Show) -> Production:
         """The same with another show; what was planned of the players is kept."""
@@ -242,16 +258,27 @@ def _has_effect(track: Track | UnknownTrack, registry: ParameterRegistry) -> boo
     return parameter is not None and not unknown_choices(named, parameter)
 
 
-def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat]) -> Show:
+def _places(castings: Sequence[Casting], seats: Sequence[Seat]) -> tuple[Place, ...]:
+    return tuple(
+        Place(
+            seat.x_m,
+            seat.z_m,
+            seat.facing_rad,
+            seat.y_m,
+            at_drums=seat.name == "drums",
+            mirrored=casting.handedness == "left",
+        )
+        for casting, seat in zip(castings, seats, strict=True)
+    )
+
+
+def _show_for(score: Score, played: Sequence[PlayedPart], places: Sequence[Place]) -> Show:
     """The show that is written for a cast."""
-    if len(played) == 1 and seats[0].is_middle:
+    if [replace(place, mirrored=False) for place in places] == [Place(0.0, 0.0, 0.0)]:
         return write_default_show(music_form(score, played[0]), title=score.title)
     tune = tune_of(score, played)
     cast = CastForm(
-        places=tuple(
-            Place(seat.x_m, seat.z_m, seat.facing_rad, seat.y_m, at_drums=seat.name == "drums")
-            for seat in seats
-        ),
+        places=tuple(places),
         tune=tuple((passage.start_s, passage.player) for passage in tune),
     )
     return write_default_show(tune_form(score, played, tune), title=score.title, cast=cast)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from reina.curves import ParameterRegistry
 from reina.instruments import (
-    HANDEDNESS,
     INSTRUMENTS,
     MAX_PLAYERS,
     CastError,
     Performer,
     cast_parameters,
     find_cast,
+    refuse_handedness,
     streamed_parameters,
 )
 from reina.instruments.player import Engagement
@@ -74,7 +74,12 @@ class Stage:
             # Nobody can play: say what of the first player is not there.
             load_hold(rigs_dir / load_rig(rigs_dir / FIRST_PLAYER).name, next(iter(INSTRUMENTS.values())).rig)
         names = {player for player, _ in holds}
-        names |= {rig for _, held in holds for rig in INSTRUMENTS[held].skeletons.values()}
+        names |= {
+            rig
+            for _, held in holds
+            for hand in INSTRUMENTS[held].handedness
+            for rig in INSTRUMENTS[held].skeletons_led_by(hand).values()
+        }
         rigs = {name: load_rig(rigs_dir / name) for name in names}
         kinds = {instrument: INSTRUMENTS[instrument] for _, instrument in holds}
         return cls(rigs=rigs, holds=holds, kinds=kinds)
@@ -138,12 +143,7 @@ class Stage:
                 location=f"{place}player",
             )
         instrument = self.kinds[casting.instrument]
-        if casting.handedness not in instrument.handedness:
-            known = " or ".join(instrument.handedness)
-            told = f"is played {known}-handed, not {casting.handedness}-handed"
-            if casting.handedness not in HANDEDNESS:
-                told = f"is played {known}-handed; there is no handedness {casting.handedness!r}"
-            raise CastError(f"the {instrument.title} {told}", location=f"{place}handedness")
+        refuse_handedness(instrument, casting.handedness, place)
         return instrument
 
     def found_cast(self, score: Score, sequence: int | None = None) -> Cast:
@@ -166,6 +166,7 @@ class Stage:
         registry: ParameterRegistry,
         glances: Mapping[str, Curve],
         stances: Mapping[str, HumanPose],
+        others: tuple[Seat, ...] = (),
     ) -> Performer:
         """Who plays a casting that names what there is.
 
@@ -178,21 +179,24 @@ class Stage:
             registry: The show's parameters.
             glances: How the player looks at the others.
             stances: Poses to stand in, by name.
+            others: Where the other players are.
         """
         instrument = self.kinds[casting.instrument]
-        return Performer(
-            instrument,
-            Engagement(
-                score=score,
-                played=played,
-                player_rig=self.rigs[casting.player],
-                instrument_rigs={name: self.rigs[rig] for name, rig in instrument.skeletons.items()},
-                hold=self.holds[casting.player, casting.instrument],
-                registry=registry,
-                number=number,
-                seat=seat,
-                seed=number,
-                glances=glances,
-                stances=stances,
-            ),
+        engagement = Engagement(
+            score=score,
+            played=played,
+            player_rig=self.rigs[casting.player],
+            instrument_rigs={name: self.rigs[rig] for name, rig in instrument.skeletons.items()},
+            hold=self.holds[casting.player, casting.instrument],
+            registry=registry,
+            number=number,
+            seat=seat,
+            others=others,
+            seed=number,
+            glances=glances,
+            stances=stances,
         )
+        if casting.handedness == "left":
+            mirrored = instrument.skeletons_led_by("left").items()
+            engagement = engagement.left_handed({name: self.rigs[rig] for name, rig in mirrored})
+        return Performer(instrument, engagement)

@@ -538,7 +538,7 @@ class SessionStore:
         planned = await self._plan(path, session.record.score_filename, wanted, alignment, stances)
         another = (
             planned.score.sequence != before.score.sequence
-            or planned.seats != before.seats
+            or planned.places != before.places
             or alignment != session.alignment.alignment
         )
         if not another or not await asyncio.to_thread(lambda: before.has_default_show):

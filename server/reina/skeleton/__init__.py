@@ -7,6 +7,7 @@ from reina.skeleton.hold import GripKey, Hold, load_hold, read_hold
 from reina.skeleton.human_pose import HumanPose, human_pose, pose_numbers, pose_of
 from reina.skeleton.joint_aliases import humanoid_name
 from reina.skeleton.load_rig import load_rig, read_rig
+from reina.skeleton.mirror import ACROSS, Mirror, mirrored_hold, other_side
 from reina.skeleton.motion_clip import MotionClip
 from reina.skeleton.read_bvh import PositionMeaning, read_bvh
 from reina.skeleton.retarget import blended, clip_of_motion, looped, retarget
@@ -28,6 +29,7 @@ from reina.skeleton.skeleton import Skeleton
 from reina.skeleton.write_bvh import bvh_head, bvh_rows, write_bvh
 
 __all__ = [
+    "ACROSS",
     "SOLVERS",
     "Button",
     "BvhError",
@@ -39,6 +41,7 @@ __all__ = [
     "Hold",
     "HumanPose",
     "Limits",
+    "Mirror",
     "Morph",
     "MotionClip",
     "MovingPart",
@@ -60,6 +63,8 @@ __all__ = [
     "load_hold",
     "load_rig",
     "looped",
+    "mirrored_hold",
+    "other_side",
     "pose_numbers",
     "pose_of",
     "read_bvh",

@@ -103,6 +103,11 @@ class SongRequest:
         return self._rendering is None or (self._rendering.task.done() and self.error is None)
 
     @property
+    def given_up(self) -> bool:
+        """Whether it ended because nobody wants it any more: something else is to be heard."""
+        return self._rendering is not None and self._rendering.task.cancelled()
+
+    @property
     def error(self) -> SoundError | None:
         """Why there will be no song, once that is known."""
         if self._rendering is None or not self._rendering.task.done():

@@ -19,6 +19,7 @@ class Place:
         facing_rad: How far they are turned to their left from facing the audience.
         y_m: How high above the floor.
         at_drums: Whether it is the place of the drums.
+        mirrored: Whether what is played there is the mirror image, as a left-handed drummer's kit.
     """
 
     x_m: float
@@ -26,6 +27,7 @@ class Place:
     facing_rad: float
     y_m: float = 0.0
     at_drums: bool = False
+    mirrored: bool = False
 
     def put(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 3)`` of somebody in the middle who faces the audience, metres, as they are here."""

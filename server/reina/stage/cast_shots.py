@@ -60,8 +60,9 @@ def cast_shot(name: str, lead: int, places: Sequence[Place]) -> Shot:
     place = places[lead]
     if place.at_drums:
         shot = DRUM_SHOTS[INSTEAD.get(name, name)]
+        side = -1.0 if place.mirrored else 1.0
         return Shot(
-            f"{shot.name} of player {lead + 1}", *(_placed(p, place, 1.0) for p in (shot.start, shot.end))
+            f"{shot.name} of player {lead + 1}", *(_placed(p, place, side) for p in (shot.start, shot.end))
         )
     if name == "hands":
         name = HANDS[any(abs(other.x_m) > abs(place.x_m) for other in places if other is not place)]
@@ -80,7 +81,7 @@ def _placed(pose: Pose, place: Place, side: float) -> Pose:
 
 def _everybody(side_rad: float, up_rad: float, places: Sequence[Place], further: float) -> Pose:
     """As near as everybody is in the picture."""
-    corners = np.concatenate([place.put(KIT if place.at_drums else BODY) for place in places])
+    corners = np.concatenate([place.put(_filled(place)) for place in places])
     middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
     back = np.array([np.sin(side_rad) * np.cos(up_rad), np.sin(up_rad), np.cos(side_rad) * np.cos(up_rad)])
     right = np.array([np.cos(side_rad), 0.0, -np.sin(side_rad)])
@@ -90,6 +91,12 @@ def _everybody(side_rad: float, up_rad: float, places: Sequence[Place], further:
     needed = np.maximum(np.abs(apart @ right) / (half * 16.0 / 9.0), np.abs(apart @ up) / half)
     distance = float((needed + apart @ back).max()) * further
     return Pose(_point(middle + distance * back), _point(middle), FOV)
+
+
+def _filled(place: Place) -> FloatArray:
+    """Corners of what is at a place, around somebody in the middle."""
+    corners = KIT if place.at_drums else BODY
+    return corners * [-1.0, 1.0, 1.0] if place.mirrored else corners
 
 
 def _point(point: FloatArray) -> Point:

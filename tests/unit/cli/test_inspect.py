@@ -176,3 +176,44 @@ def test_a_reader_may_stop_reading():
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 0
+
+
+def on_drums(*keys: int) -> list[tuple[int, bytes]]:
+    """A beat of keys that are struck at once."""
+    begun = [on(0, key, channel=9) for key in keys]
+    return [*begun, off(480, keys[0], channel=9), *(off(0, key, channel=9) for key in keys[1:])]
+
+
+def test_drums_alone_are_played_on_the_kit(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    path = tmp_path / "groove.mid"
+    path.write_bytes(midi((*on_drums(36, 42), *on_drums(38, 42))))
+    described = json.loads(output(capsys, str(path), "--json"))
+    assert (described["instrument"], described["further_players"]) == ("drums", [])
+    assert {note["fingering"]["piece"] for note in described["notes"]} == {"kick", "snare", "hi_hat"}
+    lines = output(capsys, str(path)).splitlines()
+    assert "Parts, the best for drums first" in lines
+    assert any(line.startswith("  1    0     0.000") and "right foot" in line for line in lines)
+
+
+def test_every_player_of_a_band_is_told_unless_one_is_asked_for(capsys: pytest.CaptureFixture[str]):
+    band = str(SCORES / "when-the-saints.mid")
+    lines = output(capsys, band).splitlines()
+    assert "Fingerings of part 0, transposed by 0" in lines
+    assert "Player 2: drum kit, part 3" in lines
+    assert "Fingerings of part 3, transposed by 0" in lines
+    described = json.loads(output(capsys, band, "--json"))
+    (drummer,) = described["further_players"]
+    assert (described["instrument"], drummer["instrument"], drummer["part"]) == ("trumpet", "drums", 3)
+    assert drummer["warnings"] == []
+    for asked in (("--instrument", "trumpet"), ("--transposition", "2"), ("--part", "0")):
+        assert json.loads(output(capsys, band, "--json", *asked))["further_players"] == []
+    assert json.loads(output(capsys, band, "--json", "--part", "3"))["instrument"] == "drums"
+
+
+def test_who_leads_with_the_left_hand(capsys: pytest.CaptureFixture[str]):
+    saints = str(MARCH.with_name("when-the-saints.mid"))
+    described = json.loads(output(capsys, saints, "--json", "--instrument", "drums", "--handedness", "left"))
+    struck = [note["fingering"] for note in described["notes"] if note["fingering"]]
+    assert {one["hand"] for one in struck if one["piece"] == "ride"} == {"left"}
+    assert main(["inspect", saints, "--handedness", "left"]) == 1
+    assert "the B♭ trumpet is played right-handed, not left-handed" in capsys.readouterr().err

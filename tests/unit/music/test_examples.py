@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from reina.instruments import INSTRUMENTS
 from reina.instruments.brass.family import FAMILY
 from reina.instruments.brass.fingering import BrassPart
 from reina.music import Score, read_score
@@ -38,6 +39,14 @@ def test_each_is_read_without_a_warning_and_can_be_played_whole(path: Path):
     assert played.fingering.playable.all()
     assert len(played.line) == len(score.note_indices(played.part))
     assert TRUMPET.rank_parts(score)[0].part == 0
+
+
+def test_the_band_has_no_stroke_that_no_hand_can_play():
+    path = EXAMPLES / "scores" / "when-the-saints.mid"
+    score = read_score(path.read_bytes(), filename=path.name)
+    played = INSTRUMENTS["drums"].play(score, INSTRUMENTS["drums"].rank_parts(score)[0].part)
+    assert played.warnings == ()
+    assert played.fingering.playable.all()
 
 
 def test_the_bundled_piece():

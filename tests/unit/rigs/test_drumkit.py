@@ -66,6 +66,15 @@ def test_the_kit_has_every_piece_and_zone(kit: Rig) -> None:
     assert set(kit.zones) == ZONES
 
 
+def test_notes_come_to_it_over_the_toms_and_before_the_bass_drum() -> None:
+    contacts = {item["name"]: item["offset"] for item in read_rig("drumkit")["contacts"]}
+    shells = {item["piece"]: item for item in read_rig("drumkit")["cylinders"] if item["joint"] == "kit"}
+    toms = [shells[f"tom_{name}"]["from"] for name in ("high", "mid")]
+    assert contacts["lane"][1] > max(tom[1] for tom in toms) + 0.2
+    assert min(tom[0] for tom in toms) < contacts["lane"][0] < max(tom[0] for tom in toms)
+    np.testing.assert_allclose(contacts["lane_kick"], shells["kick"]["to"], atol=1e-6)
+
+
 def test_a_zone_that_is_not_there_is_named_with_those_that_are(kit: Rig) -> None:
     with pytest.raises(RigError, match=r"no zone 'bell' of 'snare'.*snare rim"):
         kit.zone("snare", "bell")
@@ -292,3 +301,61 @@ def test_parts_move_nodes_of_the_models_along_the_way_in(kit: Rig) -> None:
 def test_every_solid_says_of_which_piece_it_is() -> None:
     rig = read_rig("drumkit")
     assert all(entry.get("piece") for kind in ("capsules", "cylinders") for entry in rig[kind])
+
+
+def test_the_left_handed_kit_is_the_mirror_image(kit: Rig, at_rest: tuple[Array, Array]) -> None:
+    """Every place of it, in the world: joints, zones, contacts, solids, and the way of every part."""
+    left = load_rig(ROOT / "rigs/drumkit_left_handed")
+    own = forward_kinematics(left.skeleton, left.skeleton.rest_rotations)
+    across = np.array([-1.0, 1.0, 1.0])
+
+    def put(joint: int, offset: Array, rest: tuple[Array, Array]) -> Array:
+        spot: Array = rest[0][joint] + rotate(rest[1][joint], offset)
+        return spot
+
+    assert left.skeleton.names == kit.skeleton.names
+    assert own[0] == pytest.approx(at_rest[0] * across, abs=1e-8)
+    assert set(left.zones) == set(kit.zones)
+    for key, zone in kit.zones.items():
+        other = left.zones[key]
+        assert (other.joint, other.radius) == (zone.joint, zone.radius)
+        assert put(other.joint, other.position, own) == pytest.approx(
+            put(zone.joint, zone.position, at_rest) * across, abs=1e-8
+        )
+        normal = rotate(at_rest[1][zone.joint], zone.normal) * across
+        assert rotate(own[1][other.joint], other.normal) == pytest.approx(normal, abs=1e-8)
+    for name, contact in kit.contacts.items():
+        swapped = name.replace("left", "*").replace("right", "left").replace("*", "right")
+        other = left.contact(swapped)
+        assert put(other.joint, other.offset, own) == pytest.approx(
+            put(contact.joint, contact.offset, at_rest) * across, abs=1e-8
+        )
+    for solids, others in ((kit.capsules, left.capsules), (kit.cylinders, left.cylinders)):
+        for one, other in zip(solids, others, strict=True):
+            assert (other.piece, other.radius) == (one.piece, one.radius)
+            for end, other_end in ((one.start, other.start), (one.end, other.end)):
+                assert put(other.joint, other_end, own) == pytest.approx(
+                    put(one.joint, end, at_rest) * across, abs=1e-8
+                )
+    for part, other in zip(kit.parts, left.parts, strict=True):
+        assert (other.node, other.parameter) == (part.node, part.parameter)
+        assert part.travel is not None
+        assert other.travel == pytest.approx(part.travel * across, abs=1e-9)
+    for joint, limits in kit.limits.items():
+        (low_x, low_y, low_z), (high_x, high_y, high_z) = limits.minimum, limits.maximum
+        assert left.limits[joint].minimum == pytest.approx((low_x, -high_y, -high_z))
+        assert left.limits[joint].maximum == pytest.approx((high_x, -low_y, -low_z))
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_the_left_handed_models_are_the_mirror_images(tier: str, tmp_path: Path) -> None:
+    right, left = (
+        triangles_of(read_model(ROOT / f"rigs/{name}/{tier}.glb", tmp_path / f"{name}.json"))
+        for name in ("drumkit", "drumkit_left_handed")
+    )
+    across = np.array([-1.0, 1.0, 1.0])
+    assert len(right[0]) == len(left[0]) > 10_000
+    for one, other in zip(right, left, strict=True):
+        first, second = (part.reshape(len(part), -1) for part in (one * across, other))
+        first, second = (np.round(part, 5)[np.lexsort(np.round(part, 5).T)] for part in (first, second))
+        assert np.abs(first - second).max() < 1e-3

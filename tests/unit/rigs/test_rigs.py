@@ -15,7 +15,7 @@ from reina.instruments import INSTRUMENTS
 RIGS = Path(__file__).resolve().parents[3] / "rigs"
 PLAYERS = ("trumpeter", "soloist")
 HORNS = tuple(name for name, instrument in INSTRUMENTS.items() if instrument.rig and instrument.valve_count)
-KIT = ("drumkit", "left_stick", "right_stick")
+KIT = ("drumkit", "drumkit_left_handed", "left_stick", "right_stick")
 NAMES = (*PLAYERS, *HORNS, *KIT)
 TIERS = ("full", "medium", "low")
 FINGERS = ("Index", "Middle", "Ring", "Little")

@@ -1,5 +1,7 @@
 """The shots of a first show for a cast with a drummer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.unit.stage.framing import furthest_out
@@ -29,6 +31,18 @@ def _values(*poses: Pose) -> np.ndarray:
 def test_head_and_hands_are_in_every_shot_of_a_drummer(name: str) -> None:
     shot = cast_shot(name, 0, (MIDDLE, STOOL))
     assert furthest_out(_values(shot.start, shot.end), HEAD_AND_HANDS, REGISTRY).max() < 0.9
+
+
+@pytest.mark.parametrize("name", DRUM_SHOTS)
+def test_a_left_handed_drummer_is_seen_from_the_other_side(name: str) -> None:
+    right, left = (cast_shot(name, 0, (MIDDLE, replace(STOOL, mirrored=left))) for left in (False, True))
+    across = np.array([-1.0, 1.0, 1.0])
+    for one, other in ((right.start, left.start), (right.end, left.end)):
+        assert other.position == pytest.approx(across * one.position)
+        assert other.target == pytest.approx(across * one.target)
+        assert other.fov == one.fov
+    whole = cast_shot("everybody", 0, (replace(STOOL, mirrored=True),))
+    assert whole.end.target[0] == pytest.approx(-cast_shot("everybody", 0, (STOOL,)).end.target[0])
 
 
 def test_a_drummer_who_leads_is_shown_at_the_drums() -> None:

@@ -885,6 +885,10 @@ export interface InstrumentSummary {
   clef: "treble" | "bass"
   /** How many it has. */
   valves: number
+  /** What of it is struck, by name, as the drums of a kit; empty where it is not struck. */
+  pieces: string[]
+  /** Where it stands by itself: there is room for one of it. null where it stands with the others. */
+  seat: string | null
   /** Every note that it has, from the lowest up. */
   chart: ChartLine[]
 }

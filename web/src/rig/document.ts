@@ -32,11 +32,19 @@ export interface RigContact {
   readonly offset: Vector;
 }
 
+/** Where a piece of a kit is struck: a point of its surface in a joint's frame, metres. */
+export interface RigZone {
+  readonly piece: string;
+  readonly joint: string;
+  readonly position: Vector;
+}
+
 export interface RigDocument {
   readonly name: string;
   readonly models: Readonly<Record<Tier, string>>;
   readonly joints: readonly RigJoint[];
   readonly contacts: readonly RigContact[];
+  readonly zones: readonly RigZone[];
   readonly morphs: readonly RigMorph[];
   readonly parts: readonly RigPart[];
 }
@@ -78,6 +86,7 @@ export function readRigDocument(value: unknown, rig: string): RigDocument {
     models: models as unknown as Record<Tier, string>,
     joints,
     contacts: list(rig, value, "contacts") as RigContact[],
+    zones: list(rig, value, "zones") as RigZone[],
     morphs: list(rig, value, "morphs") as RigMorph[],
     parts: list(rig, value, "parts") as RigPart[],
   };

@@ -1,4 +1,4 @@
 export { RigError, type RigDocument } from "./document";
 export { loadRig, type LoadedRig } from "./load";
 export { mergeMeshes, SHADOW_ELSEWHERE } from "./merge-meshes";
-export { RigModel } from "./model";
+export { RigModel, type RigPoint } from "./model";

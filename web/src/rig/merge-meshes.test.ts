@@ -118,6 +118,34 @@ describe("mergeMeshes", () => {
     expect(merged.joints[0]?.name).toBe("body");
   });
 
+  it("turns the triangles of what is mirrored round, so that its outside stays outside", () => {
+    const mirrored = (): LoadedRig => {
+      const rig = instrument();
+      for (const mesh of meshes(rig.scene)) if (mesh.name === "cap") mesh.scale.x = -1;
+      return rig;
+    };
+    const before = corners(mirrored().scene);
+    const { scene } = mergeMeshes(mirrored(), false);
+    expect(corners(scene)).toEqual(before);
+    const found = meshes(scene).find(({ name }) => name === "body cap");
+    if (!(found instanceof SkinnedMesh)) throw new Error("not merged");
+    const merged = found as SkinnedMesh;
+    scene.updateMatrixWorld(true);
+    merged.skeleton.update();
+    const { index } = merged.geometry;
+    const at = (i: number): Vector3 => merged.getVertexPosition(index?.getX(i) ?? i, new Vector3());
+    for (const [first, middle] of [
+      [0, new Vector3()],
+      [36, new Vector3(0, 2, 0)],
+    ] as const) {
+      for (let i = first; i < first + 36; i += 3) {
+        const [a, b, c] = [at(i), at(i + 1), at(i + 2)];
+        const out = b.clone().sub(a).cross(c.clone().sub(a));
+        expect(out.dot(a.clone().sub(middle))).toBeGreaterThan(0);
+      }
+    }
+  });
+
   it("merges cloth of one material, and leaves faces alone", () => {
     const before = corners(figure().scene);
     const merged = mergeMeshes(figure(), false);

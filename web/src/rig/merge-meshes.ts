@@ -24,6 +24,8 @@ interface Piece {
   readonly geometry: BufferGeometry;
   /** The bone that moves all of it; null where its own skin says which. */
   readonly bone: number | null;
+  /** It is drawn as its mirror image, and so its triangles turn round. */
+  readonly mirrored?: boolean;
 }
 
 /**
@@ -65,14 +67,16 @@ function mergeByMaterial(scene: Object3D, lists: readonly Mesh[][]): Map<Object3
   const replaced = new Map<Object3D, Object3D>();
   const bones: Bone[] = [];
   const single: { mesh: SkinnedMesh; own: boolean }[] = [];
+  scene.updateMatrixWorld(true);
   for (const meshes of lists) {
     const [first] = meshes;
     if (first === undefined) continue;
     const skinned = first instanceof SkinnedMesh;
     const pieces = meshes.map((mesh): Piece => {
+      const mirrored = mesh.matrixWorld.determinant() < 0;
       const node = replace(mesh);
       replaced.set(mesh, node);
-      return { geometry: mesh.geometry, bone: skinned ? null : bones.push(node) - 1 };
+      return { geometry: mesh.geometry, bone: skinned ? null : bones.push(node) - 1, mirrored };
     });
     const names = [...Object.keys(first.geometry.attributes), ...(skinned ? [] : SKIN)];
     const mesh = new SkinnedMesh(join(first.geometry, pieces, names), first.material);
@@ -162,9 +166,12 @@ function join(model: BufferGeometry, pieces: readonly Piece[], names: readonly s
   }
   const index: number[] = [];
   let first = 0;
-  for (const { geometry } of pieces) {
+  for (const { geometry, mirrored = false } of pieces) {
     const length = geometry.attributes["position"]?.count ?? 0;
-    for (let i = 0; i < count(geometry); i++) index.push(first + (geometry.index?.getX(i) ?? i));
+    for (let i = 0; i < count(geometry); i++) {
+      const corner = mirrored ? i - (i % 3) + ((3 - (i % 3)) % 3) : i;
+      index.push(first + (geometry.index?.getX(corner) ?? corner));
+    }
     first += length;
   }
   whole.setIndex(index);

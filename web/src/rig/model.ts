@@ -3,7 +3,7 @@
 import { Group, Mesh, type Object3D, Quaternion, Vector3 } from "three";
 
 import { LayoutError, floatIndex, parameterPrefix, type ParameterIndex, type SkeletonLayout } from "../scene/frame";
-import type { RigContact, RigPart } from "./document";
+import type { RigContact, RigPart, RigZone } from "./document";
 import type { LoadedRig } from "./load";
 
 interface PartBinding {
@@ -19,6 +19,12 @@ interface MorphBinding {
   readonly influences: number[];
   readonly target: number;
   readonly index: number;
+}
+
+/** A point that goes along with a node: in the node's frame, metres. */
+export interface RigPoint {
+  readonly node: Object3D;
+  readonly offset: Vector3;
 }
 
 const turn = new Quaternion();
@@ -49,6 +55,7 @@ export class RigModel {
   readonly #parts: PartBinding[] = [];
   readonly #morphs: MorphBinding[] = [];
   readonly #contacts: readonly RigContact[];
+  readonly #zones: readonly RigZone[];
 
   /**
    * @throws LayoutError if the frame has a joint that the rig has not.
@@ -59,6 +66,7 @@ export class RigModel {
     this.rig = layout.rig;
     this.object.add(rig.scene);
     this.#contacts = rig.document.contacts;
+    this.#zones = rig.document.zones;
     const places = new Map(rig.document.joints.map((joint, i) => [joint.name, i]));
     const missing = layout.joints.filter((joint) => !places.has(joint));
     if (missing.length > 0) {
@@ -115,10 +123,17 @@ export class RigModel {
    *
    * @returns null where the rig has no contact of that name.
    */
-  findContact(name: string): { readonly node: Object3D; readonly offset: Vector3 } | null {
+  findContact(name: string): RigPoint | null {
     const contact = this.#contacts.find((each) => each.name === name);
     const node = contact && this.findJoint(contact.joint);
     return contact && node ? { node, offset: new Vector3(...contact.offset) } : null;
+  }
+
+  /** Where a piece of a kit is struck first of all; null where the rig has no such piece. */
+  findZone(piece: string): RigPoint | null {
+    const zone = this.#zones.find((each) => each.piece === piece);
+    const node = zone && this.findJoint(zone.joint);
+    return zone && node ? { node, offset: new Vector3(...zone.position) } : null;
   }
 
   /** The node of a joint, or null. */

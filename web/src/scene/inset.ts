@@ -1,4 +1,4 @@
-/** A small picture of the valves over the stage, from a camera of its own. */
+/** A small picture of valves or feet over the stage, from a camera of its own. */
 
 import { PerspectiveCamera, Vector2, type Scene, type WebGLRenderer } from "three";
 
@@ -17,10 +17,10 @@ export interface InsetPlace {
   readonly side: number;
 }
 
-export class ValvesInset {
+export class Inset {
   /** Where it lies; null where it is not shown. */
   place: InsetPlace | null = null;
-  /** Whose valves it shows, of several: a place in the cast. */
+  /** Whose valves or feet it shows, of several: a place in the cast. */
   player = 0;
   readonly #camera = new PerspectiveCamera(20, 1, 0.05, 60);
   readonly #size = new Vector2();

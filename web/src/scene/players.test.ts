@@ -2,6 +2,7 @@ import { Object3D, Ray, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
 import type { RigModel } from "../rig";
+import { DRUM_PIECES } from "./blocks/staff";
 import { Players } from "./players";
 
 /** A body of joints alone, standing somewhere. */
@@ -23,6 +24,22 @@ function body(x: number, z: number, facing: number): RigModel {
     object,
     findJoint: (name: string) => joints.get(name) ?? null,
     findContact: () => null,
+    findZone: () => null,
+  } as unknown as RigModel;
+}
+
+/** A kit that stands somewhere, with a snare and its places for the notes. */
+function kit(x: number, z: number): RigModel {
+  const node = new Object3D();
+  node.position.set(x, 0.2, z);
+  node.updateMatrixWorld();
+  const contacts: Record<string, Vector3> = { lane: new Vector3(0, 1.1, 1), lane_kick: new Vector3(0, 0.3, 1.1) };
+  const point = (offset: Vector3 | undefined) => (offset === undefined ? null : { node, offset });
+  return {
+    object: node,
+    findJoint: (name: string) => (name === "kit" ? node : null),
+    findContact: (name: string) => point(contacts[name]),
+    findZone: (piece: string) => point(["snare", "kick"].includes(piece) ? new Vector3(0, 0.6, 0.4) : undefined),
   } as unknown as RigModel;
 }
 
@@ -55,6 +72,25 @@ describe("Players", () => {
   it("is whoever stands in front, seen along the row", () => {
     expect(players.pick(ray([-5, 1.3, 0], [5, 1.3, 0]))).toBe(0);
     expect(players.pick(ray([5, 1.3, 0], [-5, 1.3, 0]))).toBe(1);
+  });
+
+  it("has the notes come to a kit's own place, and each hit to its piece", () => {
+    const models = [body(0, 0, 0), body(0, -2, 0), kit(0, -2)];
+    const band = new Players(models.map((model, i) => ({ model, player: Math.min(i, 1) })));
+    expect(band.atKits()).toEqual([false, true]);
+    const [starts, pieces] = [2, 2 * DRUM_PIECES.length].map((count) =>
+      Array.from({ length: count }, () => new Vector3(9, 9, 9)),
+    );
+    band.readLanes(starts ?? [], pieces ?? []);
+    expect(starts?.map((at) => at.toArray())).toEqual([
+      [9, 9, 9],
+      [0, 1.3, -1],
+    ]);
+    const of = (player: number, piece: string) =>
+      pieces?.[player * DRUM_PIECES.length + DRUM_PIECES.indexOf(piece)]?.toArray().map((x) => Number(x.toFixed(3)));
+    expect(of(1, "snare")).toEqual([0, 0.8, -1.6]);
+    expect(of(1, "kick")).toEqual([0, 0.5, -0.9]);
+    expect(of(0, "snare")).toEqual([9, 9, 9]);
   });
 
   it("is nobody on an empty stage", () => {

@@ -1,9 +1,11 @@
-/** Who stands on the stage: each player's body and bell. */
+/** Who stands on the stage: each player's body, and where the notes come to. */
 
 import { type Object3D, type Ray, Vector3 } from "three";
 
-import type { RigModel } from "../rig";
+import type { RigModel, RigPoint } from "../rig";
+import { DRUM_PIECES } from "./blocks/staff";
 import type { KitPlace } from "./kit-views";
+import { LEFT_HANDED_KIT_RIG } from "./room";
 
 /** How near to a player's middle a ray has to pass, metres: an arm's breadth. */
 const REACH = 0.3;
@@ -11,18 +13,19 @@ const BELL_NODE = "socket_bell";
 /** A drum kit's root. */
 const KIT_JOINT = "kit";
 
-/** The bell's mouth: a node, and the point in its frame. */
-interface Bell {
-  readonly node: Object3D;
-  readonly offset: Vector3;
-}
+/** Of an instrument without a bell: where its lane begins, and where a piece is met if not where it is struck. */
+const LANE_CONTACT = "lane";
 
 interface StandingPlayer {
   readonly hips: Object3D | null;
   readonly head: Object3D | null;
   readonly feet: readonly Object3D[];
-  readonly bell: Bell | null;
+  /** Where the lane of notes begins. */
+  readonly lane: RigPoint | null;
+  /** Where the notes of each of `DRUM_PIECES` come to. */
+  readonly pieces: readonly (RigPoint | null)[];
   readonly kit: Object3D | null;
+  readonly kitMirrored: boolean;
 }
 
 /** Where a player stands and which way, metres and radians about +Y from facing the audience. */
@@ -47,8 +50,10 @@ export class Players {
         hips: findJoint(own, "hips"),
         head: findJoint(own, "head"),
         feet: ["leftFoot", "rightFoot"].flatMap((joint) => findJoint(own, joint) ?? []),
-        bell: findBell(own),
+        lane: findLane(own),
+        pieces: DRUM_PIECES.map((piece) => findPiece(own, piece)),
         kit: findJoint(own, KIT_JOINT),
+        kitMirrored: own.some(({ rig }) => rig === LEFT_HANDED_KIT_RIG),
       });
     }
   }
@@ -57,11 +62,21 @@ export class Players {
     return this.#players.length;
   }
 
-  /** Take the place of each bell's mouth, in the world; after the scene's world matrices are up to date. */
-  readBells(into: readonly Vector3[]): void {
-    this.#players.forEach(({ bell }, player) => {
-      if (bell !== null) into[player]?.copy(bell.offset).applyMatrix4(bell.node.matrixWorld);
+  /**
+   * Take where each lane begins, and each piece that is struck, in the world; after the scene's world matrices are up to date.
+   *
+   * @param pieces `DRUM_PIECES` of the first player, then of the second, and so on; those that nobody has stay.
+   */
+  readLanes(starts: readonly Vector3[], pieces: readonly Vector3[]): void {
+    this.#players.forEach((each, player) => {
+      readPoint(each.lane, starts[player]);
+      each.pieces.forEach((piece, number) => readPoint(piece, pieces[player * DRUM_PIECES.length + number]));
     });
+  }
+
+  /** Whether each plays at a kit, in the cast's order. */
+  atKits(): boolean[] {
+    return this.#players.map(({ kit }) => kit !== null);
   }
 
   /** Where everybody stands, in the cast's order. */
@@ -76,11 +91,11 @@ export class Players {
 
   /** Where a player's drum kit stands; null of who has none. */
   kit(player: number): KitPlace | null {
-    const kit = this.#players[player]?.kit ?? null;
+    const { kit = null, kitMirrored: mirrored = false } = this.#players[player] ?? {};
     if (kit === null) return null;
     const { x, y, z } = low.setFromMatrixPosition(kit.matrixWorld);
     ahead.setFromMatrixColumn(kit.matrixWorld, 2);
-    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z) };
+    return { x, y, z, facing: Math.atan2(ahead.x, ahead.z), mirrored };
   }
 
   /** The player whom a ray meets first, a place in the cast; null for none. */
@@ -104,20 +119,32 @@ export class Players {
 }
 
 function findJoint(models: readonly RigModel[], joint: string): Object3D | null {
-  for (const model of models) {
-    const node = model.findJoint(joint);
-    if (node !== null) return node;
-  }
-  return null;
+  return first(models, (model) => model.findJoint(joint));
 }
 
-/** The mouth of the first bell among the models: the rig's contact, or else the model's socket. */
-function findBell(models: readonly RigModel[]): Bell | null {
+/** The mouth of the first bell among the models, the rig's contact or else the model's socket; of a kit its own contact. */
+function findLane(models: readonly RigModel[]): RigPoint | null {
   for (const model of models) {
     const contact = model.findContact("bell");
     if (contact !== null) return contact;
     const node = model.object.getObjectByName(BELL_NODE);
     if (node !== undefined) return { node, offset: new Vector3() };
   }
+  return first(models, (model) => model.findContact(LANE_CONTACT));
+}
+
+function findPiece(models: readonly RigModel[], piece: string): RigPoint | null {
+  return first(models, (model) => model.findContact(`${LANE_CONTACT}_${piece}`) ?? model.findZone(piece));
+}
+
+function first<T>(models: readonly RigModel[], of: (model: RigModel) => T | null): T | null {
+  for (const model of models) {
+    const found = of(model);
+    if (found !== null) return found;
+  }
   return null;
+}
+
+function readPoint(point: RigPoint | null, into: Vector3 | undefined): void {
+  if (point !== null) into?.copy(point.offset).applyMatrix4(point.node.matrixWorld);
 }

@@ -19,15 +19,15 @@ import { castView, playerView, viewAt } from "./cast-views";
 import { drummerView, kitView } from "./kit-views";
 import { type DrawnFrame, ParameterIndex } from "./frame";
 import type { Insets } from "./framing";
-import { type InsetPlace, ValvesInset } from "./inset";
+import { Inset, type InsetPlace } from "./inset";
 import { StageLights } from "./lights";
 import { PlayerLook } from "./look";
 import { Picture } from "./picture";
 import { overview, PictureSpace, type PicturePoint, type Place, type ShowCamera } from "./picture-space";
-import { Players } from "./players";
+import { Players, type Stand } from "./players";
 import { release } from "./release";
 import { createRenderer } from "./renderer";
-import { FOOT_JOINTS, KIT_RIG, RoomReflections, createRoom, type Room } from "./room";
+import { FOOT_JOINTS, KIT_RIG, LEFT_HANDED_KIT_RIG, RoomReflections, createRoom, type Room } from "./room";
 import type { ScoreView } from "./score";
 import { ShowBinding } from "./show-binding";
 import { StillShots } from "./still-shots";
@@ -61,7 +61,7 @@ export class Stage {
   readonly #reflections: RoomReflections;
   readonly #blocks: NoteBlocks;
   readonly #picture: Picture;
-  readonly #inset = new ValvesInset();
+  readonly #inset = new Inset();
   readonly #look = new PlayerLook();
   readonly #show: ShowBinding;
   /** Where less motion is wanted. */
@@ -194,8 +194,8 @@ export class Stage {
     this.#players = new Players(models.map((model, i) => ({ model, player: hello.skeletons[i]?.player ?? 0 })));
     this.#changed = true;
     this.#room.feet.set(models.flatMap((model) => FOOT_JOINTS.flatMap((joint) => model.findJoint(joint) ?? [])));
-    const kit = models.find(({ rig }) => rig === KIT_RIG);
-    this.#room.kit.set(kit?.findJoint(kit.jointNames[0] ?? "") ?? null);
+    const kit = models.find(({ rig }) => rig === KIT_RIG || rig === LEFT_HANDED_KIT_RIG);
+    this.#room.kit.set(kit?.findJoint(kit.jointNames[0] ?? "") ?? null, kit?.rig === LEFT_HANDED_KIT_RIG);
     await this.#compile();
   }
 
@@ -249,9 +249,13 @@ export class Stage {
     scene.updateMatrixWorld();
     this.#room.feet.follow();
     this.#room.kit.follow();
-    this.#players.readBells(this.#blocks.uniforms.bells.value);
+    const { starts, pieces } = this.#blocks.uniforms;
+    this.#players.readLanes(starts.value, pieces.value);
     const stands = this.#players.stands();
-    this.#blocks.arrange(stands.map(({ x }) => x));
+    this.#blocks.arrange(
+      stands.map(({ x }) => x),
+      this.#players.atKits(),
+    );
     this.#lights.reach(stands, this.#room.kit.reach);
     const { camera } = this.#camera;
     if (this.#onlyModels || this.#transparent) this.#blocks.object.visible = false;
@@ -273,7 +277,7 @@ export class Stage {
     this.#renderer.setRenderTarget(this.#picture.target);
     this.#renderer.render(scene, camera);
     this.#picture.finish(camera, this.#camera.targetDistance);
-    this.#inset.render(this.#renderer, scene, this.#presetOf(VALVES, this.#inset.player));
+    this.#inset.render(this.#renderer, scene, this.#closeUpOf(this.#inset.player));
     this.#drawnFrom.copy(camera.position);
     this.#changed = false;
     this.#pictures += 1;
@@ -317,11 +321,11 @@ export class Stage {
   }
 
   /**
-   * Show the valves in a small picture of their own; null for none.
+   * Show a player's valves, or the feet at a kit, in a small picture of their own; null for none.
    *
-   * @param player of several, the one whose valves are shown: a place in the cast.
+   * @param player of several, the one whose they are: a place in the cast.
    */
-  setValvesInset(place: InsetPlace | null, player = 0): void {
+  setInset(place: InsetPlace | null, player = 0): void {
     Object.assign(this.#inset, { place, player });
     this.#drawSoon();
   }
@@ -338,7 +342,7 @@ export class Stage {
    */
   viewPreset(name: string, player = 0): boolean {
     const kit = this.#players.kit(player);
-    const ofKit = kit === null ? null : kitView(name, kit);
+    const ofKit = kit === null ? null : kitView(name, kit, this.#others(player));
     if (ofKit !== null) {
       this.#camera.view(ofKit);
       return true;
@@ -349,10 +353,21 @@ export class Stage {
     return true;
   }
 
+  /** What the small picture shows of a player. */
+  #closeUpOf(player: number): FramedView {
+    const kit = this.#players.kit(player);
+    return (kit === null ? null : kitView("kit_feet", kit)) ?? this.#presetOf(VALVES, player);
+  }
+
   /** A view as it is of one of several players. */
   #presetOf(preset: FramedView, player: number): FramedView {
     const stand = this.#players.count > 1 ? this.#players.stands()[player] : undefined;
     return stand === undefined ? preset : viewAt(preset, stand);
+  }
+
+  /** Where everybody stands but one. */
+  #others(player: number): Stand[] {
+    return this.#players.stands().filter((_, other) => other !== player);
   }
 
   /** Take the camera to where the whole cast is seen. */
@@ -364,7 +379,7 @@ export class Stage {
   viewPlayer(player: number): void {
     const kit = this.#players.kit(player);
     const stand = this.#players.stands()[player];
-    if (kit !== null) this.#camera.view(drummerView(kit));
+    if (kit !== null) this.#camera.view(drummerView(kit, this.#others(player)));
     else if (stand !== undefined) this.#camera.view(playerView(stand));
   }
 

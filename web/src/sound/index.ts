@@ -2,7 +2,7 @@ export { audioLength } from "./audio-length";
 export { monoWav } from "./mono-wav";
 export { AS_WRITTEN, isAsWritten, queriesOf, type Hearing } from "./hearing";
 export { besideEachOther } from "./part-balance";
-export { loadSegment, loadWhole, plannedSong, songState } from "./song-loader";
+export { AnotherSoundError, loadSegment, loadWhole, plannedSong, songState } from "./song-loader";
 export { sameMotion, SongPlayer, type SongTime, type SoundState } from "./song-player";
 export { Metronome } from "./metronome";
 export type { Piece } from "./playback-path";

@@ -3,6 +3,15 @@ import { ProblemError, type ReinaApi } from "../connection";
 import { told } from "../words/told/en";
 
 const PAUSE_S = 0.2;
+const GONE = 410;
+
+/** The sound that was asked for is another one now; its state says where that is. */
+export class AnotherSoundError extends Error {
+  constructor() {
+    super("the sound is another now");
+    this.name = "AnotherSoundError";
+  }
+}
 
 /** How far the server is with a song, asked for until its segments can be had or the whole is there. */
 export async function plannedSong(
@@ -31,14 +40,24 @@ export async function songState(api: ReinaApi, session: string, signal: AbortSig
   return (await response.json()) as SongState;
 }
 
-/** The bytes of a segment; one that is not rendered yet is waited for. */
+/**
+ * The bytes of a segment; one that is not rendered yet is waited for.
+ *
+ * @throws AnotherSoundError when the server has given this sound up for another
+ */
 export async function loadSegment(
   api: ReinaApi,
   { href }: SongSegments,
   segment: number,
   signal: AbortSignal,
 ): Promise<ArrayBuffer> {
-  return whenMade(api, `${href}/${segment}`, signal);
+  try {
+    return await whenMade(api, `${href}/${segment}`, signal, (song) => {
+      if (song.segments?.href !== href) throw new AnotherSoundError();
+    });
+  } catch (error) {
+    throw error instanceof ProblemError && error.status === GONE ? new AnotherSoundError() : error;
+  }
 }
 
 /**
@@ -52,14 +71,14 @@ export async function loadWhole(
   signal: AbortSignal,
   onProgress?: (share: number) => void,
 ): Promise<ArrayBuffer> {
-  return whenMade(api, href, signal, onProgress);
+  return whenMade(api, href, signal, (song) => onProgress?.(song.progress ?? 0));
 }
 
 async function whenMade(
   api: ReinaApi,
   href: string,
   signal: AbortSignal,
-  onProgress?: (share: number) => void,
+  onState?: (song: Partial<SongState>) => void,
 ): Promise<ArrayBuffer> {
   for (;;) {
     const response = await api.request("GET", href, { signal });
@@ -68,7 +87,7 @@ async function whenMade(
     if (song.status === "failed") {
       throw new ProblemError({ status: 502, title: told.soundNotMade, detail: "", errors: [] });
     }
-    onProgress?.(song.progress ?? 0);
+    onState?.(song);
     await pause(PAUSE_S, signal);
   }
 }

@@ -55,6 +55,30 @@ describe("CastState", () => {
     expect(cast.castings[1]?.player).toBe("soloist");
   });
 
+  it("makes each change on what the one before has left, however fast they are asked for", async () => {
+    const answers: (() => void)[] = [];
+    const asked: CastFields[] = [];
+    const put = (fields: CastFields): Promise<Cast> => {
+      asked.push(fields);
+      return new Promise((resolve) => answers.push(() => resolve(obliging(fields))));
+    };
+    const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0), casting(1)] }, put, vi.fn());
+    const both = Promise.all([cast.change(0, { player: "soloist" }), cast.change(1, { part: 2 })]);
+    await vi.waitFor(() => expect(answers).toHaveLength(1));
+    expect(cast.busy).toBe(true);
+    answers[0]?.();
+    await vi.waitFor(() => expect(answers).toHaveLength(2));
+    expect(asked[1]?.castings).toMatchObject([
+      { part: 0, player: "soloist" },
+      { part: 2, player: "trumpeter" },
+    ]);
+    expect(cast.busy).toBe(true);
+    answers[1]?.();
+    await both;
+    expect(cast.busy).toBe(false);
+    expect(cast.castings).toMatchObject([{ player: "soloist" }, { part: 2 }]);
+  });
+
   it("plays another part alone", async () => {
     const put = vi.fn(obliging);
     const cast = new CastState({ ...AS_CHOSEN, castings: [casting(0, { joined_parts: [2] })] }, put, vi.fn());

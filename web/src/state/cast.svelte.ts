@@ -22,7 +22,11 @@ export class CastState {
   inks = $state.raw<readonly string[]>([]);
   /** A change is on its way. */
   busy = $state(false);
+  /** How often the server has said what came of a change that was asked for here. */
+  answers = 0;
   #followed = $state(0);
+  #asking: Promise<unknown> = Promise.resolve();
+  #waiting = 0;
   /** Place in the cast of the player whom the strips follow. */
   readonly followed = $derived.by(() => Math.max(0, Math.min(this.#followed, this.castings.length - 1)));
   readonly #put: (fields: CastFields) => Promise<Cast>;
@@ -64,38 +68,52 @@ export class CastState {
   async change(player: number, changes: CastingFields): Promise<void> {
     const [place] = Object.keys(changes) as CastPlace[];
     const alone = changes.part !== undefined && changes.joined_parts === undefined ? { joined_parts: [] } : {};
-    const castings = this.castings.map((casting, number) =>
-      number === player ? { ...fieldsOf(casting), ...alone, ...changes } : fieldsOf(casting),
-    );
-    if (place !== undefined) await this.#ask(castings, { player, place });
+    const changed = (casting: Casting, number: number): CastingFields =>
+      number === player ? { ...fieldsOf(casting), ...alone, ...changes } : fieldsOf(casting);
+    if (place !== undefined) await this.#ask((castings) => castings.map(changed), { player, place });
   }
 
   /** Let one more play, the part that suits best of those that nobody plays, and follow them. */
   async add(figure: string, instrument: string): Promise<void> {
     const player = this.castings.length;
-    const castings = [...this.castings.map(fieldsOf), { player: figure, instrument }];
-    if (await this.#ask(castings, { player, place: "add" })) this.#followed = player;
+    const added = { player: figure, instrument };
+    const asked = this.#ask((castings) => [...castings.map(fieldsOf), added], { player, place: "add" });
+    if (await asked) this.#followed = this.castings.length - 1;
   }
 
   /** Leave a player out. */
   async leaveOut(player: number): Promise<void> {
-    const castings = this.castings.filter((_, number) => number !== player).map(fieldsOf);
     const followed = this.followed;
-    if ((await this.#ask(castings, { player, place: "leave" })) && followed > player) this.#followed = followed - 1;
+    const asked = this.#ask((castings) => castings.filter((_, number) => number !== player).map(fieldsOf), {
+      player,
+      place: "leave",
+    });
+    if ((await asked) && followed > player) this.#followed = followed - 1;
   }
 
-  async #ask(castings: CastingFields[], asked: Omit<Refusal, "words">): Promise<boolean> {
+  /** Ask for another cast, after what is still on its way: each change is made on what the one before has left. */
+  #ask(wanted: (castings: readonly Casting[]) => CastingFields[], asked: Omit<Refusal, "words">): Promise<boolean> {
     this.busy = true;
+    this.#waiting += 1;
+    const answered = this.#asking.then(() => this.#askNow(wanted(this.castings), asked));
+    this.#asking = answered;
+    return answered;
+  }
+
+  async #askNow(castings: CastingFields[], asked: Omit<Refusal, "words">): Promise<boolean> {
     this.refusal = null;
     try {
-      this.take(await this.#put({ castings }));
+      const cast = await this.#put({ castings });
+      this.answers += 1;
+      this.take(cast);
       return true;
     } catch (error) {
       if (error instanceof ProblemError && error.status === 422) this.refusal = { ...asked, words: wordsOf(error) };
       else this.#tell(error);
       return false;
     } finally {
-      this.busy = false;
+      this.#waiting -= 1;
+      this.busy = this.#waiting > 0;
     }
   }
 }

@@ -11,7 +11,9 @@ import { remember, remembered, type NoteNames, type Quality } from "./storage";
 import { SHORTEST_LOOP_S } from "../timeline/loop-span";
 import { arrivalOf, worthKnowing, type OctaveOffer } from "./findings";
 import { alignmentWords } from "./alignment-words";
-import { CAMERA_PRESETS, type CameraView, type PicturePoint, type Place, type ShowCamera } from "../scene";
+import { offeredViews } from "./offered-views";
+import type { InstrumentSummary } from "../generated/protocol";
+import type { CameraView, PicturePoint, Place, ShowCamera } from "../scene";
 import { told } from "../words/told/en";
 import { page } from "../words/page/en";
 
@@ -65,7 +67,8 @@ export class Deck {
   readonly panels = new Panels();
   noteNames = $state(remembered().noteNames);
   quality = $state(remembered().quality);
-  valvesInset = $state(remembered().valvesInset);
+  /** Whether valves or feet are seen in a small picture of their own. */
+  closeUp = $state(remembered().valvesInset);
   helpOpen = $state(false);
   cameraTaken = $state(false);
   /** Files are held over the page. */
@@ -114,7 +117,7 @@ export class Deck {
     view4: () => this.viewPreset(3),
     view5: () => this.viewPreset(4),
     view6: () => this.viewPreset(5),
-    inset: () => this.showValvesInset(!this.valvesInset),
+    inset: () => this.showCloseUp(!this.closeUp),
     fullscreen: () => this.hands.toggleFullscreen?.(),
     piece: () => this.panels.toggle("piece"),
     pieces: () => this.panels.toggle("pieces"),
@@ -203,10 +206,16 @@ export class Deck {
     if (!taken) this.cameraFollows = false;
   }
 
+  /** What the followed player plays; null while that is not known. */
+  get followedInstrument(): InstrumentSummary | null {
+    const name = this.reina.view?.cast.casting?.instrument;
+    return this.reina.instruments?.instruments.find((each) => each.name === name) ?? null;
+  }
+
   /** @param index of a view, in the order in which they are offered. */
   viewPreset(index: number): void {
-    const preset = CAMERA_PRESETS[index];
-    if (preset !== undefined) this.viewNamed(preset.name);
+    const name = offeredViews(this.followedInstrument)[index];
+    if (name !== undefined && name !== null) this.viewNamed(name);
   }
 
   /** @param name of a view of the followed player, or of what the player sits at. */
@@ -214,8 +223,8 @@ export class Deck {
     this.hands.viewPreset?.(name, this.reina.view?.cast.followed ?? 0);
   }
 
-  showValvesInset(shown: boolean): void {
-    this.valvesInset = shown;
+  showCloseUp(shown: boolean): void {
+    this.closeUp = shown;
     remember({ valvesInset: shown });
   }
 

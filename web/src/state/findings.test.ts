@@ -11,7 +11,10 @@ function session(findings: Finding[], players = 1): Pick<Session, "findings" | "
   return { findings, cast: { sequence: 0, auto: true, castings, unplayed: [] } };
 }
 
-const CHOSEN = finding("part_chosen", "choice", { text: "No trumpet in this file: she plays Vocals", player: 0 });
+const CHOSEN = finding("part_chosen", "choice", {
+  text: "No trumpet in this file: the player plays Vocals",
+  player: 0,
+});
 const CHORDS = finding("chord_note_dropped", "playing", { text: "Plays the top note of 62 chords", player: 0 });
 
 test("who plays what comes first, then what is missing, what became of it, and how often the file was repaired", () => {

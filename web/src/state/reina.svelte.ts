@@ -56,6 +56,9 @@ export class Reina {
   /** A recording that waits for its score. */
   #kept: File | null = null;
   #opening = 0;
+  /** What goes on, the latest last. */
+  #doing: readonly { readonly what: string }[] = [];
+  #making = 0;
 
   constructor(api = new ReinaApi()) {
     this.api = api;
@@ -114,9 +117,9 @@ export class Reina {
     }
   }
 
-  /** Make a session of a bundled piece and go to it. */
-  async openExample(example: Example): Promise<void> {
-    await this.#make(told.opening({ title: example.title }), async () => {
+  /** Make a session of a bundled piece and go to it; returns whether it is open. */
+  openExample(example: Example): Promise<boolean> {
+    return this.#make(told.opening({ title: example.title }), async () => {
       const score = await this.api.file(example.score);
       const song = example.song === null ? {} : { song: await this.api.file(example.song) };
       const show = example.show === null ? {} : { show: await this.api.file(example.show) };
@@ -267,9 +270,9 @@ export class Reina {
 
   /** Do something that takes a moment, and tell what goes wrong. Returns whether it went well. */
   async attempt(busy: string, action: () => Promise<void>): Promise<boolean> {
-    const before = this.busy;
+    const doing = { what: busy };
     this.notices.clear();
-    this.busy = busy;
+    this.#goOn([...this.#doing, doing]);
     try {
       await action();
       return true;
@@ -277,8 +280,13 @@ export class Reina {
       this.tell(error);
       return false;
     } finally {
-      this.busy = before;
+      this.#goOn(this.#doing.filter((each) => each !== doing));
     }
+  }
+
+  #goOn(doing: readonly { readonly what: string }[]): void {
+    this.#doing = doing;
+    this.busy = doing.at(-1)?.what ?? null;
   }
 
   /** Show what went wrong in the words that came with it. */
@@ -324,16 +332,23 @@ export class Reina {
     }
     if (first === undefined) this.#lose("failed");
     else {
-      await this.openExample(first);
-      if (this.view !== null) remember({ home: this.view.id });
+      const opened = await this.openExample(first);
+      if (opened && this.view !== null) remember({ home: this.view.id });
     }
   }
 
+  /** Make a session and open it; returns whether that went well, and nothing else was asked for meanwhile. */
   async #make(busy: string, files: () => SessionFiles | Promise<SessionFiles>): Promise<boolean> {
     const wasHome = SESSION_PATH.exec(location.pathname) === null;
+    const making = ++this.#making;
     const made = await this.attempt(busy, async () => {
       const given = await files();
       const made = await this.api.createSession(given);
+      // What was dropped since takes the place of what is not open yet.
+      if (making !== this.#making) {
+        await this.api.deleteSession(made.id, made.control_token).catch(() => undefined);
+        return;
+      }
       rememberToken(made.id, made.control_token);
       if (wasHome) history.replaceState(null, "", addressOf(made.id));
       else history.pushState(null, "", addressOf(made.id));
@@ -343,6 +358,7 @@ export class Reina {
         if (this.view !== null) this.view.searchEnded = true;
       }
     });
+    if (making !== this.#making) return false;
     if (this.view === null && this.phase === "opening") this.phase = "failed";
     return made;
   }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { LyricLine } from "../generated/protocol";
-import { lyricLineAt, placeWords, sungSyllables } from "./score-words";
+import { lyricLineAt, placeWords, sungLines, sungSyllables, withoutHands } from "./score-words";
 
 function line(start_s: number, end_s: number, ...texts: string[]): LyricLine {
   return { start_s, end_s, syllables: texts.map((text, number) => ({ onset_s: start_s + number, text })) };
@@ -27,6 +27,22 @@ describe("lyricLineAt", () => {
   it("counts the syllables that have begun", () => {
     const sung = line(10, 14, "Hel", "lo ", "you");
     expect([9, 10, 11.5, 13].map((time) => sungSyllables(sung, time))).toEqual([0, 1, 2, 3]);
+  });
+});
+
+describe("withoutHands", () => {
+  it("leaves out the hands that are written at strokes, and nothing else", () => {
+    const strike = { type: "strike" };
+    const notes = [
+      { onset_s: 1, fingering: strike },
+      { onset_s: 2, fingering: strike },
+      { onset_s: 3, fingering: { type: "valves" } },
+      { onset_s: 4, fingering: null },
+    ];
+    const texts = [word(1.001, "R"), word(2, " l "), word(2, "rit."), word(2.5, "L"), word(3, "R"), word(4, "D")];
+    expect(withoutHands(texts, notes).map(({ text }) => text)).toEqual(["rit.", "L", "R", "D"]);
+    const [hands, sung] = [line(1, 3, "R ", "L"), line(1, 3, "R ", "ain")];
+    expect(sungLines([hands, sung], notes)).toEqual([sung]);
   });
 });
 

@@ -24,6 +24,29 @@ export interface PlacedWords {
   readonly all: string;
 }
 
+/** How a hand is written beside a stroke, in English and in French. */
+const HAND = /^[-_]*(r|l|d|g|rh|lh|right|left)[-_]*$/i;
+/** A hand is written at its stroke, seconds. */
+const AT_STROKE_S = 0.005;
+
+/** A score's words without the hands that stand at strokes: those are seen at the strokes themselves. */
+export function withoutHands<Word extends { readonly onset_s: number; readonly text: string }>(
+  texts: readonly Word[],
+  notes: readonly { readonly onset_s: number; readonly fingering: { readonly type: string } | null }[],
+): Word[] {
+  const strokes = notes.flatMap(({ onset_s, fingering }) => (fingering?.type === "strike" ? [onset_s] : []));
+  const isAtStroke = (at: number): boolean => strokes.some((onset) => Math.abs(onset - at) <= AT_STROKE_S);
+  return texts.filter(({ onset_s, text }) => !HAND.test(text.trim()) || !isAtStroke(onset_s));
+}
+
+/** The lines that are sung: those of hands at strokes are none. */
+export function sungLines(
+  lines: readonly LyricLine[],
+  notes: Parameters<typeof withoutHands>[1],
+): readonly LyricLine[] {
+  return lines.filter(({ syllables }) => withoutHands(syllables, notes).length > 0);
+}
+
 /** The line that is sung, or will be within seconds; null between. */
 export function lyricLineAt(lines: readonly LyricLine[], time: number): LyricLine | null {
   const following = lines.findIndex(({ start_s }) => start_s > time);

@@ -21,30 +21,11 @@ import type {
   Session,
   SessionChange,
   ShowChanged,
-  SongState,
   TransportCommand,
   TransportState,
   WireNote,
 } from "../generated/protocol";
-import {
-  AS_WRITTEN,
-  besideEachOther,
-  isAsWritten,
-  loadSegment,
-  Metronome,
-  loadWhole,
-  monoWav,
-  plannedSong,
-  sameMotion,
-  queriesOf,
-  SegmentedSong,
-  SongPlayer,
-  songState,
-  soundTone,
-  WholeSong,
-  type Hearing,
-  type SoundState,
-} from "../sound";
+import { Metronome, monoWav, sameMotion, SongPlayer, soundTone, type SoundState } from "../sound";
 import { isListenedTo } from "./alignment-words";
 import { CastState } from "./cast.svelte";
 import { lineNotes } from "./line-notes";
@@ -52,13 +33,13 @@ import { Refresh } from "./refresh";
 import { heldAt, stepFrom } from "./note-steps";
 import type { PracticeChoices } from "./practice-choices.svelte";
 import { PartSound } from "./part-sound.svelte";
+import { SongLoading } from "./song-loading.svelte";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
 import { watchWakes } from "./wakes";
 import { told } from "../words/told/en";
 
 const CHECK_INTERVAL_MS = 100;
-const SHARE_INTERVAL_MS = 1000;
 /** Frames carry an epoch modulo this. */
 const EPOCHS = 256;
 /** The last frame of a song stands up to this much before its end. */
@@ -96,9 +77,6 @@ export class SessionView {
   /** Song time of the picture, seconds. */
   songTime = $state(0);
   sound = $state<SoundState>("silent");
-  /** The share of the song's making that is done, while it is being made; null once it is there. */
-  soundShare = $state<number | null>(0);
-  soundError = $state<string | null>(null);
   /** Whether the song keeps its pitch where it is slower or faster; some browsers and addresses do not let it. */
   keepsPitch = $state(true);
   /** Play was asked for, and waits for the sound of this place. */
@@ -132,6 +110,7 @@ export class SessionView {
   #changes: Promise<void> = Promise.resolve();
   readonly #stream: Stream;
   readonly #player: SongPlayer;
+  readonly #song: SongLoading;
   readonly #metronome: Metronome;
   /** The page's sound is on. */
   #audible = true;
@@ -146,20 +125,21 @@ export class SessionView {
   readonly #ended = new AbortController();
   #queue: FrameQueue | null = null;
   #followed: TransportState | null = null;
-  #songHref: string | null = null;
-  #song: SongState | null = null;
-  #heardAs = "";
-  #songWanted = new AbortController();
   #readings = 0;
+  /** The clock's epoch when the score was read, until the stream has greeted; null where it was lost since. */
+  #readAt: number | null;
+  /** The stream has greeted, and tells of every change from there on. */
+  #greeted = false;
 
   /** Get a session's score and clock and join its stream. Throws ProblemError when there is none. */
   static async open(id: string, token: string | null, surroundings: Surroundings): Promise<SessionView> {
     const { api } = surroundings;
-    const [session, score, cast, transport] = await Promise.all([
+    const [transport, session, score, cast] = await Promise.all([
+      // First: by its epoch the stream's greeting tells whether anything of the rest is another since.
+      api.transport(id),
       api.session(id),
       api.score(id),
       api.cast(id),
-      api.transport(id),
     ]);
     return new SessionView(session, score, cast, transport, token, surroundings);
   }
@@ -186,6 +166,7 @@ export class SessionView {
     this.alignment = $state.raw(session.alignment);
     this.duration = session.duration_s;
     this.songTime = transport.song_time_s;
+    this.#readAt = transport.epoch;
     this.#surroundings = surroundings;
     this.#player = new SongPlayer(
       {
@@ -198,6 +179,19 @@ export class SessionView {
         this.sound = state;
         this.#startWithSound();
       },
+    );
+    this.#song = new SongLoading(
+      {
+        api: surroundings.api,
+        session: this.id,
+        player: this.#player,
+        isRecording: () => this.isRecording,
+        decoded: (whole) => void this.#sendDecoded(whole),
+        silent: () => this.#startWithSound(),
+        fail: (error) => this.#fail(error),
+      },
+      this.partSound,
+      () => this.cast.followed,
     );
     this.#metronome = new Metronome(() => this.#player.context, {
       pathNow: () => this.#player.pathNow(),
@@ -284,6 +278,16 @@ export class SessionView {
   /** The server's clock as it is known here. */
   get clock(): Pick<ClockSync, "serverTime" | "roundTrip" | "ready"> {
     return this.#stream.clock;
+  }
+
+  /** The share of the song's making that is done, while it is being made; null once it is there. */
+  get soundShare(): number | null {
+    return this.#song.share;
+  }
+
+  /** Why there is no sound; null where there is some, or will be. */
+  get soundError(): string | null {
+    return this.#song.error;
   }
 
   /** How loud what leaves the page is at this moment, 0…1. */
@@ -416,7 +420,7 @@ export class SessionView {
   /** Hear the part or everything otherwise; nobody else does. */
   hear(change: { balance?: number; semitones?: number }): void {
     this.partSound.choose(change);
-    this.#hear();
+    this.#song.hear();
   }
 
   setVolume(volume: number, muted: boolean): void {
@@ -434,6 +438,7 @@ export class SessionView {
     this.#unwatch();
     this.#probes.close();
     this.#ended.abort();
+    this.#song.close();
     this.#stream.close();
     await this.#player.close();
   }
@@ -476,9 +481,10 @@ export class SessionView {
         this.#lead.begin(message.transport.server_time_s);
         this.hello = message;
         this.duration = message.duration_s;
+        this.#takeGreeting(message.transport.epoch);
         this.#setTransport(message.transport, true);
         this.followAlignment(message.alignment);
-        this.#loadSong(message.song);
+        this.#song.load(message.song);
         break;
       case "transport":
         this.#setTransport(message);
@@ -486,7 +492,7 @@ export class SessionView {
       case "score_changed":
         this.duration = message.duration_s;
         void this.#attempt(() => this.#readAnew());
-        this.#loadSong(message.song);
+        this.#song.load(message.song);
         break;
       case "show_changed":
         this.showTold = message;
@@ -495,8 +501,7 @@ export class SessionView {
         this.followAlignment(message);
         break;
       case "song_ready":
-        this.soundShare = message.song.segments === null ? this.soundShare : null;
-        this.#loadSong(message.song);
+        this.#song.ready(message.song);
         break;
       case "error":
         this.#surroundings.tell(
@@ -559,7 +564,17 @@ export class SessionView {
       this.#surroundings.answered();
       this.#lead.forgetAsked();
     }
-    if (state === "lost") void this.#lookWhetherGone();
+    if (state === "lost") {
+      this.#greeted = false;
+      this.#readAt = null;
+      void this.#lookWhetherGone();
+    }
+  }
+
+  /** Read what changed before the stream told of changes: another cast, or a recording in which the score was found. */
+  #takeGreeting(epoch: number): void {
+    if (!this.#greeted && epoch !== this.#readAt) void this.#attempt(() => this.#readAnew());
+    this.#greeted = true;
   }
 
   async #lookWhetherGone(): Promise<void> {
@@ -573,12 +588,14 @@ export class SessionView {
   async #readAnew(): Promise<void> {
     const { api } = this.#surroundings;
     const reading = ++this.#readings;
+    const { answers } = this.cast;
     const [session, score, cast] = await Promise.all([api.session(this.id), api.score(this.id), api.cast(this.id)]);
     // What was overtaken by another change is out of date.
     if (reading !== this.#readings) return;
     this.session = session;
     this.score = score;
-    this.cast.take(cast);
+    // The answer to a change is newer, and the stream tells of that change too.
+    if (this.cast.answers === answers) this.cast.take(cast);
   }
 
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
@@ -589,7 +606,7 @@ export class SessionView {
       this.#followed = this.transport;
       this.#player.follow(this.transport);
     }
-    this.#hear();
+    this.#song.hear();
     this.#player.check();
     const { metronome, division } = this.#surroundings.practice;
     this.#metronome.check(`${this.transport.epoch} ${this.#player.motions} ${metronome} ${division} ${this.#audible}`);
@@ -601,21 +618,6 @@ export class SessionView {
     const { practice } = this.#surroundings;
     const place = this.here < this.duration - END_TOLERANCE_S ? this.here : 0;
     return { action: "play", count_in_s: practice.countInTo(this.score, place, this.rate) };
-  }
-
-  /** Have what the person wants to hear of the song: another part where another player is followed. */
-  #hear(): void {
-    this.#player.setBalance(this.partSound.balance);
-    if (this.#song !== null && this.#heardAs !== "" && this.#heardAs !== this.#queries) this.#loadSong(this.#song);
-  }
-
-  get #hearing(): Hearing {
-    return this.isRecording ? AS_WRITTEN : this.partSound.hearing(this.cast.followed);
-  }
-
-  /** What names it. */
-  get #queries(): string {
-    return `${queriesOf(this.#hearing).join()}?`;
   }
 
   #songTimeAt(pageTime: number): number {
@@ -640,126 +642,15 @@ export class SessionView {
     void this.#control(this.#playCommand());
   }
 
-  #loadSong(song: SongState): void {
-    const isSameMusic = this.#song?.href === song.href && this.#songHref !== null;
-    this.#song = song;
-    if (this.#songHref === song.href && this.#heardAs === this.#queries) return;
-    this.#songHref = song.href;
-    this.#heardAs = this.#queries;
-    this.#songWanted.abort();
-    this.#songWanted = new AbortController();
-    void this.#takeSong(song, isSameMusic, AbortSignal.any([this.#ended.signal, this.#songWanted.signal]));
-  }
-
-  async #takeSong(known: SongState, isSameMusic: boolean, signal: AbortSignal): Promise<void> {
-    const hearing = this.#hearing;
-    this.soundShare = 0;
-    this.soundError = null;
-    // What sounded before belongs to other fingers, unless it is only heard otherwise.
-    if (!isSameMusic) this.#player.setSong(null);
-    try {
-      const songs = await this.#planned(known, hearing, signal);
-      const [first] = songs;
-      if (first?.segments === null) await this.#takeWhole(songs, signal);
-      else if (!signal.aborted) {
-        this.#player.goOverTo(this.#segmented(songs, signal));
-        await this.#followMaking(songs, hearing, signal);
-      }
-    } catch (error) {
-      this.#notHeard(error, hearing, signal);
-    }
-    if (!signal.aborted) this.soundShare = null;
-  }
-
-  /** Send what this page decoded to the server, which does not decode it, to have the score looked for in it. */
-  async #send(decoded: AudioBuffer): Promise<void> {
+  /** Send a recording that the server does not decode, decoded, to have the score looked for in it. */
+  async #sendDecoded(whole: AudioBuffer): Promise<void> {
     const { api, id, token } = this;
-    if (token === null) return;
+    if (token === null || !this.isRecording || isListenedTo(this)) return;
     this.sending = true;
     await this.#attempt(async () => {
       // How the search goes, the stream tells.
-      await api.request("PUT", api.sessionPath(id, "song/analysis"), { body: await monoWav(decoded), token });
+      await api.request("PUT", api.sessionPath(id, "song/analysis"), { body: await monoWav(whole), token });
     });
     this.sending = false;
-  }
-
-  /** The songs that a hearing takes, as soon as their segments can be had. */
-  #planned(known: SongState, hearing: Hearing, signal: AbortSignal): Promise<SongState[]> {
-    const { api } = this.#surroundings;
-    return Promise.all(
-      queriesOf(hearing).map(async (query) => {
-        const song = query === "" ? known : await songState(api, this.id, signal, query);
-        return plannedSong(api, this.id, song, signal, query);
-      }),
-    );
-  }
-
-  async #takeWhole(songs: readonly SongState[], signal: AbortSignal): Promise<void> {
-    const { api } = this.#surroundings;
-    const whole = await this.#decoded(songs.map(({ href }) => loadWhole(api, href, signal)));
-    if (signal.aborted) return;
-    this.#player.goOverTo(new WholeSong(whole, songs.length > 1));
-    if (this.isRecording && this.canControl && !isListenedTo(this)) void this.#send(whole);
-  }
-
-  /** A song from its bytes, or a part and the rest side by side. */
-  async #decoded(files: readonly Promise<ArrayBuffer>[]): Promise<AudioBuffer> {
-    const [first, second] = await Promise.all(files.map(async (file) => this.#player.decode(await file)));
-    if (first === undefined) throw new RangeError("there is nothing to decode");
-    return second === undefined ? first : besideEachOther([first, second]);
-  }
-
-  #segmented(songs: readonly SongState[], signal: AbortSignal): SegmentedSong {
-    const { api } = this.#surroundings;
-    const segments = songs.flatMap((song) => song.segments ?? []);
-    const [first] = segments;
-    if (first === undefined) throw new RangeError("the song has no segments");
-    return new SegmentedSong({
-      duration: first.song_s,
-      segmentLength: first.segment_s,
-      overlap: first.overlap_s,
-      apart: songs.length > 1,
-      load: async (segment, wanted) => {
-        const either = AbortSignal.any([signal, wanted]);
-        return this.#decoded(segments.map((each) => loadSegment(api, each, segment, either)));
-      },
-      came: () => this.#player.segmentCame(),
-      failed: (error) => {
-        if (error instanceof DOMException) {
-          // Safari before 18.4 does not decode Ogg Opus; the whole is FLAC.
-          this.#takeWhole(songs, signal).catch((reason: unknown) => this.#notHeard(reason, this.#hearing, signal));
-        } else this.#notHeard(error, this.#hearing, signal);
-      },
-    });
-  }
-
-  /** Tell how far the server is until the song is there. */
-  async #followMaking(known: readonly SongState[], hearing: Hearing, signal: AbortSignal): Promise<void> {
-    let songs = known;
-    while (songs.some(({ status }) => status === "rendering")) {
-      this.soundShare = Math.min(...songs.map(({ progress }) => progress));
-      await new Promise((resolve) => setTimeout(resolve, SHARE_INTERVAL_MS));
-      if (signal.aborted) return;
-      songs = await Promise.all(
-        queriesOf(hearing).map((query) => songState(this.#surroundings.api, this.id, signal, query)),
-      );
-    }
-  }
-
-  /** What was wanted cannot be heard: what everybody hears is heard again, or nothing where it is that. */
-  #notHeard(error: unknown, hearing: Hearing, signal: AbortSignal): void {
-    if (signal.aborted || isAsWritten(hearing)) this.#noSound(error, signal);
-    else {
-      this.#fail(error);
-      this.partSound.giveUp();
-      this.#hear();
-    }
-  }
-
-  #noSound(error: unknown, signal: AbortSignal): void {
-    if (signal.aborted) return;
-    this.#songHref = null;
-    this.soundError = error instanceof ProblemError ? error.message : told.cannotPlay;
-    this.#startWithSound();
   }
 }

@@ -45,7 +45,7 @@ export interface Remembered {
   readonly paper: Paper | null;
   /** How much the stage draws; "automatic" lets the page measure. */
   readonly quality: Quality;
-  /** Whether the valves are seen in a picture of their own. */
+  /** Whether the valves, or a drummer's feet, are seen in a picture of their own. */
   readonly valvesInset: boolean;
   /** The page's language, where it was chosen by hand; null for the browser's. */
   readonly language: Language | null;

@@ -22,7 +22,8 @@ export function limbName(side: "left" | "right", isHand: boolean): string {
  * @param english the server's own words, which stand where the page has no others: for what plugins bring
  */
 export function serverWords(kind: Kind, name: string, english: string): string {
-  if (language() === "en") return english;
+  // A figure has no title of its own: the server has only the name of its rig.
+  if (language() === "en" && kind !== "player") return english;
   const key = `${kind}_${name.replace(/^urn:reina:problem:/, "").replaceAll(/[ -]/g, "_")}`;
   return (named as Readonly<Record<string, string>>)[key] ?? english;
 }

@@ -104,6 +104,7 @@ class ValvedBrass(Instrument):
         octave_fit: bool = False,
         joined_parts: Sequence[int] = (),
         usual_fingerings: bool = False,
+        handedness: str = "right",  # noqa: ARG002
     ) -> BrassPart:
         """As `Instrument.play`."""
         joined = check_parts(score, part, joined_parts)

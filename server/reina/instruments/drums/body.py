@@ -9,11 +9,12 @@ import numpy as np
 
 from reina.instruments.drums.drum_part import drum_fingering
 from reina.instruments.drums.hand_grips import HandGrips
-from reina.instruments.drums.motion.contacts import ELBOW_PLACES as ELBOWS_AT_EASE
-from reina.instruments.drums.motion.contacts import INWARD_RAD as TURNED_IN
 from reina.instruments.drums.motion.drummer_motion import DrummerMotion
 from reina.instruments.drums.motion.hand_shapes import OPEN_RAD, PLAY, TWIRL
 from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
+from reina.instruments.drums.motion.looks import plan_looks
+from reina.instruments.drums.motion.nods import nods
+from reina.instruments.drums.stick_ways import OWN_SIDES, at_arms_length, from_elbows, nearest_m
 from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
 from reina.instruments.player.held_pose import HeldPose
@@ -23,7 +24,7 @@ from reina.instruments.player.trunk_reach import SIGNALS as REACHING
 from reina.kinematics import TwoBoneLimbs
 from reina.kinematics.sampled_curves import SampledCurves
 from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
-from reina.rotations import conjugate, cross, from_axis_angle, multiply, rotate
+from reina.rotations import conjugate, cross, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from reina.instruments.drums.hit import DrumHit
     from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.instruments.drums.motion.stick_paths import StickFrames
+    from reina.instruments.player.body import Standing
     from reina.instruments.player.engagement import Engagement
     from reina.instruments.player.instrument_body import BodyMotion
     from reina.rotations.arrays import FloatArray, IntArray
@@ -45,19 +47,17 @@ STICKS = ("left_stick", "right_stick")
 
 DORSAL = np.array([[0.08, 1.0, -0.15], [-0.08, 1.0, -0.15]])
 """Where the backs of the hands look: up, a little out and back."""
-ELBOWS = np.array([[0.45, -1.0, -0.3], [-0.45, -1.0, -0.3]])
-"""Where elbows point: down, out and a little back."""
-SHOULDER_PLACES = np.array([[0.20, 0.0], [-0.20, 0.0]])
-NEAREST_M, YIELDING_M = 0.43, 0.03
-"""No tip comes nearer to its shoulder than about the first, seen from above, unless it strikes there."""
-LANDING_M = 0.03
-"""Tips land within this of a zone's middle."""
-ELBOW_PLACES = ELBOWS_AT_EASE[::-1]
-"""Where the elbows are at ease, across and ahead, metres."""
-INWARD_RAD = TURNED_IN[::-1]
-"""How far a stick points inward from the line from elbow to tip, about +Y."""
-RAISED_M, RAISED_OUT = (0.95, 0.25), 4.0
+ELBOWS = np.array([[0.45, -1.0, 0.0], [-0.45, -1.0, 0.0]])
+"""Where elbows point where an arm is stretched as `STRETCHED` says: down and out."""
+STRETCHED = np.array([[0.12, 0.0, 0.9], [-0.12, 0.0, 0.9]])
+FOLDED_M, ASIDE = (0.3, 0.15), np.array([[1.2, 0.0, 0.0], [-1.2, 0.0, 0.0]])
+"""A wrist nearer to its shoulder than the first sends the elbow aside, wholly so at the second less."""
+WRIST_M = 0.34
+"""About from the tip of a stick to the wrist behind it."""
+RAISED_M, RAISED_OUT = (0.95, 0.25), 1.0
 """Where a tip is higher than the first, elbows point outward, so many times more at the second above that."""
+ASIDE_M = (0.12, 0.2)
+"""But only farther to their own side than the first, wholly so at the second beyond it."""
 FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
 DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
@@ -66,7 +66,7 @@ YIELDING_POWER = 4
 """How fast a wrist no longer gives way as its hand comes to where it is placed."""
 
 SEATED, SWAYING = 0.35, ("sway_side", "sway_fore", "sway_turn", "lean", "turn")
-"""How much of what turns a standing player's hips is left."""
+"""How much of what turns who stands is left for who sits."""
 PLANNED_HZ = 10.0
 """How often a second it is worked out how the trunk stands."""
 SAMPLED_HZ = 40.0
@@ -74,17 +74,31 @@ SMOOTHING_S = 0.8
 """The trunk follows where the hands are over this long."""
 HEAD_TURNED_TO = 0.4
 """How much of the way to the middle of both hands the head turns beyond the trunk."""
+HEAD: tuple[str, ...] = ("head_turn", "head_bow", "eyes_left", "eyes_up")
+PLANNED = (*REACHING, "head_turn", "nod", "bounce", "look_left", "look_down", "eyes_left", "eyes_up")
+"""What is worked out for the whole piece."""
+NOD_RAD, BOUNCE_RAD, FIRST_S = 0.115, 0.028, 0.04
+"""How far head and trunk go with the beat at most, and how much earlier the trunk does."""
+LOOK_HEAD, LOOK_EYES = (0.5, 0.22), (0.35, 0.3)
+"""Which part of the way to a piece head and eyes turn, aside and down."""
+KIT_EYES_RAD = 0.16
+"""How far the eyes look down to the kit otherwise."""
+BAND_HEAD, BAND_UP_RAD = 0.8, 0.05
+"""Which part of the way to the one who is looked at the head turns, and how far it comes up."""
 HEEL_RAD, HELD_HEEL = 0.26, 0.4
 """How far a heel goes from down to up, and where on that way it is in the hold."""
-
 
 BOTH = np.arange(2)
 
 
 @dataclass(frozen=True, eq=False)
 class _Hands:
-    """Where the hands are asked to go in F frames, left and right, as `ToolArms.solve` takes it."""
+    """Where the hands are asked to go in F frames, left and right, as `ToolArms.solve` takes it.
 
+    `ends` is about where the wrists are, ``(F, 2, 3)``, metres.
+    """
+
+    ends: FloatArray
     points: FloatArray
     pointing: FloatArray
     rows: IntArray
@@ -110,7 +124,7 @@ class DrumsBody:
         beats = np.arange(int(np.ceil(engagement.score.tempo_map.beats(engagement.score.duration_s))) + 1)
         self._beats: FloatArray = engagement.score.tempo_map.seconds(beats.astype(np.float64))
         fingering, places = drum_fingering(engagement.played), kit_places(kit)
-        self._nearest = _nearest_m(fingering.hits, places)
+        self._nearest = nearest_m(fingering.hits, places)
         self._motion = DrummerMotion(
             fingering,
             places,
@@ -133,16 +147,19 @@ class DrumsBody:
         self._facing = self._faces()
         self._chest = self._body.trunk.index("upperChest" if "upperChest" in self._body.trunk else "chest")
         chest = held.world[rig.skeleton.index(self._body.trunk[self._chest])]
-        self._poles: FloatArray = rotate(conjugate(chest), ELBOWS)
-        self._outward: FloatArray = rotate(conjugate(chest), ELBOWS * [RAISED_OUT, 0.0, 0.0])
+        ahead = STRETCHED / np.linalg.norm(STRETCHED, axis=1)[:, None]
+        outward = ELBOWS * [RAISED_OUT, 0.0, 0.0]
+        self._ahead: FloatArray = rotate(conjugate(chest), ahead)
+        self._poles, self._outward = (
+            rotate(conjugate(chest), way - ahead * np.einsum("ki,ki->k", way, ahead)[:, None])
+            for way in (ELBOWS, outward)
+        )
         self._feet = _Feet(rig, kit, held)
         sticks = [engagement.instrument_rigs[name].skeleton.rest_rotations for name in STICKS]
         self._still = np.concatenate([self._body.still, kit.skeleton.rest_rotations, *sticks]).astype(
             np.float32
         )
-        self._trunk = self._plan_trunk(
-            engagement.score.duration_s, held.positions[rig.skeleton.index("spine")]
-        )
+        self._gestures = self._plan_gestures(engagement, fingering.hits, places, held)
 
     def _tools(self, engagement: Engagement) -> list[Tool]:
         tools: list[Tool] = []
@@ -165,9 +182,9 @@ class DrumsBody:
 
     def _hands(self, sticks: StickFrames) -> _Hands:
         """Where the hands are asked to go."""
-        tips = _at_arms_length(sticks.tip[:, ::-1], self._nearest)
+        tips = at_arms_length(sticks.tip[:, ::-1], self._nearest)
         asked = sticks.direction[:, ::-1]
-        directions = _from_elbows(tips, asked)
+        directions = from_elbows(tips, asked)
         shares, hands = sticks.share[:, ::-1], sticks.hands
         if hands is None:
             rows, turned = self._grips.rows(BOTH * 0, shares), shares
@@ -180,8 +197,9 @@ class DrumsBody:
         back = DORSAL - directions * np.einsum("...i,...i->...", directions, DORSAL)[..., None]
         back = back / np.sqrt(np.einsum("...i,...i->...", back, back))[..., None]
         pointing = directions * np.cos(turned) - back * np.sin(turned)
+        ends, held = tips - WRIST_M * directions, self._held.take(rows, axis=0)
         if hands is None:
-            return _Hands(tips, pointing, rows, self._held.take(rows, axis=0), None, None)
+            return _Hands(ends, tips, pointing, rows, held, None, None)
         along, out, facing = hands.along[:, ::-1], hands.out[:, ::-1], hands.facing[:, ::-1]
         firm, placed = hands.firm[:, ::-1], hands.placed[:, ::-1]
         out = out - along * np.einsum("...i,...i->...", along, out)[..., None]
@@ -192,10 +210,11 @@ class DrumsBody:
         dorsal = _mixed(np.broadcast_to(DORSAL, pointing.shape), basis[..., 1], placed)
         # On its way a hand that is placed still gives way.
         firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed**YIELDING_POWER))
-        return _Hands(tips, pointing, rows, self._held.take(rows, axis=0), dorsal, 1.0 - firm)
+        ends = ends + (self._arms.wrists(tips, pointing, held, dorsal) - ends) * placed[..., None]
+        return _Hands(ends, tips, pointing, rows, held, dorsal, 1.0 - firm)
 
-    def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> SampledCurves:
-        """How trunk and head follow the hands, over the whole piece."""
+    def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> FloatArray:
+        """How trunk and head follow the hands, over the whole piece, `SAMPLED_HZ` times a second."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
         asked = self._hands(self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks)
         wrists = self._arms.wrists(asked.points, asked.pointing, asked.held, asked.dorsal)
@@ -210,32 +229,94 @@ class DrumsBody:
         turned = reach_out(self._body, wrists, pivot, signals)
         middle = wrists.mean(axis=1) - pivot
         head = HEAD_TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
-        return SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
+        reached = SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
+        return reached.evaluate(np.arange(count) / SAMPLED_HZ)
+
+    def _plan_gestures(
+        self, engagement: Engagement, hits: Sequence[DrumHit], places: KitPlaces, held: HeldPose
+    ) -> SampledCurves:
+        """All that trunk, head and eyes do, over the whole piece, in the order of `PLANNED`."""
+        score, rig = engagement.score, engagement.player_rig
+        reached = self._plan_trunk(score.duration_s, held.positions[rig.skeleton.index("spine")])
+        count = len(reached)
+        at = np.arange(count) / SAMPLED_HZ
+        seat = engagement.seat
+        bars = score.metre_map.bar_lines(len(self._beats) - 1.0)
+        looks = plan_looks(
+            count,
+            SAMPLED_HZ,
+            hits,
+            places,
+            head=held.positions[rig.skeleton.index("head")],
+            bars_s=score.tempo_map.seconds(bars),
+            bearings_rad=[seat.bearing_rad(other) for other in engagement.others] or [0.0],
+            seed=engagement.seed,
+        )
+        at_kit = 1.0 - looks.band
+        beyond = looks.band_left - reached[:, REACHING.index("torso_turn")]
+        reached[:, -1] *= at_kit * (1.0 - 0.5 * looks.share)
+        planned = [
+            nods(at, hits, self._beats),
+            nods(at + FIRST_S, hits, self._beats),
+            at_kit * LOOK_HEAD[0] * looks.left + looks.band * BAND_HEAD * beyond,
+            at_kit * LOOK_HEAD[1] * looks.down - looks.band * BAND_UP_RAD,
+            at_kit * LOOK_EYES[0] * looks.left + looks.band * (1.0 - BAND_HEAD) * beyond,
+            -at_kit * (LOOK_EYES[1] * looks.down + (1.0 - looks.share) * KIT_EYES_RAD),
+        ]
+        return SampledCurves(np.concatenate([reached, np.stack(planned, axis=1)], axis=1), SAMPLED_HZ)
 
     def _seated(self, stance: FloatArray | None) -> FloatArray | None:
         """What is left of a way of standing for who sits: hips stay on the stool, feet on the pedals."""
         if stance is None:
             return None
         joints = len(self._body.trunk)
-        kept = stance[:, : joints + 1].copy()
+        kept = SEATED * stance[:, : joints + 1]
         kept[:, [0, joints]] = 0.0
         return kept
+
+    def _elbows(self, standing: Standing, asked: _Hands) -> FloatArray:
+        """Which way the elbows point, ``(F, 2, 3)``: as they hang before the chest, turned with the arms.
+
+        A fixed way would be along an arm sooner or later, and the elbow would flip over.
+        """
+        tips = asked.points
+        own = tips[..., 0] * OWN_SIDES
+        raised = np.minimum(np.maximum(tips[..., 1] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
+        raised = raised * np.minimum(np.maximum(own - ASIDE_M[0], 0.0) / ASIDE_M[1], 1.0)
+        poles = self._poles + raised[..., None] * self._outward
+        chest = standing.world[:, self._chest, None]
+        poles, ahead = rotate(chest, poles), rotate(chest, self._ahead)
+        arms = asked.ends - standing.limbs[:, :2]
+        length = np.sqrt(np.einsum("...i,...i->...", arms, arms))
+        arms = arms / length[..., None]
+        # The least turn that takes ahead to the arm.
+        both = ahead + arms
+        along = np.einsum("...i,...i->...", arms, poles) / np.maximum(
+            np.einsum("...i,...i->...", arms, both), 0.05
+        )
+        folded = np.minimum(np.maximum((FOLDED_M[0] - length) / FOLDED_M[1], 0.0), 1.0)
+        return poles - along[..., None] * both + folded[..., None] * ASIDE
 
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
         times = motion.times_s
-        trunk = self._trunk.evaluate(times)
+        gestures = dict(zip(PLANNED, self._gestures.evaluate(times).T, strict=True))
         # Who sits sways from the waist; feet are on their pedals.
         signals = {
             name: SEATED * signal if name in SWAYING else signal for name, signal in motion.signals.items()
         }
-        for column, name in enumerate((*REACHING, "head_turn")):
-            signals[name] = signals[name] + trunk[:, column] if name in signals else trunk[:, column]
+        sway, gaze = motion.amounts["sway"], motion.amounts["gaze"]
+        gestures["torso_bow"] = gestures["torso_bow"] + BOUNCE_RAD * sway * gestures["bounce"]
+        gestures["head_turn"] = gestures["head_turn"] + gaze * gestures["look_left"]
+        gestures["head_bow"] = NOD_RAD * sway * gestures["nod"] + gaze * gestures["look_down"]
+        gestures["eyes_left"] = gaze * gestures["eyes_left"]
+        gestures["eyes_up"] = gaze * gestures["eyes_up"]
+        for name in (*REACHING, *HEAD):
+            signals[name] = signals[name] + gestures[name] if name in signals else gestures[name]
         standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
         asked = self._hands(drummed.sticks)
-        raised = np.minimum(np.maximum(asked.points[..., 1:2] - RAISED_M[0], 0.0) / RAISED_M[1], 1.0)
-        poles = rotate(standing.world[:, self._chest, None], self._poles + raised * self._outward)
+        poles = self._elbows(standing, asked)
         sticks = self._arms.solve(
             standing.limbs[:, :2],
             asked.points,
@@ -264,48 +345,12 @@ class DrumsBody:
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
 
 
-def _nearest_m(hits: Sequence[DrumHit], places: KitPlaces) -> FloatArray:
-    """How near to their shoulders tips may come, from above: as near as what they strike, m, ``(2,)``."""
-    nearest = np.full(2, NEAREST_M)
-    for piece, zone, limb in {(hit.piece, hit.zone, hit.limb) for hit in hits}:
-        if limb.endswith("hand"):
-            side = 0 if limb == "left_hand" else 1
-            away = places[piece, zone].position[[0, 2]] - SHOULDER_PLACES[side]
-            nearest[side] = min(nearest[side], float(np.hypot(*away)) - LANDING_M)
-    return nearest
-
-
-def _at_arms_length(tips: FloatArray, nearest_m: FloatArray) -> FloatArray:
-    """Tips that go round the body on their way to what they strike, ``(F, 2, 3)``."""
-    away = tips[..., [0, 2]] - SHOULDER_PLACES
-    distance = np.sqrt(np.einsum("...i,...i->...", away, away))
-    near = np.maximum(nearest_m - distance, 0.0)
-    if not near.any():
-        return tips
-    share = near * near / ((near + YIELDING_M) * np.maximum(distance, 1e-6))
-    result = tips.copy()
-    result[..., [0, 2]] += away * share[..., None]
-    return result
-
-
 def _mixed(one: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
     """Unit vectors between two, ``(F, 2, 3)``."""
     result = one + (other - one) * share[..., None]
     result = result / np.sqrt(np.einsum("...i,...i->...", result, result))[..., None]
     # Where nothing is mixed it is the same to the last bit, whatever else is in the block.
     return np.where(share[..., None] > 0.0, result, one)
-
-
-def _from_elbows(tips: FloatArray, directions: FloatArray) -> FloatArray:
-    """Sticks as steep as they are asked to be, that come from where the elbows are, ``(F, 2, 3)``."""
-    ahead = tips[..., [0, 2]] - ELBOW_PLACES
-    ahead = ahead / np.sqrt(np.einsum("...i,...i->...", ahead, ahead))[..., None]
-    level = np.sqrt(np.maximum(1.0 - directions[..., 1] ** 2, 0.0))
-    result = np.empty_like(directions)
-    result[..., 0] = level * (ahead[..., 0] * np.cos(INWARD_RAD) + ahead[..., 1] * np.sin(INWARD_RAD))
-    result[..., 1] = directions[..., 1]
-    result[..., 2] = level * (ahead[..., 1] * np.cos(INWARD_RAD) - ahead[..., 0] * np.sin(INWARD_RAD))
-    return result
 
 
 class _Feet:
@@ -320,13 +365,16 @@ class _Feet:
         self._rotations: FloatArray = held.world[ankles]
         _, boards = forward_kinematics(kit.skeleton, kit.skeleton.rest_rotations)
         balls = self._hinges + rotate(boards[self._boards], self._offsets)
-        self._balls: FloatArray = rotate(conjugate(self._rotations), balls - held.positions[ankles])
-        # About the foot's own side, in its frame.
+        # About the foot's own side.
         ahead = rotate(self._rotations, np.array([0.0, 0.0, 1.0]))
         side = np.stack([ahead[:, 2], np.zeros(2), -ahead[:, 0]], axis=-1)
-        self._sideways: FloatArray = rotate(
-            conjugate(self._rotations), side / np.linalg.norm(side, axis=-1)[:, None]
-        )
+        axis = side / np.linalg.norm(side, axis=-1)[:, None]
+        # A foot's rotation goes as cosine and sine of half the heel's angle, its lever as those of the whole.
+        pure = np.concatenate([rotate(conjugate(self._rotations), axis), np.zeros((2, 1))], axis=1)
+        self._raised: FloatArray = multiply(self._rotations, pure)
+        self._lever: FloatArray = balls - held.positions[ankles]
+        self._across: FloatArray = cross(axis, self._lever)
+        self._turning: FloatArray = cross(self._across, axis)
 
     def solve(self, kit: FloatArray, heels: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Where the ankles are ``(F, 2, 3)``, metres, and the feet's rotations ``(F, 2, 4)``.
@@ -336,5 +384,8 @@ class _Feet:
             heels: How far each heel is up, ``(F, 2)``: 0 down, 1 as far as it goes.
         """
         balls = self._hinges + rotate(kit[:, self._boards], self._offsets)
-        rotations = multiply(self._rotations, from_axis_angle(self._sideways, HEEL_RAD * (heels - HELD_HEEL)))
-        return balls - rotate(rotations, self._balls), rotations
+        half = 0.5 * HEEL_RAD * (heels - HELD_HEEL)[..., None]
+        sine, cosine = np.sin(half), np.cos(half)
+        rotations = cosine * self._rotations + sine * self._raised
+        turned = 2.0 * sine * (cosine * self._across - sine * self._turning)
+        return balls - self._lever - turned, rotations

@@ -9,7 +9,7 @@ import numpy as np
 
 from reina.instruments.drums.body import KIT, STICKS, DrumsBody
 from reina.instruments.drums.drum_map import drum_map, kit_of
-from reina.instruments.drums.drum_part import DrumPart, Handedness
+from reina.instruments.drums.drum_part import DrumPart, Handedness, mirrored_part
 from reina.instruments.drums.finger_drums import finger_drums
 from reina.instruments.drums.hit import PIECES
 from reina.instruments.drums.motion.kit_pose import PARAMETERS
@@ -17,6 +17,7 @@ from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import BREATH_S
 from reina.instruments.played import Line
+from reina.instruments.player.mirrored_body import MirroredBody
 from reina.instruments.player.phrasing import phrases_of, plan_breath, plan_phrasing
 from reina.instruments.ranking import PartRanking, Suitability, rank_parts
 from reina.music.arrays import read_only
@@ -52,6 +53,7 @@ class Drums(Instrument):
     """A drum kit and its player."""
 
     name, title, rig = "drums", "drum kit", "drumkit"
+    handedness, left_handed_rig = ("right", "left"), "drumkit_left_handed"
     seat = "drums"
     plays_drums = True
     parameters = PARAMETERS
@@ -92,9 +94,11 @@ class Drums(Instrument):
         octave_fit: bool = False,  # noqa: ARG002
         joined_parts: Sequence[int] = (),
         usual_fingerings: bool = False,  # noqa: ARG002
+        handedness: str = "right",
     ) -> DrumPart:
         """As `Instrument.play`; a key is a drum and no pitch, so nothing is transposed."""
-        return self.play_with(score, part, joined_parts=joined_parts)
+        led_by: Handedness = "left" if handedness == "left" else "right"
+        return self.play_with(score, part, joined_parts=joined_parts, handedness=led_by)
 
     def play_with(
         self,
@@ -122,8 +126,12 @@ class Drums(Instrument):
         return {name: phrased[name] for name in ("playing", "lean", "turn")} | plan_breath(phrases)
 
     def body(self, engagement: Engagement, curves: MotionCurves) -> InstrumentBody:  # noqa: ARG002
-        """What turns strokes into poses."""
-        return DrumsBody(engagement)
+        """What turns strokes into poses; who leads with the left hand is a right-hander's reflection."""
+        right_handed = engagement.right_handed
+        if right_handed is None:
+            return DrumsBody(engagement)
+        played = mirrored_part(engagement.played)
+        return MirroredBody(DrumsBody(replace(right_handed, played=played)), engagement)
 
 
 def struck_notes(score: Score, part: int) -> int:

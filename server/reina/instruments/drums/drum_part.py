@@ -3,7 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from reina.instruments.drums.hit import DrumHit, Hand
+from reina.instruments.drums.hit import MIRRORED, DrumHit, Hand
+from reina.instruments.note_fingerings import NoteFingering, StrikeFingering
 from reina.instruments.played import Fingering, PlayedPart, Strokes
 
 Handedness = Literal["left", "right"]
@@ -44,6 +45,17 @@ class DrumFingering(Fingering):
     chokes: tuple[Choke, ...]
     handedness: Handedness
 
+    def mirrored(self) -> "DrumFingering":
+        """Return it as who leads with the other hand does it: limbs change sides, pieces keep their names."""
+        return replace(
+            self,
+            notes=tuple(_mirrored(note) for note in self.notes),
+            reasons=tuple(_mirror_words(reason) for reason in self.reasons),
+            hits=tuple(replace(hit, limb=MIRRORED[hit.limb]) for hit in self.hits),
+            chokes=tuple(choke.mirrored() for choke in self.chokes),
+            handedness="right" if self.handedness == "left" else "left",
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class DrumPart(PlayedPart):
@@ -66,3 +78,33 @@ def drum_fingering(played: PlayedPart) -> DrumFingering:
     if not isinstance(played.fingering, DrumFingering):
         raise TypeError(f"a drummer plays what has been given hands and feet, not a {type(played.fingering)}")
     return played.fingering
+
+
+def mirrored_part(played: PlayedPart) -> PlayedPart:
+    """A drummer's part as who leads with the other hand plays it.
+
+    Raises:
+        TypeError: Another instrument plays it.
+    """
+    return replace(played, fingering=drum_fingering(played).mirrored())
+
+
+_OTHER: dict[Handedness, Handedness] = {"left": "right", "right": "left"}
+
+
+def _mirrored(note: NoteFingering | None) -> NoteFingering | None:
+    if not isinstance(note, StrikeFingering):
+        return note
+    return StrikeFingering(
+        hand=None if note.hand is None else _OTHER[note.hand],
+        foot=None if note.foot is None else _OTHER[note.foot],
+        piece=note.piece,
+        zone=note.zone,
+    )
+
+
+def _mirror_words(reason: str) -> str:
+    """A reason of the other hand's: right and left change places, but those of the crashes' names."""
+    kept = reason.replace("left crash", "\0").replace("right crash", "\1")
+    kept = kept.replace("right", "\2").replace("left", "right").replace("\2", "left")
+    return kept.replace("\0", "left crash").replace("\1", "right crash")

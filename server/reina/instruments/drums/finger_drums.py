@@ -11,7 +11,7 @@ from reina.instruments.drums.chokes import find_chokes
 from reina.instruments.drums.drum_map import PEDAL_CONTROLLER, drum_map, kit_of, strike
 from reina.instruments.drums.drum_part import DrumFingering, Handedness
 from reina.instruments.drums.feet import choose_feet
-from reina.instruments.drums.hit import FEET, HANDS, MIRRORED, PIECES, DrumHit, Limb, Technique
+from reina.instruments.drums.hit import FEET, HANDS, PIECES, DrumHit, Limb, Technique
 from reina.instruments.drums.sticking.hands import choose_hands
 from reina.instruments.drums.sticking.struck import Struck
 from reina.instruments.drums.sticking.written_hands import named_rudiments, written_hands
@@ -19,6 +19,8 @@ from reina.instruments.note_fingerings import StrikeFingering
 from reina.music.arrays import read_only
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from reina.instruments.drums.drum_map import Strike
     from reina.instruments.note_fingerings import NoteFingering
     from reina.music.arrays import FloatArray, IntArray
@@ -111,10 +113,6 @@ def finger_drums(
     chokes, choked = find_chokes(score, part, indices, piece, limbs)
     for hit in choked:
         technique[hit] = "choke"
-    if handedness == "left":
-        limbs = [None if limb is None else MIRRORED[limb] for limb in limbs]
-        reasons = [_mirror_words(reason) for reason in reasons]
-        chokes = tuple(choke.mirrored() for choke in chokes)
 
     mimed: list[tuple[int, Limb]] = [
         (hit, limb) for hit, limb in enumerate(limbs) if limb is not None and one_with[hit] < 0
@@ -131,20 +129,23 @@ def finger_drums(
         )
         for hit, limb in mimed
     )
-    _tell(score, indices, strikes, limbs, reasons, log)
     fingerings = tuple(
         None if limb is None else _fingering(limb, said.piece, said.zone)
         for limb, said in zip(limbs, strikes, strict=True)
     )
-    return DrumFingering(
+    fingering = DrumFingering(
         notes=fingerings,
         playable=read_only(np.array([limb is not None for limb in limbs], dtype=np.bool_)),
         reasons=tuple(reasons),
         hits=hits,
         hit_notes=tuple(hit for hit, _ in mimed),
         chokes=chokes,
-        handedness=handedness,
+        handedness="right",
     )
+    if handedness == "left":
+        fingering = fingering.mirrored()
+    _tell(score, indices, strikes, limbs, fingering.reasons, log)
+    return fingering
 
 
 def _fingering(limb: Limb, piece: str, zone: str) -> NoteFingering:
@@ -156,13 +157,6 @@ def _fingering(limb: Limb, piece: str, zone: str) -> NoteFingering:
 
 def _mirrored(side: int, handedness: Handedness) -> int:
     return side if handedness == "right" else 1 - side
-
-
-def _mirror_words(reason: str) -> str:
-    """A reason of a left-handed player: right and left change places, but those of the crashes' names."""
-    kept = reason.replace("left crash", "\0").replace("right crash", "\1")
-    kept = kept.replace("right", "\2").replace("left", "right").replace("\2", "left")
-    return kept.replace("\0", "left crash").replace("\1", "right crash")
 
 
 def _not_mounted(said: Strike) -> str:
@@ -244,7 +238,7 @@ def _tell(
     indices: IntArray,
     strikes: list[Strike],
     limbs: list[Limb | None],
-    reasons: list[str],
+    reasons: Sequence[str],
     log: WarningLog,
 ) -> None:
     """Tell of what is heard and not mimed."""

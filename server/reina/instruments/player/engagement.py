@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from reina.instruments.player.seats import SEATS, Seat
+from reina.skeleton import mirrored_hold
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -35,10 +36,13 @@ class Engagement:
         registry: The show's parameters.
         number: The player's place in the cast, the first being 0.
         seat: Where the player stands.
+        others: Where the other players of the cast are.
         seed: Which of many equal ways of moving.
         glances: How the player looks at the others, as `plan_glances` gives it.
         stances: Poses that the player can stand in beside those of the rig, by name, in the order of the
             registry's choices.
+        right_handed: Of who leads with the left hand, the same as a right-handed player has it; None of who
+            leads with the right.
     """
 
     score: Score
@@ -49,9 +53,11 @@ class Engagement:
     registry: ParameterRegistry
     number: int = 0
     seat: Seat = SEATS["middle"]
+    others: tuple[Seat, ...] = ()
     seed: int = 0
     glances: Mapping[str, Curve] = field(default_factory=dict[str, "Curve"])
     stances: Mapping[str, HumanPose] = field(default_factory=dict[str, "HumanPose"])
+    right_handed: Engagement | None = None
 
     @property
     def prefix(self) -> str:
@@ -62,3 +68,17 @@ class Engagement:
     def instrument_rig(self) -> Rig:
         """The rig of what is held."""
         return next(iter(self.instrument_rigs.values()))
+
+    def left_handed(self, instrument_rigs: Mapping[str, Rig]) -> Engagement:
+        """The same of who leads with the left hand.
+
+        Args:
+            instrument_rigs: As the attribute: the mirror images of the right-handed player's.
+
+        Raises:
+            RigError: The player's left and right are not mirror images.
+        """
+        carried = {name: self.instrument_rigs[name].skeleton for name in self.hold.attachments}
+        instrument = next(iter(instrument_rigs.values())).name
+        hold = mirrored_hold(self.hold, self.player_rig.skeleton, carried, instrument=instrument)
+        return replace(self, instrument_rigs=instrument_rigs, hold=hold, right_handed=self)

@@ -166,7 +166,7 @@ def _glances(
         nearest = min(others, key=lambda other: _distance_m(seats[player], seats[other]))
         before = int(np.searchsorted(onset_s, at_s - TOGETHER_S)) - 1
         playing = player not in entering and before >= 0 and end_s[before] > at_s - BEFORE_S
-        glances.append((at_s, _bearing_rad(seats[player], seats[nearest]), bool(playing)))
+        glances.append((at_s, seats[player].bearing_rad(seats[nearest]), bool(playing)))
     return glances
 
 
@@ -190,10 +190,3 @@ def _curves(glances: Sequence[tuple[float, float, bool]]) -> dict[str, Curve]:
 
 def _distance_m(seat: Seat, other: Seat) -> float:
     return float(np.hypot(other.x_m - seat.x_m, other.z_m - seat.z_m))
-
-
-def _bearing_rad(seat: Seat, other: Seat) -> float:
-    """How far to the left of where a player faces another stands, -π..π."""
-    ahead = np.arctan2(other.x_m - seat.x_m, other.z_m - seat.z_m)
-    turned = float(ahead - seat.facing_rad)
-    return float((turned + np.pi) % (2.0 * np.pi) - np.pi)

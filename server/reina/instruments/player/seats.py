@@ -42,6 +42,12 @@ class Seat:
         """Whether it is where the rigs stand by themselves."""
         return self == Seat(self.name)
 
+    def bearing_rad(self, other: Seat) -> float:
+        """How far to the left of where a player here faces another stands, -π..π."""
+        ahead = np.arctan2(other.x_m - self.x_m, other.z_m - self.z_m)
+        turned = float(ahead - self.facing_rad)
+        return float((turned + np.pi) % (2.0 * np.pi) - np.pi)
+
     @cached_property
     def _turning(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Matrices that turn a row of coordinates and a row of a quaternion, and the seat's place."""

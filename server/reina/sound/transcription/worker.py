@@ -2,49 +2,28 @@
 
     python -m reina.sound.transcription.worker SONG
 
-What is looked for and the title come on standard input, as `reina.system.parcel` sends them. On standard
-output go numbers, the share that is done, and at the end the `Score` or the error that says why there is
-none. When standard input is closed, the one who asked is gone, and the process ends.
+It is sent what is looked for and the title, and the outcome is the `Score` or the error that says why there
+is none.
 """
 
-from __future__ import annotations
-
-import contextlib
 import sys
-import threading
-from pathlib import Path
+from collections.abc import Callable
 
-from reina.errors import InputError
-from reina.sound.recording.mono import read_mono
+import numpy as np
+from numpy.typing import NDArray
+
+from reina.music import Score
+from reina.sound.recording.listening import listen
 from reina.sound.transcription.transcribe import Line, transcribe
-from reina.system.own_process import bound_memory, end_with_parent, take_output, yield_to_server
-from reina.system.parcel import receive, send
-
-MAX_MEMORY_BYTES = 4_000_000_000
-"""Address space, a good part of it libraries: fifteen minutes of sound take 1 GB."""
 
 
-def main() -> int:
-    """Listen, and tell."""
-    told = take_output()
-    yield_to_server()
-    bound_memory(MAX_MEMORY_BYTES)
-    try:
-        wanted: tuple[Line, str] = receive(sys.stdin.buffer)
-    except EOFError:
-        return 2
-    threading.Thread(target=end_with_parent, daemon=True).start()
+def find_notes(
+    samples: NDArray[np.float32], rate: int, wanted: tuple[Line, str], tell: Callable[[float], None]
+) -> Score:
+    """`transcribe` as `listen` calls it."""
     line, title = wanted
-    try:
-        samples, rate = read_mono(Path(sys.argv[1]).read_bytes())
-        found = transcribe(samples, rate, line, title=title, tell=lambda share: send(told, share))
-    except InputError as error:
-        send(told, error)
-        return 0
-    with contextlib.suppress(OSError):
-        send(told, found)
-    return 0
+    return transcribe(samples, rate, line, title=title, tell=tell)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(listen(find_notes))

@@ -146,6 +146,14 @@ def test_hands_that_stand_under_the_notes_are_kept() -> None:
     assert part.fingering.reasons[0] == "right: so it is written"
 
 
+def test_a_hand_that_is_written_is_no_rudiment_that_the_accents_suggest() -> None:
+    signs = "RRLLRLLR" * 2
+    texts = [ScoreText("text", 0.15 * k, 0.3 * k, sign) for k, sign in enumerate(signs)]
+    part = played(drum_score([(0.15 * k, SNARE, 0.9 if k % 4 == 0 else 0.5) for k in range(16)], texts=texts))
+    assert hands(part) == signs
+    assert {reason.partition(": ")[2] for reason in part.fingering.reasons} == {"so it is written"}
+
+
 @pytest.mark.parametrize(
     ("name", "expected"),
     [

@@ -13,7 +13,7 @@ from reina.instruments.drums.motion.drummer_motion import DrummerMotion
 from reina.instruments.drums.motion.foot_paths import FootPaths
 from reina.instruments.drums.motion.hi_hat_pedal import HALF
 from reina.instruments.drums.motion.kit_answers import FARTHEST_RAD, HEADS, SWINGS, KitAnswers
-from reina.instruments.drums.motion.ringing import Ringing
+from reina.instruments.drums.motion.ringing import Ringing, Ringings
 from reina.rotations.arrays import ArrayLike, FloatArray
 
 FPS = 60.0
@@ -78,6 +78,21 @@ def test_ringing_is_the_sum_over_all_hits_before(events: list[tuple[float, float
     since = at - onset[onset <= at]
     expected = np.sum(strength[onset <= at] * np.exp(-1.1 * since) * np.sin(2.6 * np.pi * since))
     assert ringing.evaluate(np.array([at]))[0] == pytest.approx(expected, abs=1e-6)
+
+
+def test_things_ring_together_as_they_do_alone() -> None:
+    shared, times = np.array([1.0, 1.4, 2.2]), np.arange(0.0, 4.0, 1.0 / FPS)
+    things = [
+        Ringing(shared, np.array([0.3, 0.8, 0.5]), frequency_hz=1.3, decay=1.1),
+        Ringing(np.zeros(0), np.zeros(0), frequency_hz=1.3, decay=1.1),
+        Ringing(shared, np.array([0.2, 0.0, 0.4]), frequency_hz=2.1, decay=0.7),
+        Ringing(np.array([0.5]), np.array([0.9]), frequency_hz=0.0, decay=22.0, most=1.3),
+    ]
+    together = Ringings(things).evaluate(times)
+    assert together == pytest.approx(np.stack([thing.evaluate(times) for thing in things]), abs=1e-15)
+    assert not together[1].any()
+    assert not together[:, times < 0.5].any()
+    assert together[3, times >= 0.5][0] > 0.7
 
 
 def test_no_cymbal_turns_too_far_however_often_it_is_struck() -> None:

@@ -37,6 +37,8 @@ interface Marks {
   readonly name: "note" | "line";
   readonly columns: InstancedBufferAttribute;
   readonly lanes: InstancedBufferAttribute;
+  /** Of notes alone: what each strikes. */
+  readonly pieces?: InstancedBufferAttribute;
 }
 
 function marks(name: Marks["name"], columns: Float32Array<ArrayBuffer>, lanes: Float32Array<ArrayBuffer>): Marks {
@@ -47,10 +49,11 @@ function marks(name: Marks["name"], columns: Float32Array<ArrayBuffer>, lanes: F
   };
 }
 
-function withMarks(shape: InstancedBufferGeometry, { name, columns, lanes }: Marks): InstancedBufferGeometry {
+function withMarks(shape: InstancedBufferGeometry, { name, columns, lanes, pieces }: Marks): InstancedBufferGeometry {
   const geometry = shape.clone();
   geometry.setAttribute(name, columns);
   geometry.setAttribute("lane", lanes);
+  if (pieces !== undefined) geometry.setAttribute("piece", pieces);
   geometry.instanceCount = columns.count;
   return geometry;
 }
@@ -130,10 +133,19 @@ export class NoteBlocks {
     }
   }
 
-  /** Arrange the lanes by where the players stand across the stage, metres; positive is the audience's right. */
-  arrange(places: readonly number[]): void {
-    const arrangement = arrangeLanes(places.slice(0, MAX_LANES));
-    const { laneScale, heights, shifts } = this.uniforms;
+  /**
+   * Arrange the lanes.
+   *
+   * @param places of the players across the stage, metres; positive is the audience's right.
+   * @param atKits whether each plays at a kit.
+   */
+  arrange(places: readonly number[], atKits: readonly boolean[] = []): void {
+    const arrangement = arrangeLanes(places.slice(0, MAX_LANES), atKits);
+    const { laneScale, heights, shifts, bends } = this.uniforms;
+    bends.value.forEach((bend, lane) => {
+      const { radius, turn } = atKits[lane] === true ? LANE.kit : LANE.bell;
+      bend.set(radius, turn);
+    });
     laneScale.value = arrangement.scale;
     arrangement.heights.forEach((height, lane) => (heights.value[lane] = height));
     arrangement.shifts.forEach((shift, lane) => (shifts.value[lane] = shift));
@@ -158,7 +170,8 @@ export class NoteBlocks {
     this.#chunks = layOut(score).map((chunk) => {
       const object = new Group();
       if (chunk.notes.length > 0) {
-        const notes = marks("note", chunk.notes, chunk.noteLanes);
+        const pieces = new InstancedBufferAttribute(chunk.notePieces, 1);
+        const notes = { ...marks("note", chunk.notes, chunk.noteLanes), pieces };
         object.add(
           this.#mesh(withMarks(this.#shapes.block, notes), "block", ORDER.blocks),
           this.#mesh(withMarks(this.#shapes.card, notes), "halo", ORDER.halos),

@@ -40,6 +40,16 @@ describe("arrangeLanes", () => {
     },
   );
 
+  it("leads the lane to a kit over the heads of those before it, and leaves theirs as they are", () => {
+    const alone = arrangeLanes([-0.62, 0.62]);
+    const { heights } = arrangeLanes([-0.62, 0.62, 0], [false, false, true]);
+    expect(heights[1]).toBe(alone.heights[1]);
+    expect(heights[2]).toBeGreaterThan(1.7 + 4 * LANE.step);
+    expect(arrangeLanes([0, 0], [false, true]).heights[0]).toBe(LANE.bell.height);
+    const [first, second] = arrangeLanes([0, 0], [true, true]).heights;
+    expect((first ?? 0) - (second ?? 0)).toBeLessThan(-8 * LANE.step);
+  });
+
   it("gives each a lane of its own even at the same place", () => {
     expect(new Set(arrangeLanes([0, 0, 0]).heights).size).toBe(3);
   });

@@ -8,6 +8,9 @@ const SCALES = [1, 1, 0.86, 0.86, 0.76] as const;
 /** From the middle of one lane to the next at full size, metres: a staff, and room for ledger lines. */
 const SPACING = 0.4;
 
+/** Height of the topmost ribbon to a kit, metres: above its cymbals, and above the heads of those before it. */
+const KIT_TOP = { alone: 1.8, behind: 2.02 } as const;
+
 /** Height of the topmost ribbon where several play, metres: under the faces. */
 const TOP = 1.5;
 
@@ -23,20 +26,27 @@ export interface LaneArrangement {
  * Arrange the lanes of players.
  *
  * Ribbons run to the audience's right, past whoever stands there: the farther left a player, the lower the ribbon, so
- * that it passes below the others' instruments. On the desk the lanes lie as staves in a score, the first player's on top.
+ * that it passes below the others' instruments. Those to a kit run behind everybody, over their heads. On the desk the lanes lie as staves in a score, the first player's on top.
  *
  * @param places of the players across the stage, metres; positive is the audience's right.
+ * @param atKits whether each plays at a kit.
  */
-export function arrangeLanes(places: readonly number[]): LaneArrangement {
+export function arrangeLanes(places: readonly number[], atKits: readonly boolean[] = []): LaneArrangement {
   const count = places.length;
   const scale = SCALES[Math.min(count, SCALES.length - 1)] ?? 1;
-  if (count < 2) return { scale, heights: [LANE.bell.height], shifts: [0] };
+  const atKit = (i: number): boolean => atKits[i] === true;
+  const before = places.filter((_, i) => !atKit(i)).length;
   const spacing = SPACING * scale;
   const toTheRight = (i: number): number =>
-    places.filter((place, j) => place > (places[i] ?? 0) || (place === places[i] && j > i)).length;
+    places.filter((place, j) => atKit(j) === atKit(i) && (place > (places[i] ?? 0) || (place === places[i] && j > i)))
+      .length;
+  const top = (i: number): number => {
+    if (atKit(i)) return before > 0 ? KIT_TOP.behind : KIT_TOP.alone;
+    return before > 1 ? TOP : LANE.bell.height;
+  };
   return {
     scale,
-    heights: places.map((_, i) => TOP - toTheRight(i) * spacing),
+    heights: places.map((_, i) => top(i) - toTheRight(i) * spacing),
     shifts: places.map((_, i) => ((count - 1) / 2 - i) * spacing),
   };
 }

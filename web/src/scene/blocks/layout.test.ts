@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 
 import { playedScore, type ScoreNote } from "../score";
 import { CHUNK_NOTES, layOut, STRUCK, UNPLAYABLE, valveMask } from "./layout";
-import { staffStep } from "./staff";
+import { DRUM_PIECES, staffStep } from "./staff";
 
 function melody(count: number): ScoreNote[] {
   return Array.from({ length: count }, (_, i) => ({
@@ -25,6 +25,17 @@ describe("valveMask", () => {
 });
 
 describe("layOut", () => {
+  it("says of each hit which piece it comes to, and of other notes none", () => {
+    const [note] = melody(1);
+    if (note === undefined) throw new Error("none");
+    const hit = (piece: string): ScoreNote => ({
+      ...note,
+      fingering: { type: "strike", hand: "left", foot: null, piece },
+    });
+    const [chunk] = layOut({ notes: [note, hit("snare"), hit("tambourine")], bar_lines_s: [], players: 1 });
+    expect([...(chunk?.notePieces ?? [])]).toEqual([0, DRUM_PIECES.indexOf("snare") + 1, 0]);
+  });
+
   it("keeps every note once, in time, whatever order it came in", () => {
     const notes = melody(3 * CHUNK_NOTES + 5);
     const chunks = layOut({ notes: [...notes].reverse(), bar_lines_s: [], players: 1 });

@@ -1,7 +1,7 @@
 /** The score as columns of numbers for the graphics card: built once, then only scrolled. */
 
 import type { ScoreNote, ScoreView } from "../score";
-import { drumStep, ledgerSteps, staffStep } from "./staff";
+import { DRUM_PIECES, drumStep, ledgerSteps, staffStep } from "./staff";
 
 /** Notes drawn with one call; what is out of sight is left out by whole chunks. */
 export const CHUNK_NOTES = 64;
@@ -23,6 +23,8 @@ export interface Chunk {
   readonly notes: Float32Array<ArrayBuffer>;
   /** Whose lane each note lies in. */
   readonly noteLanes: Float32Array<ArrayBuffer>;
+  /** Which of `DRUM_PIECES` each hit strikes, from 1; 0 for notes that strike none. */
+  readonly notePieces: Float32Array<ArrayBuffer>;
   /** start s, end s, start step, end step of each ledger and bar line. */
   readonly lines: Float32Array<ArrayBuffer>;
   readonly lineLanes: Float32Array<ArrayBuffer>;
@@ -88,10 +90,13 @@ export function layOut(score: ScoreView): Chunk[] {
     const until = notes[first + CHUNK_NOTES]?.onset_s ?? Number.POSITIVE_INFINITY;
     const columns = new Columns();
     const lines = new Columns();
+    const pieces: number[] = [];
     let startS = members[0]?.onset_s ?? Number.POSITIVE_INFINITY;
     let endS = startS === Number.POSITIVE_INFINITY ? Number.NEGATIVE_INFINITY : startS;
     for (const note of members) {
       const { step, marks, duration } = blockOf(note);
+      const { fingering } = note;
+      pieces.push(fingering?.type === "strike" ? DRUM_PIECES.indexOf(fingering.piece) + 1 : 0);
       columns.add(note.player, note.onset_s, duration, step, marks);
       addLedgerLines(lines, note, duration, step);
       endS = Math.max(endS, note.onset_s + note.duration_s);
@@ -103,7 +108,8 @@ export function layOut(score: ScoreView): Chunk[] {
     }
     if (columns.count + lines.count > 0) {
       const [notes, noteLanes] = [columns.values, columns.lanes];
-      chunks.push({ startS, endS, notes, noteLanes, lines: lines.values, lineLanes: lines.lanes });
+      const notePieces = new Float32Array(pieces);
+      chunks.push({ startS, endS, notes, noteLanes, notePieces, lines: lines.values, lineLanes: lines.lanes });
     }
   }
   return chunks;

@@ -1,13 +1,26 @@
 /** The blocks, their halos and the staff's lines, as GLSL. */
 
 import { BLOCK } from "./block-geometry";
-import { LANE_PLACE, MAX_LANES } from "./lane";
+import { LANE, LANE_PLACE, MAX_LANES } from "./lane";
+import { DRUM_PIECES } from "./staff";
 
 const f = (value: number): string => value.toFixed(4);
 
 /** Where a note's block begins and ends on the lane; what was played into the bell is gone. */
 const NOTE_SPAN = /* glsl */ `
 attribute vec4 note;
+/** Which piece is struck, from 1; 0 for none. */
+attribute float piece;
+uniform vec3 pieces[${MAX_LANES * DRUM_PIECES.length}];
+/** A place of a note's block: a hit comes down from the staff to what it strikes. */
+Place notePlace(float ahead) {
+  Place place = lanePlace(ahead, note.z);
+  if (piece < 0.5 || arrangement > 0.5) return place;
+  vec3 into = pieces[int(lane + 0.5) * ${DRUM_PIECES.length} + int(piece - 0.5)];
+  place.point.xz = mix(into.xz, place.point.xz, smoothstep(0.06, ${f(LANE.kit.dive)}, ahead));
+  place.point.y = mix(into.y + 0.02, place.point.y, smoothstep(0.0, ${f(0.7 * LANE.kit.dive)}, ahead));
+  return place;
+}
 /** Whether a note sounds: what is not played never does. */
 float sounding() {
   return step(-0.5, note.w) * step(note.x, songTime + 1e-4) * step(songTime + 1e-4, note.x + note.y);
@@ -49,7 +62,7 @@ void main() {
   if (noteSpan(start, end)) {
     float extent = end - start;
     float ahead = mix(start, end, position.x);
-    Place place = lanePlace(ahead, note.z);
+    Place place = notePlace(ahead);
     float depth = inset * min(1.0, extent / (4.0 * ${f(BLOCK.edge)})) * place.scale;
     vec3 point = place.point + place.along * depth + (place.up * position.y + place.out_ * position.z) * place.scale;
     mvPosition = viewMatrix * vec4(point, 1.0);
@@ -209,7 +222,7 @@ void main() {
   vSight = 0.0;
   if (sounding() > 0.5 && glow > 0.0 && noteSpan(start, end)) {
     float ahead = clamp(mix(start, end, position.x), start, end);
-    Place place = lanePlace(ahead, note.z);
+    Place place = notePlace(ahead);
     vec3 eye = normalize(cameraPosition - place.point);
     vec3 up = normalize(cross(eye, place.along));
     up *= sign(dot(up, place.up) + 1e-4);

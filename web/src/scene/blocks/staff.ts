@@ -36,6 +36,9 @@ const DRUM_STEPS: Readonly<Record<string, number>> = {
   china: 13,
 };
 
+/** The pieces that have a place, in the order in which a stage counts them. */
+export const DRUM_PIECES: readonly string[] = Object.keys(DRUM_STEPS);
+
 /** Of the hi-hat where the foot plays it. */
 const HI_HAT_FOOT = -1;
 

@@ -17,7 +17,7 @@ import type { RoomLight } from "./surface";
 import { createWalls } from "./walls";
 
 export { FOOT_JOINTS } from "./feet";
-export { KIT_RIG } from "./kit-place";
+export { KIT_RIG, LEFT_HANDED_KIT_RIG } from "./kit-place";
 export { RoomReflections } from "./reflections";
 
 export interface Room {

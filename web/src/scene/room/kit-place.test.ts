@@ -44,6 +44,20 @@ describe("the place of a drum kit", () => {
     expect(place.object.children.map(({ name }) => name)).toEqual(names);
   });
 
+  it("is the mirror image under a left-handed player's kit", () => {
+    const place = new KitPlace(LIGHT, []);
+    const extent = (mirrored: boolean): Box3 => {
+      place.set(kitAt(0.3, 0.2, -2.4, 0), mirrored);
+      place.follow();
+      return new Box3().setFromObject(place.object.getObjectByName("kit_platform") as Mesh);
+    };
+    const [right, left] = [extent(false), extent(true)];
+    expect(left.max.x - 0.3).toBeCloseTo(0.3 - right.min.x);
+    expect(left.min.x - 0.3).toBeCloseTo(0.3 - right.max.x);
+    expect(left.min.z).toBeCloseTo(right.min.z);
+    expect(extent(false).max.x).toBeCloseTo(right.max.x);
+  });
+
   it("has its rug above the platform and no more than a few millimetres over the kit's feet", () => {
     const place = new KitPlace(LIGHT, []);
     place.set(kitAt(0, 0, 0, 0));

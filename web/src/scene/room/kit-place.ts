@@ -9,10 +9,11 @@ import { painted } from "./painted";
 import { createRug } from "./rug";
 import { createSurface, type RoomLight } from "./surface";
 
-/** The rig that stands on it. */
+/** The rigs that stand on it: a right-handed player's, and its mirror image. */
 export const KIT_RIG = "drumkit";
+export const LEFT_HANDED_KIT_RIG = "drumkit_left_handed";
 
-/** In the kit's frame, whose origin is under the stool: to the player's left and right, behind and before, metres. */
+/** In a right-handed player's kit's frame, whose origin is under the stool: to the player's left and right, behind and before, metres. */
 const PLATFORM = { left: 0.98, right: -1.42, back: -0.62, front: 1.58 } as const;
 const RUG = { left: 0.86, right: -1.3, back: -0.5, front: 1.46 } as const;
 const RUG_THICK = 0.003;
@@ -105,11 +106,15 @@ export class KitPlace {
     this.object.visible = false;
   }
 
-  /** @param node the kit's root; null where there is none. */
-  set(node: Object3D | null): void {
+  /**
+   * @param node the kit's root; null where there is none.
+   * @param mirrored it is a left-handed player's.
+   */
+  set(node: Object3D | null, mirrored = false): void {
     this.#node = node;
     if (node !== null && this.object.children.length === 0) this.object.add(...createPlatform(this.#light));
     this.object.visible = node !== null;
+    this.object.scale.x = mirrored ? -1 : 1;
     for (const { mesh, without, all } of this.#inTheWay) mesh.count = node === null ? all : without;
   }
 

@@ -15,7 +15,7 @@ export const help = words("help", {
   timeline:
     "Drag along the bar numbers, or with Shift anywhere on the timeline, to loop; Alt leaves the loop free of the bars, Esc ends it. The wheel or two fingers zoom the timeline.",
   stage: "Drag the stage to look around; scroll or pinch to come closer. Or go to it with Tab, and then:",
-  howSheMoves: "How she moves: [the lab], where rotations, arms and fingers can be taken apart.",
+  howTheyMove: "How players move: [the lab], where rotations, arms and fingers can be taken apart.",
   placeStage: "The stage",
   placeMusic: "The music",
   placeShow: "The show, while it is open",
@@ -40,7 +40,7 @@ export const help = words("help", {
   goThere: "Go to that place; drag along it to search",
   loop: "Along the line: play it in a loop; a tap on the loop ends it",
   zoomLine: "Zoom the line",
-  why: "Why it is fingered so",
+  why: "Why it is played so",
   goToNote: "On paper: go to that note",
   scroll: "Along the time, up and down the rows",
   zoomTime: "Zoom the time",

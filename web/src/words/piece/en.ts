@@ -3,7 +3,7 @@ import { counted, filled, words } from "../words";
 /** Who plays which part, and how it is played. */
 export const piece = words("piece", {
   notes: counted({ one: "{count} note", other: "{count} notes" }),
-  partOf: filled("Part the {instrument} plays"),
+  partOf: filled("Part for the {instrument}"),
   alsoPlays: filled("{part} also plays"),
   othersToo: "Play other parts too",
   othersMeans: "For music of one player that the file spreads over several parts",
@@ -27,6 +27,10 @@ export const piece = words("piece", {
   figureMeans: "Who stands on the stage; it sounds the same",
   instrument: "Instrument",
   instrumentMeans: "What the part is played on",
+  leadingHand: "Leading hand",
+  leadingHandMeans: "Who leads with the left hand plays on the mirror image of the kit; it sounds the same",
+  rightHanded: "Right-handed",
+  leftHanded: "Left-handed",
   place: "Place",
   placeMeans: "Where on the stage; left and right are the players'",
   byItself: "Automatic",
@@ -53,7 +57,7 @@ export const piece = words("piece", {
   metre: "Metre",
   metreChanging: filled("{upper}/{lower}, changing"),
   noteNames: "Note names",
-  namesWritten: "Note names: written, for the trumpet",
+  namesWritten: "Note names: as written",
   namesSounding: "Note names: sounding",
   written: "Written",
   sounding: "Sounding",

@@ -39,7 +39,7 @@ export const practice = words("practice", {
   also: "Also possible:",
   open: "open",
   down: filled("Valves {valves}"),
-  noNotes: "This player has no notes with valves here.",
+  noNotes: "This player has no notes here.",
   end: "The part is over.",
   chart: "Fingering chart",
   quizMeans:

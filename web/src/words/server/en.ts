@@ -26,7 +26,7 @@ export const named = words("server", {
   limb_left_hand: "left hand",
   limb_right_foot: "right foot",
   limb_left_foot: "left foot",
-  player_trumpeter: "Trumpeter",
+  player_trumpeter: "Band member",
   player_soloist: "Soloist",
   seat_middle: "Middle",
   seat_left: "Left",

@@ -44,6 +44,8 @@ export const transport = words("transport", {
   nextSounding: "The next notes and their fingerings, as they sound",
   nextOfWritten: filled("The next notes of player {player} and their fingerings, as written for the {instrument}"),
   nextOfSounding: filled("The next notes of player {player} and their fingerings, as they sound"),
+  nextStrokes: "The next strokes, with hand or foot",
+  nextOfStrokes: filled("The next strokes of player {player}, with hand or foot"),
   hidden: "Hidden while the quiz asks for it",
   notUsual: ", not the usual fingering",
   end: "The end",

@@ -7,6 +7,7 @@ export const views = words("views", {
   camera: "Camera",
   showCamera: "The show's",
   inset: "Valves in a small picture",
+  insetFeet: "Feet in a small picture",
   light: "Light",
   lighting: filled("Lighting: {mood}"),
   takingBack: "Taking the light back",

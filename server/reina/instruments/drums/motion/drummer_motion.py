@@ -72,6 +72,5 @@ class DrummerMotion:
 
     def evaluate(self, times_s: FloatArray) -> DrummerFrames:
         """Sticks, feet and kit at times ``(F,)``."""
-        return DrummerFrames(
-            self._sticks.evaluate(times_s), self._feet.evaluate(times_s), self._answers.evaluate(times_s)
-        )
+        kit = self._answers.evaluate(times_s)
+        return DrummerFrames(self._sticks.evaluate(times_s, kit), self._feet.evaluate(times_s, kit), kit)

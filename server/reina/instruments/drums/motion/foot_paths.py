@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.instruments.drums.hit import DrumHit
-    from reina.instruments.drums.motion.kit_answers import KitAnswers
+    from reina.instruments.drums.motion.kit_answers import KitAnswers, KitFrames
     from reina.rotations.arrays import FloatArray, IntArray
 
 SWING_S: Final = 0.1
@@ -37,6 +37,11 @@ BEAT_HEEL: Final = 0.3
 
 IDLE_S: Final = 0.9
 """A foot keeps the time where its strokes are this far."""
+
+
+_HEEL_BEGINS: Final = np.array([HEEL_S, 0.4 * HEEL_S, 0.0]).reshape(3, 1, 1, 1)
+_HEEL_TAKES: Final = np.array([0.6 * HEEL_S, 0.4 * HEEL_S, HEEL_S]).reshape(3, 1, 1, 1)
+"""When a heel comes up, goes down by most and by the rest: so long before a stroke, for so long."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,84 +73,88 @@ class FootPaths:
     ) -> None:
         self._answers = answers
         feet = [[hit for hit in hits if hit.limb == limb] for limb in ("right_foot", "left_foot")]
-        kicks = [_Pedal([hit for hit in foot if hit.piece == "kick"]) for foot in feet]
-        self._kicks = kicks
-        self._all = [_Pedal(foot) for foot in feet]
+        kicks = [[hit for hit in foot if hit.piece == "kick"] for foot in feet]
+        self._strokes = _Strokes([*kicks, *feet])
         self._beats = np.zeros(0) if beats_s is None else beats_s
         hands = [hit.onset_s for hit in hits]
         self._span = (min(hands, default=0.0), max(hands, default=0.0))
 
-    def evaluate(self, times_s: FloatArray) -> FootFrames:
-        """Both feet at times ``(F,)``."""
-        down = [kick.depth(times_s) for kick in self._kicks]
-        closed = self._answers.hi_hat(times_s)
-        idle = [self._tap(times_s, pedal) for pedal in self._all]
-        heel = [np.maximum(pedal.heel(times_s), tap) for pedal, tap in zip(self._all, idle, strict=True)]
+    def evaluate(self, times_s: FloatArray, kit: KitFrames | None = None) -> FootFrames:
+        """Both feet at times ``(F,)``; what the kit does then may be given."""
+        closed = self._answers.hi_hat(times_s) if kit is None else kit.hi_hat
+        near = self._strokes.around(times_s)
+        down = self._strokes.depth(times_s, near[:, :2])
+        heel = self._strokes.heel(times_s, near[:, 2:])
+        if len(self._beats) > 1:
+            heel = np.maximum(heel, self._tap(times_s) * self._strokes.idleness(times_s, near[:, 2:]))
         return FootFrames(
             pedal=np.stack([down[0], np.maximum(closed, down[1])], axis=1),
-            heel=np.stack(heel, axis=1),
+            heel=np.ascontiguousarray(heel.T),
             beater=np.maximum(down[0], down[1]),
         )
 
-    def _tap(self, times_s: FloatArray, pedal: _Pedal) -> FloatArray:
-        """The heel of an idle foot, up between the beats and down on them."""
-        if len(self._beats) < 2:
-            return np.zeros(len(times_s))
-        place = np.clip(np.searchsorted(self._beats, times_s, side="right") - 1, 0, len(self._beats) - 2)
+    def _tap(self, times_s: FloatArray) -> FloatArray:
+        """The heel of an idle foot, up between the beats and down on them, ``(F,)``."""
+        place = self._beats.searchsorted(times_s, side="right") - 1
+        place = np.minimum(np.maximum(place, 0), len(self._beats) - 2)
         begin, end = self._beats[place], self._beats[place + 1]
-        u = np.clip((times_s - begin) / np.maximum(end - begin, 1e-6), 0.0, 1.0)
+        u = np.minimum(np.maximum((times_s - begin) / np.maximum(end - begin, 1e-6), 0.0), 1.0)
         playing = (times_s >= self._span[0]) & (times_s <= self._span[1])
-        return BEAT_HEEL * np.sin(np.pi * u) ** 2 * playing * pedal.idleness(times_s)
+        return BEAT_HEEL * np.sin(np.pi * u) ** 2 * playing
 
 
-class _Pedal:
-    """The strokes of one foot."""
+class _Strokes:
+    """The strokes of R feet or pedals, evaluated together.
 
-    def __init__(self, hits: Sequence[DrumHit]) -> None:
-        self._at = np.array([hit.onset_s for hit in hits])
-        self._loud = np.array([hit.velocity for hit in hits])
-        gaps = np.diff(self._at, prepend=-np.inf, append=np.inf)
-        self._before, self._after = gaps[:-1], gaps[1:]
+    Args:
+        rows: Of each the hits, by time.
+    """
 
-    def depth(self, times_s: FloatArray) -> FloatArray:
-        """How far the beater is on its way to the head, 0 to 1."""
-        if not len(self._at):
-            return np.zeros(len(times_s))
-        value = np.zeros(len(times_s))
-        for nearest in self._around(times_s):
-            at, before, after = self._at[nearest], self._before[nearest], self._after[nearest]
-            lands = at - np.minimum(EARLY_S, 0.3 * before)
-            swing = np.minimum(SWING_S, SHARE * before)
-            leaves = at + np.minimum(CONTACT_S, 0.1 * after)
-            back = np.minimum(RETURN_S, SHARE * after)
-            to = np.clip(1.0 - (lands - times_s) / swing, 0.0, 1.0) ** 2.2
-            gone = minimum_jerk((times_s - leaves) / back)
-            value = np.maximum(value, np.where(times_s <= leaves, to, 1.0 - gone))
-        return value
+    def __init__(self, rows: Sequence[Sequence[DrumHit]]) -> None:
+        at_s = [np.array([hit.onset_s for hit in row]) for row in rows]
+        self._starts = at_s
+        # Every row lies between two silent strokes before and after all time.
+        lengths = [0, *(len(at) + 2 for at in at_s)]
+        self._offsets: IntArray = np.cumsum(lengths, dtype=np.intp)[:-1, None]
+        self._at: FloatArray = np.concatenate([part for at in at_s for part in ([-np.inf], at, [np.inf])])
+        loud = [part for row in rows for part in ([0.0], [hit.velocity for hit in row], [0.0])]
+        gaps = [np.diff(at, prepend=-np.inf, append=np.inf) for at in at_s]
+        before = np.concatenate([part for gap in gaps for part in ([np.inf], gap[:-1], [np.inf])])
+        after = np.concatenate([part for gap in gaps for part in ([np.inf], gap[1:], [np.inf])])
+        self._lands: FloatArray = self._at - np.minimum(EARLY_S, 0.3 * before)
+        self._swing: FloatArray = np.minimum(SWING_S, SHARE * before)
+        self._leaves: FloatArray = self._at + np.minimum(CONTACT_S, 0.1 * after)
+        self._back: FloatArray = np.minimum(RETURN_S, SHARE * after)
+        self._size: FloatArray = np.clip((np.concatenate(loud) - LOUD) / (1.0 - LOUD), 0.0, 1.0)
 
-    def heel(self, times_s: FloatArray) -> FloatArray:
-        """How far the heel is up, 0 to 1: for loud strokes."""
-        if not len(self._at):
-            return np.zeros(len(times_s))
-        value = np.zeros(len(times_s))
-        for nearest in self._around(times_s):
-            at = self._at[nearest]
-            size = np.clip((self._loud[nearest] - LOUD) / (1.0 - LOUD), 0.0, 1.0)
-            up = minimum_jerk((times_s - at + HEEL_S) / (0.6 * HEEL_S))
-            down = minimum_jerk((times_s - at + 0.4 * HEEL_S) / (0.4 * HEEL_S))
-            value = np.maximum(value, size * up * (1.0 - 0.7 * down) * (times_s < at + HEEL_S))
-            settle = 0.3 * (1.0 - minimum_jerk((times_s - at) / HEEL_S))
-            value = np.maximum(value, np.where(times_s >= at, size * settle, 0.0))
-        return value
+    def around(self, times_s: FloatArray) -> IntArray:
+        """The strokes before and after each time, ``(2, R, F)``."""
+        near = np.empty((2, len(self._starts), len(times_s)), dtype=np.intp)
+        for row, starts in enumerate(self._starts):
+            near[0, row] = starts.searchsorted(times_s)
+        near[0] += self._offsets
+        np.add(near[0], 1, out=near[1])
+        return near
 
-    def idleness(self, times_s: FloatArray) -> FloatArray:
-        """1 where no stroke is near, 0 at one."""
-        if not len(self._at):
-            return np.ones(len(times_s))
-        near = np.minimum.reduce([np.abs(times_s - self._at[nearest]) for nearest in self._around(times_s)])
-        return minimum_jerk((near - 0.5 * IDLE_S) / (0.5 * IDLE_S))
+    def depth(self, times_s: FloatArray, near: IntArray) -> FloatArray:
+        """How far a beater is on its way to the head, 0 to 1, ``(R, F)``."""
+        leaves = self._leaves[near]
+        to = 1.0 - (self._lands[near] - times_s) / self._swing[near]
+        to = np.minimum(np.maximum(to, 0.0), 1.0) ** 2.2
+        gone = minimum_jerk((times_s - leaves) / self._back[near])
+        value = np.where(times_s <= leaves, to, 1.0 - gone)
+        return np.maximum(value[0], value[1])
 
-    def _around(self, times_s: FloatArray) -> list[IntArray]:
-        after = np.searchsorted(self._at, times_s)
-        last = len(self._at) - 1
-        return [np.clip(after - 1, 0, last), np.clip(after, 0, last)]
+    def heel(self, times_s: FloatArray, near: IntArray) -> FloatArray:
+        """How far a heel is up, 0 to 1, ``(R, F)``: for loud strokes."""
+        since = times_s - self._at[near]
+        up, down, settled = minimum_jerk((since + _HEEL_BEGINS) / _HEEL_TAKES)
+        value = np.where(since >= 0.0, np.maximum(0.3 * (1.0 - settled), 0.0), 0.0)
+        value = np.maximum(value, up * (1.0 - 0.7 * down) * (since < HEEL_S))
+        value *= self._size[near]
+        return np.maximum(value[0], value[1])
+
+    def idleness(self, times_s: FloatArray, near: IntArray) -> FloatArray:
+        """1 where no stroke is near, 0 at one, ``(R, F)``."""
+        since = np.abs(times_s - self._at[near])
+        return minimum_jerk((np.minimum(since[0], since[1]) - 0.5 * IDLE_S) / (0.5 * IDLE_S))

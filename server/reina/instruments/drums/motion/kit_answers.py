@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from reina.instruments.drums.motion.hi_hat_pedal import CLOSED, hi_hat_movements
-from reina.instruments.drums.motion.ringing import Ringing
+from reina.instruments.drums.motion.ringing import Ringing, Ringings
 from reina.kinematics import MotionCurves
 
 if TYPE_CHECKING:
@@ -89,16 +89,14 @@ class KitAnswers:
         self, hits: Sequence[DrumHit], chokes: Sequence[Choke] = (), *, mirrored: bool = False
     ) -> None:
         side = -SIDE_SHARE if mirrored else SIDE_SHARE
-        self._swings = [_swing(piece, hits, chokes, side) for piece in SWINGS]
-        self._heads = [_head(piece, hits) for piece in HEADS]
+        swings = [about for piece in SWINGS for about in _swing(piece, hits, chokes, side)]
+        self._swings = Ringings(swings)
+        self._all = Ringings([*swings, *(_head(piece, hits) for piece in HEADS)])
         self._hi_hat = MotionCurves({"hi_hat": (hi_hat_movements(hits), CLOSED)})
 
     def tilt(self, times_s: FloatArray) -> FloatArray:
         """How far each cymbal is turned, ``(F, 6, 2)``, as `KitFrames.tilt`."""
-        return np.stack(
-            [np.stack([about.evaluate(times_s) for about in swing], axis=-1) for swing in self._swings],
-            axis=1,
-        )
+        return _by_cymbal(self._swings.evaluate(times_s))
 
     def hi_hat(self, times_s: FloatArray) -> FloatArray:
         """How far the hi-hat is closed, ``(F,)``."""
@@ -106,8 +104,14 @@ class KitAnswers:
 
     def evaluate(self, times_s: FloatArray) -> KitFrames:
         """What moves of the kit at times ``(F,)``."""
-        heads = np.stack([head.evaluate(times_s) for head in self._heads], axis=-1)
-        return KitFrames(self.tilt(times_s), self.hi_hat(times_s), np.clip(heads, 0.0, 1.0))
+        ringing = self._all.evaluate(times_s)
+        heads = np.minimum(np.maximum(ringing[2 * len(SWINGS) :].T, 0.0), 1.0)
+        return KitFrames(_by_cymbal(ringing[: 2 * len(SWINGS)]), self.hi_hat(times_s), heads)
+
+
+def _by_cymbal(swings: FloatArray) -> FloatArray:
+    """Rows ``(12, F)``, two of each cymbal, as `KitFrames.tilt`."""
+    return np.ascontiguousarray(swings.reshape(len(SWINGS), 2, -1).transpose(2, 0, 1))
 
 
 def _swing(

@@ -10,7 +10,7 @@ from reina.curves import Parameter
 from reina.instruments.drums.motion.kit_answers import HEADS, SWINGS
 from reina.instruments.drums.motion.kit_places import UP, KitPlaces, ZonePlace
 from reina.instruments.drums.motion.stick_paths import turned
-from reina.rotations import about_axis, multiply, rotate, same_hemisphere
+from reina.rotations import about_axis, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
 if TYPE_CHECKING:
@@ -112,15 +112,11 @@ class KitPose:
         frames = len(tilt)
         result = np.empty((frames, *self._rest.shape))
         result[:] = self._rest
-        # Where no cymbal swings there is nothing to turn.
-        swings = np.flatnonzero(tilt.any(axis=(0, 2)))
-        for row in swings.tolist():
-            outward = np.broadcast_to(self._outward[row], (frames, 3))
-            joint = self._swinging[row]
-            result[:, joint] = multiply(turned(outward, tilt[:, row]), self._rest[joint])
+        # Nothing turns by as much as half a turn: all stay in the hemisphere of their rest.
+        result[:, self._swinging] = multiply(turned(self._outward, tilt), self._rest[self._swinging])
         angles = np.stack([drummed.feet.beater, *drummed.feet.pedal.T], axis=1) * self._farthest
         result[:, self._hinged] = multiply(self._rest[self._hinged], about_axis(0, angles))
-        return same_hemisphere(result, self._rest)
+        return result
 
     def parameters(self, drummed: DrummerFrames) -> FloatArray:
         """The values of `PARAMETERS`, ``(F, P)``."""

@@ -24,14 +24,14 @@ from reina.instruments.drums.motion.stick_plan import (
     plan_sticks,
 )
 from reina.kinematics.motion_curves import minimum_jerk
-from reina.rotations import from_axis_angle, rotate
+from reina.rotations import exp, rotate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reina.instruments.drums.drum_part import Choke
     from reina.instruments.drums.hit import DrumHit, Limb
-    from reina.instruments.drums.motion.kit_answers import KitAnswers
+    from reina.instruments.drums.motion.kit_answers import KitAnswers, KitFrames
     from reina.instruments.drums.motion.kit_places import KitPlaces
     from reina.instruments.drums.motion.stick_plan import Station, StickPlan
     from reina.rotations.arrays import FloatArray, IntArray
@@ -157,10 +157,10 @@ class StickPaths:
             for side, limb in enumerate(HANDS)
         ]
 
-    def evaluate(self, times_s: FloatArray) -> StickFrames:
-        """Both sticks at times ``(F,)``."""
-        tilt, closed = self._answers.tilt(times_s), self._answers.hi_hat(times_s)
-        frames = [stick.evaluate(times_s, tilt, closed) for stick in self._sticks]
+    def evaluate(self, times_s: FloatArray, kit: KitFrames | None = None) -> StickFrames:
+        """Both sticks at times ``(F,)``; what the kit does then may be given."""
+        kit = self._answers.evaluate(times_s) if kit is None else kit
+        frames = [stick.evaluate(times_s, kit.tilt, kit.hi_hat) for stick in self._sticks]
         tip = np.stack([frame[0] for frame in frames], axis=1)
         direction = np.stack([frame[1] for frame in frames], axis=1)
         share = np.stack([frame[2] for frame in frames], axis=1)
@@ -234,6 +234,7 @@ class _Stick:
         self._twirls = plan.twirls_s
         self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
         self._moves = plan.moves
+        self._around = np.concatenate([plan.around, np.zeros((1, 3))])
         self._from = np.concatenate([[-np.inf], plan.heights[:, 0]])
         self._to = np.concatenate([[-np.inf], plan.heights[:, 1]])
         self._height = np.concatenate([[0.0], plan.heights[:, 2]])
@@ -255,6 +256,7 @@ class _Stick:
         blend = done[:, None]
         height = self._heights(times_s)
         point = self._point[station] * (1.0 - blend) + self._point[after] * blend
+        point = point + self._around[station] * (16.0 * (blend * (1.0 - blend)) ** 2)
         normal = self._normal[station] * (1.0 - blend) + self._normal[after] * blend
         normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
         turn = self._azimuth[after] - self._azimuth[station]
@@ -401,17 +403,16 @@ class _Stick:
 
 
 def turned(outward: FloatArray, tilt: FloatArray) -> FloatArray:
-    """The turn of a cymbal ``(F, 4)`` that dips where it is struck.
+    """The turn of a cymbal ``(..., 4)`` that dips where it is struck.
 
     Args:
-        outward: (F, 3) level unit vectors from its middle to where it is struck.
-        tilt: (F, 2) radians: down towards there, and to the side.
+        outward: (..., 3) level unit vectors from its middle to where it is struck.
+        tilt: (..., 2) radians: down towards there, and to the side.
     """
-    across = np.cross(np.broadcast_to(UP, outward.shape), outward)
-    vector = across * tilt[:, :1] + outward * tilt[:, 1:]
-    angle = np.linalg.norm(vector, axis=1)
-    axis = np.where(angle[:, None] > 1e-12, vector / np.maximum(angle, 1e-12)[:, None], UP)
-    return from_axis_angle(axis, angle)
+    vector = outward * tilt[..., 1:]
+    vector[..., 0] += outward[..., 2] * tilt[..., 0]  # about what is across, UP × outward
+    vector[..., 2] -= outward[..., 0] * tilt[..., 0]
+    return exp(vector)
 
 
 def _outward(station: Station, arm: FloatArray) -> FloatArray:

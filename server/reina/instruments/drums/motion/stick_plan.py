@@ -8,6 +8,7 @@ rebounds into what comes next.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -46,12 +47,6 @@ LIFT_M: Final = (0.035, 0.40)
 
 LIFT_POWER: Final = 1.5
 
-LOW_M: Final = 0.07
-"""A hand comes to a cross-stick no higher than this: the other arm may be over the drum."""
-
-LOW_AFTER: Final = 0.4
-"""It comes down to that after this part of its way."""
-
 CROSS_STICK_LIFT_M: Final = 0.05
 """The tip stays on the head; so high over the hoop is the shaft lifted."""
 
@@ -72,6 +67,11 @@ SETTLE_S: Final = 0.25
 WAIT_M: Final = 0.09
 """Where it waits."""
 
+GO_M_S: Final = (0.25, 1.6)
+"""What it takes to go there: the first, and at the second so many metres a second."""
+
+HOMEWARD_M: Final = 0.1
+
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
 
@@ -79,6 +79,9 @@ GO_REST_S: Final = 0.9
 LEAVE_AFTER_S: Final = 0.45
 OVER_M: Final = 0.16
 """On its way to rest a stick goes at least so high over what it leaves: the other may lie there already."""
+
+FIRST_UP: Final = 0.35
+"""By this part of its time a stick that comes from rest to the other's side goes up before it goes over."""
 
 REBOUND: Final = {"tom_floor": 0.35, "tom_mid": 0.45, "tom_high": 0.5, "snare": 0.6, "cowbell": 0.35}
 """How much of a stroke's height the stick gets back by itself; a loose head gives less."""
@@ -94,6 +97,9 @@ APART_M: Final = 0.03
 APART_SHARE: Final = 0.55
 """And no farther than this part of the zone's radius."""
 
+NARROW_M: Final = 0.02
+"""Zones no wider than this are struck in their middle."""
+
 THROUGH_M: Final = 0.07
 """How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
 
@@ -101,6 +107,25 @@ THROUGH: Final = ("crash_left", "crash_right", "china", "splash")
 
 PLACED: Final = ("cross_stick", "rim_shot")
 """Techniques that say how the stick lies."""
+
+HEADROOM_M: Final = {"cowbell": 0.07, "tom_mid": 0.3}
+"""So high a stick may be lifted where a cymbal hangs over what it strikes."""
+
+LOW_M: Final = 0.07
+"""And so high where a hand lies on a head: the other arm may be over the drum."""
+
+OVER_CHINA_M: Final = 0.2
+"""The edge of a china turns up: a stick that comes or goes passes so high above."""
+
+AROUND_M: Final = np.array([0.0, 0.0, -0.2])
+"""From beneath to a cymbal, and anywhere where that is less than `CLEARANCE_M`, it goes on the player's side:
+so far from the straight way at its middle."""
+
+INSIDE_M: Final = 0.15
+"""Between the ride and the china, which hangs over it, it goes so far on the inner side."""
+
+CLEAR_SHARE: Final = 0.5
+"""It is out from beneath after this part of the way."""
 
 SAME_PLACE_M: Final = 0.02
 
@@ -140,6 +165,8 @@ class Station:
         swings: Row of `SWINGS` whose tilt moves the point; -1 if it does not move.
         pivot: (3,) what it turns about.
         is_hi_hat: Whether it goes down as the hi-hat is closed.
+        headroom_m: How high the stick may be lifted there.
+        piece: What is struck; nothing at rest.
         placing: How stick and hand lie there, where the tip alone does not say it.
     """
 
@@ -150,6 +177,8 @@ class Station:
     swings: int
     pivot: FloatArray
     is_hi_hat: bool = False
+    headroom_m: float = np.inf
+    piece: str = ""
     placing: Placing | None = None
 
 
@@ -160,6 +189,7 @@ class StickPlan:
     Attributes:
         stations: Where it is, in their order; the first and the last are its rest.
         moves: (M, 2) from when to when it goes from station m to m + 1.
+        around: (M, 3) how far from the straight way it goes at its middle.
         heights: (H, 4) what the tip's height above its station does: from, to, height at the end, and `RISE`,
             `FALL` or `GLIDE`.
         strokes_s: (K,) the onsets.
@@ -169,6 +199,7 @@ class StickPlan:
 
     stations: list[Station]
     moves: FloatArray
+    around: FloatArray
     heights: FloatArray
     strokes_s: FloatArray
     through: FloatArray
@@ -191,7 +222,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     Raises:
         RigError: The kit lacks a piece.
     """
-    maker = _PlanMaker(_rest(places, side))
+    maker = _PlanMaker(_rest(places, side), side)
     known: dict[tuple[str, str, str], Station] = {}
     for place, hit in enumerate(hits):
         after = hits[place + 1].onset_s - hit.onset_s if place + 1 < len(hits) else np.inf
@@ -203,6 +234,7 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
     return StickPlan(
         maker.stations,
         np.array(maker.moves).reshape(-1, 2),
+        np.array([_around(*way) for way in pairwise(maker.stations)]).reshape(-1, 3),
         np.array(maker.heights).reshape(-1, 4),
         np.array([hit.onset_s for hit in hits]),
         np.array([_through(hit) for hit in hits]),
@@ -213,8 +245,9 @@ def plan_sticks(hits: Sequence[DrumHit], places: KitPlaces, side: int, swings: S
 class _PlanMaker:
     """Makes the plan of one hand, stroke by stroke."""
 
-    def __init__(self, rest: Station) -> None:
+    def __init__(self, rest: Station, side: int) -> None:
         self._rest = rest
+        self._own_side = 1.0 if side else -1.0
         self._before: DrumHit | None = None
         self._free_s = -np.inf  # since when the tip is off what it struck last
         self.stations = [rest]
@@ -231,26 +264,32 @@ class _PlanMaker:
         far = float(np.linalg.norm(station.point - self.stations[-1].point))
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
-            lift = max(lift, 0.5 * rise + min(CLEARANCE_M, 0.5 * far))
-        high = lift
-        if hit.technique == "cross_stick":
-            lift = min(lift, LOW_M)
+            clearance = OVER_CHINA_M if self._is_china(hit) else CLEARANCE_M
+            lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
+        lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
-            fall_s = self._from_rest(max(lift, CLEARANCE_M), lands_s)
+            homeward = self._is_homeward(station)
+            clear = CLEARANCE_M if homeward else OVER_M
+            fall_s = self._from_rest(min(max(lift, clear), station.headroom_m), lands_s, homeward=homeward)
         elif room > LONG_S:
-            fall_s = self._waiting(before, lift, far, lands_s)
+            fall_s = self._waiting(hit, station, lift, lands_s)
         else:
             fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
-            self.moves.append((self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room))
-            begin_s = self._free_s
-            if high > lift:
-                begin_s = self._free_s + LOW_AFTER * (fall_s - self._free_s)
-                self.heights.append((self._free_s, begin_s, 0.5 * (lift + high), RISE))
-            self.heights.append((begin_s, fall_s, lift, GLIDE if high > lift else RISE))
+            begin_s, end_s = self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room
+            self.moves.append((begin_s, end_s))
+            self._rise(begin_s + CLEAR_SHARE * (end_s - begin_s), fall_s, lift)
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
         self._free_s = hit.onset_s + _held_s(hit, after_s)
         self._before = hit
+
+    def _rise(self, clear_s: float, top_s: float, lift: float) -> None:
+        """From the surface to the top of the next stroke; from beneath a cymbal, once it is clear of it."""
+        headroom = self.stations[-1].headroom_m
+        if lift <= headroom or clear_s >= top_s:
+            self.heights.append((self._free_s, top_s, min(lift, headroom), RISE))
+            return
+        self.heights += [(self._free_s, clear_s, headroom, GLIDE), (clear_s, top_s, lift, GLIDE)]
 
     def finish(self) -> None:
         """Add the way to rest after the last stroke."""
@@ -259,16 +298,21 @@ class _PlanMaker:
 
     def _to_rest(self, before: DrumHit) -> None:
         leave_s = self._free_s + LEAVE_AFTER_S
+        back = min(_rebound(before), self.stations[-1].headroom_m)
+        over = min(max(OVER_M, back), self.stations[-1].headroom_m)
         self.heights += [
-            (self._free_s, self._free_s + RISE_S, _rebound(before), RISE),
-            (leave_s, leave_s + 0.3, max(OVER_M, _rebound(before)), GLIDE),
+            (self._free_s, self._free_s + RISE_S, back, RISE),
+            (leave_s, leave_s + 0.3, over, GLIDE),
             (leave_s + 0.65, leave_s + 1.1, 0.0, GLIDE),
         ]
         self.moves.append((leave_s, leave_s + GO_REST_S))
         self.stations.append(self._rest)
 
-    def _from_rest(self, lift: float, lands_s: float) -> float:
-        """Rest since the stroke before, then come to this one; returns when the stroke falls."""
+    def _from_rest(self, lift: float, lands_s: float, *, homeward: bool) -> float:
+        """Rest since the stroke before, then come to this one; returns when the stroke falls.
+
+        Over to the other's side a stick is lifted first.
+        """
         fall_s = lands_s - FALL_S
         start_s = fall_s - GO_REST_S
         if self._before is not None:
@@ -276,17 +320,44 @@ class _PlanMaker:
         else:
             # What begins with the song is prepared when it does, if there is time.
             start_s = max(start_s, min(0.0, fall_s - RISE_S))
-        self.heights.append((start_s, fall_s, lift, GLIDE))
-        self.moves.append((start_s, fall_s + 0.4 * FALL_S))
+        way_s = 0.0 if homeward else FIRST_UP * (fall_s - start_s)
+        self.heights.append((start_s, fall_s - way_s, lift, GLIDE))
+        self.moves.append((start_s + way_s, fall_s + 0.4 * FALL_S))
         return fall_s
 
-    def _waiting(self, before: DrumHit, lift: float, far: float, lands_s: float) -> float:
-        """Rebound, wait above the next piece, and rise again; returns when the stroke falls."""
+    def _is_china(self, hit: DrumHit) -> bool:
+        """Whether a way leads to the china or from it."""
+        return "china" in (hit.piece, self._before.piece if self._before else "")
+
+    def _is_homeward(self, station: Station) -> bool:
+        """Whether a way goes to the hand's own side, or straight: then it leaves the other room at once."""
+        return float(station.point[0] - self.stations[-1].point[0]) * self._own_side > -HOMEWARD_M
+
+    def _waiting(self, hit: DrumHit, station: Station, lift: float, lands_s: float) -> float:
+        """Rebound, wait above a piece, and rise again; returns when the stroke falls.
+
+        Away from its own side a hand goes as late as it can: the other may be at work there.
+        """
         free_s, fall_s = self._free_s, lands_s - FALL_S
-        wait = max(WAIT_M, lift - 0.15) if far > SAME_PLACE_M else min(WAIT_M, lift)
-        self.moves.append((free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)))
+        far = float(np.linalg.norm(station.point - self.stations[-1].point))
+        least = OVER_CHINA_M if self._is_china(hit) else WAIT_M
+        wait = max(least, lift - 0.15) if far > SAME_PLACE_M else min(WAIT_M, lift)
+        wait = min(wait, station.headroom_m)
+        begin_s, end_s = free_s + 0.15, max(free_s + 0.5, fall_s - RISE_S)
+        takes_s = min(GO_M_S[0] + far / GO_M_S[1], end_s - begin_s)
+        if self._is_homeward(station):
+            end_s = begin_s + takes_s
+        else:
+            begin_s = end_s - takes_s
+        self.moves.append((begin_s, end_s))
+        back = max(_rebound(self._before or hit), wait if far > SAME_PLACE_M else 0.0)
+        if self.stations[-1].headroom_m < back:
+            clear_s = begin_s + CLEAR_SHARE * (end_s - begin_s)
+            self._rise(clear_s, end_s, wait)
+            self.heights.append((fall_s - RISE_S, fall_s, lift, GLIDE))
+            return fall_s
         self.heights += [
-            (free_s, free_s + REBOUND_S, max(_rebound(before), wait if far > SAME_PLACE_M else 0.0), RISE),
+            (free_s, free_s + REBOUND_S, back, RISE),
             (free_s + REBOUND_S, free_s + REBOUND_S + SETTLE_S, wait, GLIDE),
             (fall_s - RISE_S, fall_s, lift, GLIDE),
         ]
@@ -330,7 +401,7 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
     if hit.technique == "cross_stick":
         placing = cross_stick(places, hit.piece, side)
         if placing is not None:
-            return _placed(placing, -1, zone.pivot)
+            return _placed(placing, -1, zone.pivot, LOW_M)
     if hit.technique == "rim_shot":
         head = places[hit.piece, "centre"]
         apart = min(APART_M, APART_SHARE * head.radius) * (1.0 if side else -1.0)
@@ -339,20 +410,41 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
         if placing is not None:
             return _placed(placing, -1, zone.pivot)
     heading = _heading(zone.position, side)
-    apart = min(APART_M, APART_SHARE * zone.radius) * (1.0 if side else -1.0)
+    apart = min(APART_M, APART_SHARE * zone.radius) if zone.radius > NARROW_M else 0.0
+    apart *= 1.0 if side else -1.0
     through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
+    headroom = HEADROOM_M.get(hit.piece, np.inf)
+    # As near to the player as the zone goes, if there is so little room.
+    nearer = 0.9 * zone.radius * heading if headroom < CLEARANCE_M else np.zeros(3)
+    nearer = nearer - zone.normal * float(nearer @ zone.normal)
     return Station(
-        zone.position + apart * _left_of(heading, zone.normal),
+        zone.position + apart * _left_of(heading, zone.normal) - nearer,
         zone.normal,
         heading,
         through,
         swings.index(hit.piece) if hit.piece in swings else -1,
         zone.pivot,
         hit.piece == "hi_hat",
+        headroom,
+        hit.piece,
     )
 
 
-def _placed(placing: Placing, swings: int = -1, pivot: FloatArray | None = None) -> Station:
+def _around(before: Station, after: Station) -> FloatArray:
+    """How far from the straight way between two stations a stick goes at its middle."""
+    far = float(np.linalg.norm(after.point - before.point))
+    # A hand that lies on a head has its own way there.
+    headroom = min(np.inf if one.placing else one.headroom_m for one in (before, after))
+    is_cymbal = max(before.swings, after.swings) >= 0
+    is_beneath = headroom < (np.inf if is_cymbal else CLEARANCE_M)
+    if {before.piece, after.piece} == {"ride", "china"}:
+        return INSIDE_M * np.array([-np.sign(after.point[0]), 0.0, 0.0])
+    return AROUND_M if is_beneath and far > SAME_PLACE_M else np.zeros(3)
+
+
+def _placed(
+    placing: Placing, swings: int = -1, pivot: FloatArray | None = None, headroom_m: float = np.inf
+) -> Station:
     return Station(
         placing.point,
         placing.normal,
@@ -360,6 +452,7 @@ def _placed(placing: Placing, swings: int = -1, pivot: FloatArray | None = None)
         np.zeros(3),
         swings,
         placing.point if pivot is None else pivot,
+        headroom_m=headroom_m,
         placing=placing,
     )
 

@@ -46,6 +46,12 @@ STATIC_LEFT_HAT: Final = 1.6
 IN_PASSING: Final = 0.6
 """Arms that cross one after the other disturb each other by this part of what they do at once, at most."""
 
+FREE_S: Final = (0.22, 0.45)
+"""From the first gap on a hand is free to leave the crossing to the other, at the second wholly so."""
+
+REST_S: Final = 2.6
+"""After so long a hand is not there any more."""
+
 SKIP: Final = 1.6
 """A stroke that follows another of its hand after a rest so many times longer is the second of a pair."""
 
@@ -219,4 +225,7 @@ def _costs(
 def _crossing(hand: int, piece: IntArray, other_piece: IntArray, gap_s: FloatArray) -> FloatArray:
     """What it costs that a hand is on one piece so soon after the other was on another."""
     crossing = CROSSING[piece, other_piece] if hand == RIGHT else CROSSING[other_piece, piece]
-    return IN_PASSING * np.maximum(1.0 - gap_s / TOGETHER_S, 0.0) * crossing
+    hurried = IN_PASSING * np.maximum(1.0 - gap_s / TOGETHER_S, 0.0)
+    # Where there is time for either hand nobody crosses: the other waits where it struck.
+    free = np.clip((gap_s - FREE_S[0]) / (FREE_S[1] - FREE_S[0]), 0.0, 1.0) * (gap_s < REST_S)
+    return (hurried + free) * crossing

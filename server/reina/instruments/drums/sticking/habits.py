@@ -77,6 +77,9 @@ FREE_CROSSINGS: Final = frozenset(
 )
 """What the right and the left hand strike in comfort with the right above the left."""
 
+HARD_CROSSINGS: Final = {("hi_hat", "tom_high"): 1.2}
+"""Where the left arm would reach far ahead beneath the right one."""
+
 BOUNCE_S: Final = (0.028, 0.1)
 """Gaps of the second stroke of a double, which rebounds and is not struck anew."""
 
@@ -148,7 +151,10 @@ def _distances() -> FloatArray:
 def _crossings() -> FloatArray:
     side = np.array([PLACES_M[piece][0] for piece in PIECES])
     over = np.maximum(side[None, :] - side[:, None] - 0.12, 0.0)
-    cost = np.minimum(2.0 * over, 2.5)
+    # Arms lie across each other where it is far.
+    cost = np.minimum(2.0 * over + 4.0 * np.maximum(over - 0.3, 0.0), 3.5)
+    for (right, left), own in HARD_CROSSINGS.items():
+        cost[PIECES.index(right), PIECES.index(left)] = own
     for right, left in FREE_CROSSINGS:
         cost[PIECES.index(right), PIECES.index(left)] = 0.0
     return cost

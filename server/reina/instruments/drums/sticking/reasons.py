@@ -41,11 +41,11 @@ def why_hand(neighbours: Neighbours, index: int, side: int) -> str:
     beat, hand = beats[index], SIDES[side]
     piece = PIECES[int(sticking.pieces[index, side])]
     on = SPOKEN[piece]
+    if setting.place[index] == "written":
+        return f"{hand}: so it is written"
     rudiment = setting.rudiment[index]
     if rudiment is not None:
         return f"{hand}: {rudiment.name}, {rudiment.hands}"
-    if setting.place[index] == "written":
-        return f"{hand}: so it is written"
     if len(beat.hits) > 1:
         other = SPOKEN[PIECES[int(sticking.pieces[index, 1 - side])]]
         return f"{hand} on {on}, as the {SIDES[1 - side]} hand is on {other}"
