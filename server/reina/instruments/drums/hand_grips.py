@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.instruments.drums.motion.hand_shapes import HAND_SHAPES, PLAY
+from reina.kinematics import clamp_to_limits, excess_over_limits
 from reina.rotations import rotate, same_hemisphere, slerp
 from reina.skeleton import GripKey
 
@@ -22,6 +23,9 @@ BOTH = np.arange(2)
 
 ROWS = 512
 """So many rows of the table each shape has: no step between two of them can be seen."""
+
+KEPT_RAD = 1e-3
+"""What is beyond a joint's limits by less than this is kept as it is keyed."""
 
 
 class HandGrips:
@@ -73,7 +77,8 @@ class HandGrips:
             before = np.maximum(after - 1, 0)
             u = ((at - shares[before]) / np.maximum(shares[after] - shares[before], 1e-9))[:, None, None]
             posed = np.array([[key.pose[joint] for joint in names] for key in keys]).reshape(len(keys), -1, 4)
-            turned.append(same_hemisphere(slerp(posed[before], posed[after], u[..., 0]), rest[self.fingers]))
+            between = _within_limits(slerp(posed[before], posed[after], u[..., 0]), rig, self.fingers)
+            turned.append(same_hemisphere(between, rest[self.fingers]))
             parts = [
                 np.stack([[_of(key, name)[part] for name in sticks] for key in keys]) for part in range(3)
             ]
@@ -94,6 +99,17 @@ class HandGrips:
     def rows(self, shapes: IntArray, shares: FloatArray) -> IntArray:
         """Which rows of the table both hands are in that are so far along their shapes, ``(F, 2)``."""
         return 2 * (shapes * ROWS + np.rint(shares * (ROWS - 1)).astype(np.intp)) + BOTH
+
+
+def _within_limits(turned: FloatArray, rig: Rig, joints: IntArray) -> FloatArray:
+    """Local rotations ``(F, N, 4)``; the shortest way from one key to another may leave what is possible."""
+    result = turned.copy()
+    for place, joint in enumerate(joints.tolist()):
+        if joint in rig.limits:
+            one, rest, limits = turned[:, place], rig.skeleton.rest_rotations[joint], rig.limits[joint]
+            beyond = excess_over_limits(one, rest, limits) > KEPT_RAD
+            result[beyond, place] = clamp_to_limits(one[beyond], rest, limits)
+    return result
 
 
 def _of(key: GripKey, stick: str) -> tuple[FloatArray, FloatArray, FloatArray]:
