@@ -19,11 +19,11 @@ from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.body_table import SIGNALS
 from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames
-from reina.instruments.player.trunk_reach import SHOULDERS, reach_out
+from reina.instruments.player.trunk_reach import LIMITS, SHOULDERS, reach_further, reach_out
 from reina.instruments.player.trunk_reach import SIGNALS as REACHING
 from reina.kinematics import TwoBoneLimbs
 from reina.kinematics.sampled_curves import SampledCurves
-from reina.kinematics.tool_arms import Tool, ToolArms, WristRange
+from reina.kinematics.tool_arms import Tool, ToolArms, ToolPose, WristRange
 from reina.rotations import conjugate, cross, multiply, rotate
 from reina.skeleton import RigError, forward_kinematics
 
@@ -72,6 +72,8 @@ PLANNED_HZ = 10.0
 SAMPLED_HZ = 40.0
 SMOOTHING_S = 0.8
 """The trunk follows where the hands are over this long."""
+FURTHER_S, FURTHER_ROUNDS = 0.4, 3
+"""Where that is too slow it comes round in half of this, worked out so often."""
 HEAD_TURNED_TO = 0.4
 """How much of the way to the middle of both hands the head turns beyond the trunk."""
 HEAD: tuple[str, ...] = ("head_turn", "head_bow", "eyes_left", "eyes_up")
@@ -216,21 +218,28 @@ class DrumsBody:
     def _plan_trunk(self, duration_s: float, pivot: FloatArray) -> FloatArray:
         """How trunk and head follow the hands, over the whole piece, `SAMPLED_HZ` times a second."""
         count = int(np.ceil((duration_s + 2.0) * SAMPLED_HZ)) + 1
-        asked = self._hands(self._motion.evaluate(np.arange(count) / SAMPLED_HZ).sticks)
+        times = np.arange(count) / SAMPLED_HZ
+        asked = self._hands(self._motion.evaluate(times).sticks)
         wrists = self._arms.wrists(asked.points, asked.pointing, asked.held, asked.dorsal)
-        reach = int(0.5 * SMOOTHING_S * SAMPLED_HZ)
-        window = np.hanning(2 * reach + 3)[1:-1]
-        padded = np.pad(wrists.reshape(count, -1), ((reach, reach), (0, 0)), mode="edge")
-        smooth = np.stack(
-            [np.convolve(column, window / window.sum(), mode="valid") for column in padded.T], axis=1
-        )
+        smooth = _smooth(wrists.reshape(count, -1), int(0.5 * SMOOTHING_S * SAMPLED_HZ))
         wrists = smooth[:: int(SAMPLED_HZ / PLANNED_HZ)].reshape(-1, 2, 3)
         signals = {name: np.zeros(len(wrists)) for name in (*SIGNALS, *SHOULDERS)}
         turned = reach_out(self._body, wrists, pivot, signals)
         middle = wrists.mean(axis=1) - pivot
         head = HEAD_TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
-        reached = SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ)
-        return reached.evaluate(np.arange(count) / SAMPLED_HZ)
+        reached = SampledCurves(np.concatenate([turned, head[:, None]], axis=1), PLANNED_HZ).evaluate(times)
+        reached[:, :-1] = self._in_time(reached[:, :-1], asked, pivot)
+        return reached
+
+    def _in_time(self, reached: FloatArray, asked: _Hands, pivot: FloatArray) -> FloatArray:
+        """A trunk that comes round in time for what is quick, ``(F, 5)``, `SAMPLED_HZ` times a second."""
+        still = {name: np.zeros(len(reached)) for name in (*SIGNALS, *SHOULDERS)}
+        for _ in range(FURTHER_ROUNDS):
+            standing = self._body.stand({**still, **dict(zip(REACHING, reached.T, strict=True))}, None)
+            arms = self._solve_arms(standing, asked)
+            further = reach_further(self._body, arms.wrists, pivot, still, reached) - reached
+            reached = reached + _eased(further)
+        return np.minimum(np.maximum(reached, LIMITS[0]), LIMITS[1])
 
     def _plan_gestures(
         self, engagement: Engagement, hits: Sequence[DrumHit], places: KitPlaces, held: HeldPose
@@ -297,6 +306,17 @@ class DrumsBody:
         folded = np.minimum(np.maximum((FOLDED_M[0] - length) / FOLDED_M[1], 0.0), 1.0)
         return poles - along[..., None] * both + folded[..., None] * ASIDE
 
+    def _solve_arms(self, standing: Standing, asked: _Hands) -> ToolPose:
+        return self._arms.solve(
+            standing.limbs[:, :2],
+            asked.points,
+            asked.pointing,
+            self._elbows(standing, asked),
+            asked.held,
+            asked.dorsal,
+            asked.yielding,
+        )
+
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
         times = motion.times_s
@@ -316,16 +336,7 @@ class DrumsBody:
         standing = self._body.stand(signals, self._seated(motion.stance))
         drummed = self._motion.evaluate(times)
         asked = self._hands(drummed.sticks)
-        poles = self._elbows(standing, asked)
-        sticks = self._arms.solve(
-            standing.limbs[:, :2],
-            asked.points,
-            asked.pointing,
-            poles,
-            asked.held,
-            asked.dorsal,
-            asked.yielding,
-        )
+        sticks = self._solve_arms(standing, asked)
         kit = self._kit.rotations(drummed)
         feet, feet_rotations = self._feet.solve(kit, drummed.feet.heel[:, ::-1])
         standing = replace(standing, feet=feet, feet_rotations=feet_rotations)
@@ -343,6 +354,24 @@ class DrumsBody:
         roots[:, 0] = standing.hips
         roots[:, 2:] = sticks.wrists + rotate(sticks.hands, self._grips.places.take(asked.rows, axis=0))
         return BodyFrames(rotations, roots, self._kit.parameters(drummed))
+
+
+def _eased(turned: FloatArray) -> FloatArray:
+    """What a trunk does beyond, ``(F, S)``, so that it has come where it is wanted and goes gently."""
+    reach = int(0.5 * FURTHER_S * SAMPLED_HZ)
+    eased = np.zeros_like(turned)
+    for sign in (1.0, -1.0):
+        farthest = np.pad(np.maximum(sign * turned, 0.0), ((reach, reach), (0, 0)))
+        held = np.lib.stride_tricks.sliding_window_view(farthest, 2 * reach + 1, axis=0).max(axis=-1)
+        eased += sign * _smooth(held, reach)
+    return eased
+
+
+def _smooth(rows: FloatArray, reach: int) -> FloatArray:
+    """Rows ``(F, S)``, each as those within so many of it are in the mean."""
+    window = np.hanning(2 * reach + 3)[1:-1]
+    padded = np.pad(rows, ((reach, reach), (0, 0)), mode="edge")
+    return np.stack([np.convolve(one, window / window.sum(), mode="valid") for one in padded.T], axis=1)
 
 
 def _mixed(one: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:

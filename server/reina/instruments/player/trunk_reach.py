@@ -43,6 +43,10 @@ LIMITS = np.array([[-0.08, -0.55, -0.22, -0.15, -0.15], [0.45, 0.55, 0.22, 0.32,
 """From and to, radians, of each of `SIGNALS`."""
 
 
+STRAIGHT = 0.95
+"""No arm is to be straighter than this part of its reach where `reach_further` can help."""
+
+
 def reach_out(
     body: PlayerBody, wrists: FloatArray, pivot: FloatArray, signals: Mapping[str, FloatArray]
 ) -> FloatArray:
@@ -64,7 +68,41 @@ def reach_out(
     middle = wrists.mean(axis=1) - pivot
     turned = np.zeros((len(wrists), len(SIGNALS)))
     turned[:, 1] = TURNED_TO * np.arctan2(middle[:, 0], np.maximum(middle[:, 2], 0.2))
-    comfort = COMFORT * body.arm_reach
+    return _nearer(body, wrists, pivot, signals, turned, COMFORT, SOFTNESS_M)
+
+
+def reach_further(
+    body: PlayerBody,
+    wrists: FloatArray,
+    pivot: FloatArray,
+    signals: Mapping[str, FloatArray],
+    turned: FloatArray,
+) -> FloatArray:
+    """How a trunk helps hands further that it leaves too far from where they are to be.
+
+    Args:
+        body: As `reach_out`.
+        wrists: As `reach_out`.
+        pivot: As `reach_out`.
+        signals: As `reach_out`, without what the trunk does already.
+        turned: That, ``(F, 5)``, of `SIGNALS`.
+
+    Returns:
+        What it does then, ``(F, 5)``; the same where the arms reach.
+    """
+    return _nearer(body, wrists, pivot, signals, turned, STRAIGHT, 0.0)
+
+
+def _nearer(
+    body: PlayerBody,
+    wrists: FloatArray,
+    pivot: FloatArray,
+    signals: Mapping[str, FloatArray],
+    turned: FloatArray,
+    comfort: float,
+    softness_m: float,
+) -> FloatArray:
+    comfortable = comfort * body.arm_reach
     for _ in range(ROUNDS):
         turned = np.minimum(np.maximum(turned, LIMITS[0]), LIMITS[1])
         moved = {name: signals[name] + turned[:, column] for column, name in enumerate(SIGNALS)}
@@ -72,8 +110,8 @@ def reach_out(
         line = wrists - shoulders
         distance = np.sqrt(np.einsum("fki,fki->fk", line, line))
         along = line / distance[..., None]
-        beyond = distance - comfort
-        lacking = 0.5 * (beyond + np.sqrt(beyond * beyond + SOFTNESS_M * SOFTNESS_M))
+        beyond = distance - comfortable
+        lacking = 0.5 * (beyond + np.sqrt(beyond * beyond + softness_m * softness_m))
         jacobian = _jacobian(along, shoulders - pivot)
         square = jacobian @ jacobian.swapaxes(-1, -2) + DAMPING_M**2 * np.eye(2)
         step: FloatArray = np.asarray(np.linalg.solve(square, lacking[..., None]), dtype=np.float64)

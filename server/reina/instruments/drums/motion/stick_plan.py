@@ -72,6 +72,9 @@ GO_M_S: Final = (0.25, 1.6)
 
 HOMEWARD_M: Final = 0.1
 
+ACROSS_M: Final = 0.45
+"""On a longer way to the other's side a stick passes over the other arm."""
+
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
 
@@ -99,6 +102,10 @@ APART_SHARE: Final = 0.55
 
 NARROW_M: Final = 0.02
 """Zones no wider than this are struck in their middle."""
+
+FAR_M: Final = 0.25
+NEARER_PART: Final = 0.8
+"""Farther over to the other's side than the first a hand strikes nearer: by this part of the zone's radius."""
 
 THROUGH_M: Final = 0.07
 """How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
@@ -264,7 +271,9 @@ class _PlanMaker:
         far = float(np.linalg.norm(station.point - self.stations[-1].point))
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
-            clearance = OVER_CHINA_M if self._is_china(hit) else CLEARANCE_M
+            is_across = far > ACROSS_M and not self._is_homeward(station)
+            clearance = OVER_M if is_across else CLEARANCE_M
+            clearance = OVER_CHINA_M if self._is_china(hit) else clearance
             lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
         lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
@@ -414,8 +423,10 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
     apart *= 1.0 if side else -1.0
     through = THROUGH_M * (zone.outward - 0.8 * UP) if hit.piece in THROUGH else np.zeros(3)
     headroom = HEADROOM_M.get(hit.piece, np.inf)
-    # As near to the player as the zone goes, if there is so little room.
-    nearer = 0.9 * zone.radius * heading if headroom < CLEARANCE_M else np.zeros(3)
+    # As near to the player as the zone goes, if there is so little room, or so far to go.
+    is_far = float(zone.position[0]) * (1.0 if side else -1.0) < -FAR_M
+    part = 0.9 if headroom < CLEARANCE_M else NEARER_PART * is_far
+    nearer = part * zone.radius * heading
     nearer = nearer - zone.normal * float(nearer @ zone.normal)
     return Station(
         zone.position + apart * _left_of(heading, zone.normal) - nearer,
