@@ -72,7 +72,7 @@ PLANNED_HZ = 10.0
 SAMPLED_HZ = 40.0
 SMOOTHING_S = 0.8
 """The trunk follows where the hands are over this long."""
-FURTHER_S, FURTHER_ROUNDS = 0.4, 3
+FURTHER_S, FURTHER_ROUNDS = 0.25, 3
 """Where that is too slow it comes round in half of this, worked out so often."""
 HEAD_TURNED_TO = 0.4
 """How much of the way to the middle of both hands the head turns beyond the trunk."""
@@ -234,12 +234,13 @@ class DrumsBody:
     def _in_time(self, reached: FloatArray, asked: _Hands, pivot: FloatArray) -> FloatArray:
         """A trunk that comes round in time for what is quick, ``(F, 5)``, `SAMPLED_HZ` times a second."""
         still = {name: np.zeros(len(reached)) for name in (*SIGNALS, *SHOULDERS)}
+        further, result = np.zeros_like(reached), reached
         for _ in range(FURTHER_ROUNDS):
-            standing = self._body.stand({**still, **dict(zip(REACHING, reached.T, strict=True))}, None)
+            standing = self._body.stand({**still, **dict(zip(REACHING, result.T, strict=True))})
             arms = self._solve_arms(standing, asked)
-            further = reach_further(self._body, arms.wrists, pivot, still, reached) - reached
-            reached = reached + _eased(further)
-        return np.minimum(np.maximum(reached, LIMITS[0]), LIMITS[1])
+            further = further + reach_further(self._body, arms.wrists, pivot, still, result) - result
+            result = np.minimum(np.maximum(reached + _eased(further), LIMITS[0]), LIMITS[1])
+        return result
 
     def _plan_gestures(
         self, engagement: Engagement, hits: Sequence[DrumHit], places: KitPlaces, held: HeldPose

@@ -72,8 +72,11 @@ GO_M_S: Final = (0.25, 1.6)
 
 HOMEWARD_M: Final = 0.1
 
-ACROSS_M: Final = 0.45
-"""On a longer way to the other's side a stick passes over the other arm."""
+FAR_OUT_M: Final = 0.4
+CLOSE_S: Final = 0.2
+UNDER_ARM_M: Final = 0.05
+"""From farther out on its own side to the middle, in a shorter time, a stick is lifted no higher than the last:
+the other hand has just come over, and its arm is above."""
 
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
@@ -103,7 +106,7 @@ APART_SHARE: Final = 0.55
 NARROW_M: Final = 0.02
 """Zones no wider than this are struck in their middle."""
 
-FAR_M: Final = 0.25
+FAR_M: Final = 0.4
 NEARER_PART: Final = 0.8
 """Farther over to the other's side than the first a hand strikes nearer: by this part of the zone's radius."""
 
@@ -138,6 +141,10 @@ SAME_PLACE_M: Final = 0.02
 
 TRAVEL: Final = (0.04, 0.86)
 """In which part of the time between two strokes the hand goes from one piece to the other."""
+
+LATE_S: Final = 0.5
+TRAVEL_LATE: Final = 0.3
+"""In a longer time than the first it begins so late away from its own side: the other may be at work there."""
 
 ELBOW: Final = ((-0.28, 0.06), (0.28, 0.06))
 """About where the elbows are, X and Z: from there a stick points to what it strikes."""
@@ -271,10 +278,10 @@ class _PlanMaker:
         far = float(np.linalg.norm(station.point - self.stations[-1].point))
         if far > SAME_PLACE_M and gap < REST_S:
             rise = abs(float(station.point[1] - self.stations[-1].point[1]))
-            is_across = far > ACROSS_M and not self._is_homeward(station)
-            clearance = OVER_M if is_across else CLEARANCE_M
-            clearance = OVER_CHINA_M if self._is_china(hit) else clearance
+            clearance = OVER_CHINA_M if self._is_china(hit) else CLEARANCE_M
             lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
+            if room < CLOSE_S and self._is_under_arm(station):
+                lift = 0.5 * rise + UNDER_ARM_M
         lift = min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
             homeward = self._is_homeward(station)
@@ -284,7 +291,9 @@ class _PlanMaker:
             fall_s = self._waiting(hit, station, lift, lands_s)
         else:
             fall_s = lands_s - min(FALL_S, FALL_SHARE * room)
-            begin_s, end_s = self._free_s + TRAVEL[0] * room, self._free_s + TRAVEL[1] * room
+            is_late = room > LATE_S and not self._is_homeward(station)
+            first = TRAVEL_LATE if is_late else TRAVEL[0]
+            begin_s, end_s = self._free_s + first * room, self._free_s + TRAVEL[1] * room
             self.moves.append((begin_s, end_s))
             self._rise(begin_s + CLEAR_SHARE * (end_s - begin_s), fall_s, lift)
         self.heights.append((fall_s, lands_s, 0.0, FALL))
@@ -341,6 +350,12 @@ class _PlanMaker:
     def _is_homeward(self, station: Station) -> bool:
         """Whether a way goes to the hand's own side, or straight: then it leaves the other room at once."""
         return float(station.point[0] - self.stations[-1].point[0]) * self._own_side > -HOMEWARD_M
+
+    def _is_under_arm(self, station: Station) -> bool:
+        """Whether a way leads from a drum on the hand's own side to one in the middle."""
+        before = self.stations[-1]
+        far_out = float(before.point[0]) * self._own_side > FAR_OUT_M
+        return far_out and before.swings < 0 and station.swings < 0 and not self._is_homeward(station)
 
     def _waiting(self, hit: DrumHit, station: Station, lift: float, lands_s: float) -> float:
         """Rebound, wait above a piece, and rise again; returns when the stroke falls.
