@@ -124,6 +124,9 @@ HEADROOM_M: Final = {"cowbell": 0.07, "tom_mid": 0.3}
 LOW_M: Final = 0.07
 """And so high where a hand lies on a head: the other arm may be over the drum."""
 
+LOW_AFTER: Final = 0.4
+"""After this part of its way a hand comes down to that."""
+
 OVER_CHINA_M: Final = 0.2
 """The edge of a china turns up: a stick that comes or goes passes so high above."""
 
@@ -282,7 +285,7 @@ class _PlanMaker:
             lift = max(lift, 0.5 * rise + min(clearance, 0.5 * far))
             if room < CLOSE_S and self._is_under_arm(station):
                 lift = 0.5 * rise + UNDER_ARM_M
-        lift = min(lift, station.headroom_m)
+        high, lift = lift, min(lift, station.headroom_m)
         if before is None or gap >= REST_S:
             homeward = self._is_homeward(station)
             clear = CLEARANCE_M if homeward else OVER_M
@@ -295,7 +298,13 @@ class _PlanMaker:
             first = TRAVEL_LATE if is_late else TRAVEL[0]
             begin_s, end_s = self._free_s + first * room, self._free_s + TRAVEL[1] * room
             self.moves.append((begin_s, end_s))
-            self._rise(begin_s + CLEAR_SHARE * (end_s - begin_s), fall_s, lift)
+            if station.placing and high > lift:
+                # Up first, as over anything else, and soon down to where a hand lies.
+                low_s = self._free_s + LOW_AFTER * (fall_s - self._free_s)
+                self.heights.append((self._free_s, low_s, 0.5 * (lift + high), RISE))
+                self.heights.append((low_s, fall_s, lift, GLIDE))
+            else:
+                self._rise(begin_s + CLEAR_SHARE * (end_s - begin_s), fall_s, lift)
         self.heights.append((fall_s, lands_s, 0.0, FALL))
         self.stations.append(station)
         self._free_s = hit.onset_s + _held_s(hit, after_s)
