@@ -75,8 +75,8 @@ HOMEWARD_M: Final = 0.1
 FAR_OUT_M: Final = 0.4
 CLOSE_S: Final = 0.2
 UNDER_ARM_M: Final = 0.05
-"""From farther out on its own side to the middle, in a shorter time, a stick is lifted no higher than the last:
-the other hand has just come over, and its arm is above."""
+"""From farther out on its own side to the middle, in a shorter time, a stick is lifted no higher than the
+last: the other hand has just come over, and its arm is above."""
 
 REST_S: Final = 2.6
 """In a gap of this length the stick goes to its place of rest."""
@@ -108,7 +108,8 @@ NARROW_M: Final = 0.02
 
 FAR_M: Final = 0.4
 NEARER_PART: Final = 0.8
-"""Farther over to the other's side than the first a hand strikes nearer: by this part of the zone's radius."""
+"""Farther over to the other's side than the first a hand strikes nearer, by this part of the zone's
+radius."""
 
 THROUGH_M: Final = 0.07
 """How far a stroke on a crash's edge goes on beyond it, past the edge and down."""
@@ -147,7 +148,8 @@ TRAVEL: Final = (0.04, 0.86)
 
 LATE_S: Final = 0.5
 TRAVEL_LATE: Final = 0.3
-"""In a longer time than the first it begins so late away from its own side: the other may be at work there."""
+"""In a longer time than the first it begins so late away from its own side: the other may be at work
+there."""
 
 ELBOW: Final = ((-0.28, 0.06), (0.28, 0.06))
 """About where the elbows are, X and Z: from there a stick points to what it strikes."""
