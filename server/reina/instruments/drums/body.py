@@ -10,7 +10,7 @@ import numpy as np
 from reina.instruments.drums.drum_part import drum_fingering
 from reina.instruments.drums.hand_grips import HandGrips
 from reina.instruments.drums.motion.drummer_motion import DrummerMotion
-from reina.instruments.drums.motion.hand_shapes import OPEN_RAD, PLAY, TWIRL
+from reina.instruments.drums.motion.hand_shapes import CHOKE, CROSS_STICK, HAND_SHAPES, OPEN_RAD, PLAY
 from reina.instruments.drums.motion.kit_pose import HI_HAT, KitPose, kit_places, part_travel
 from reina.instruments.drums.motion.looks import plan_looks
 from reina.instruments.drums.motion.nods import nods
@@ -62,6 +62,9 @@ FLEXION_RAD = (np.radians(-52.0), np.radians(46.0))
 DEVIATION_RAD = np.radians([[-27.0, 6.0], [-6.0, 27.0]])
 """How far wrists may be bent before a stick gives way."""
 
+FIRM = np.zeros(len(HAND_SHAPES))
+FIRM[CROSS_STICK], FIRM[CHOKE] = 1.0, 0.6
+"""How far a hand stays as it is placed where its wrist would be bent too far, by what it does."""
 YIELDING_POWER = 4
 """How fast a wrist no longer gives way as its hand comes to where it is placed."""
 
@@ -211,7 +214,7 @@ class DrumsBody:
         pointing = _mixed(pointing, basis[..., 0], placed)
         dorsal = _mixed(np.broadcast_to(DORSAL, pointing.shape), basis[..., 1], placed)
         # On its way a hand that is placed still gives way.
-        firm = np.maximum(firm, np.where(facing == TWIRL, 0.0, placed**YIELDING_POWER))
+        firm = np.maximum(firm, FIRM[facing] * placed**YIELDING_POWER)
         ends = ends + (self._arms.wrists(tips, pointing, held, dorsal) - ends) * placed[..., None]
         return _Hands(ends, tips, pointing, rows, held, dorsal, 1.0 - firm)
 

@@ -18,6 +18,7 @@ from reina.instruments.drums.motion.stick_plan import (
     GLIDE,
     GRIP_M,
     RISE,
+    SAME_PLACE_M,
     TWIRL_S,
     Grip,
     Twirl,
@@ -230,6 +231,8 @@ class _Stick:
         self._along, self._out = (np.stack(parts) for parts in zip(*ways, strict=True))
         own_side = 1.0 if stations[0].heading[0] < 0.0 else -1.0
         self._beneath = BENEATH_M * (own_side, 1.0, 1.0)
+        away = np.linalg.norm(np.diff(self._point, axis=0, append=self._point[-1:]), axis=1)
+        self._apart = (away > SAME_PLACE_M) | (self._does != np.append(self._does[1:], self._does[-1]))
         self._special = self._is_rim_shot | (self._does > 0)
         self._twirls = plan.twirls_s
         self._drop = np.array([float(station.is_hi_hat) for station in stations])[:, None] * hi_hat_travel
@@ -305,10 +308,9 @@ class _Stick:
         facing = np.where(
             (self._does[after] > 0) & ((self._does[station] == 0) | (done > 0.5)), after, station
         )
-        both = (self._does[after] > 0) & (self._does[station] > 0) & (after != station)
-        placed = placed * np.where(
-            both & (self._does[after] != self._does[station]), np.abs(2.0 * done - 1.0), 1.0
-        )
+        # Between two places a hand is let go.
+        both = (self._does[after] > 0) & (self._does[station] > 0)
+        placed = placed * np.where(both & self._apart[station], np.abs(2.0 * done - 1.0), 1.0)
         along, out = self._along[facing], self._out[facing]
         up, level = np.sin(turned_rad)[:, None], np.cos(turned_rad)[:, None]
         along, out = along * level + out * up, out * level - along * up

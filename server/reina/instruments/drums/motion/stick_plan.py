@@ -15,6 +15,7 @@ import numpy as np
 
 from reina.instruments.drums.hit import DrumHit
 from reina.instruments.drums.motion.contacts import Placing, choke, cross_stick, rim_shot, twirl
+from reina.instruments.drums.motion.hand_shapes import CHOKE
 from reina.instruments.drums.motion.kit_places import UP
 
 if TYPE_CHECKING:
@@ -83,6 +84,10 @@ REST_S: Final = 2.6
 
 GO_REST_S: Final = 0.9
 LEAVE_AFTER_S: Final = 0.45
+LEAVE_SOON_S: Final = 0.15
+GO_SOON_S: Final = 0.7
+OVER_SIDE_M: Final = 0.15
+"""From farther than this over to the other's side it leaves and goes sooner."""
 OVER_M: Final = 0.16
 """On its way to rest a stick goes at least so high over what it leaves: the other may lie there already."""
 
@@ -106,7 +111,7 @@ APART_SHARE: Final = 0.55
 NARROW_M: Final = 0.02
 """Zones no wider than this are struck in their middle."""
 
-FAR_M: Final = 0.4
+FAR_M: Final = 0.38
 NEARER_PART: Final = 0.8
 """Farther over to the other's side than the first a hand strikes nearer, by this part of the zone's
 radius."""
@@ -125,6 +130,9 @@ HEADROOM_M: Final = {"cowbell": 0.07, "tom_mid": 0.3}
 LOW_M: Final = 0.07
 """And so high where a hand lies on a head: the other arm may be over the drum."""
 
+EDGE_ROOM_M: Final = 0.12
+"""And so far off a cymbal's edge where a hand will take it."""
+
 LOW_AFTER: Final = 0.4
 """After this part of its way a hand comes down to that."""
 
@@ -134,6 +142,9 @@ OVER_CHINA_M: Final = 0.2
 AROUND_M: Final = np.array([0.0, 0.0, -0.2])
 """From beneath to a cymbal, and anywhere where that is less than `CLEARANCE_M`, it goes on the player's side:
 so far from the straight way at its middle."""
+
+FROM_EDGE_M: Final = np.array([0.0, -0.2, -0.12])
+"""A hand that has choked a cymbal goes so far beneath the straight way: the other's arm may be over it."""
 
 INSIDE_M: Final = 0.15
 """Between the ride and the china, which hangs over it, it goes so far on the inner side."""
@@ -326,15 +337,16 @@ class _PlanMaker:
             self._to_rest(self._before)
 
     def _to_rest(self, before: DrumHit) -> None:
-        leave_s = self._free_s + LEAVE_AFTER_S
+        is_over = float(self.stations[-1].point[0]) * self._own_side < -OVER_SIDE_M
+        leave_s = self._free_s + (LEAVE_SOON_S if is_over else LEAVE_AFTER_S)
         back = min(_rebound(before), self.stations[-1].headroom_m)
         over = min(max(OVER_M, back), self.stations[-1].headroom_m)
         self.heights += [
-            (self._free_s, self._free_s + RISE_S, back, RISE),
+            (self._free_s, min(self._free_s + RISE_S, leave_s), back, RISE),
             (leave_s, leave_s + 0.3, over, GLIDE),
             (leave_s + 0.65, leave_s + 1.1, 0.0, GLIDE),
         ]
-        self.moves.append((leave_s, leave_s + GO_REST_S))
+        self.moves.append((leave_s, leave_s + (GO_SOON_S if is_over else GO_REST_S)))
         self.stations.append(self._rest)
 
     def _from_rest(self, lift: float, lands_s: float, *, homeward: bool) -> float:
@@ -431,7 +443,7 @@ def _station(hit: DrumHit, places: KitPlaces, side: int, swings: Sequence[str]) 
         return _placed(twirl(side))
     zone = places[hit.piece, hit.zone]
     if isinstance(hit, Grip):
-        return _placed(choke(zone, side), swings.index(hit.piece), zone.pivot)
+        return _placed(choke(zone, side), swings.index(hit.piece), zone.pivot, EDGE_ROOM_M)
     placing: Placing | None = None
     if hit.technique == "cross_stick":
         placing = cross_stick(places, hit.piece, side)
@@ -476,6 +488,8 @@ def _around(before: Station, after: Station) -> FloatArray:
     is_beneath = headroom < (np.inf if is_cymbal else CLEARANCE_M)
     if {before.piece, after.piece} == {"ride", "china"}:
         return INSIDE_M * np.array([-np.sign(after.point[0]), 0.0, 0.0])
+    if before.placing and before.placing.shape == CHOKE and far > SAME_PLACE_M:
+        return FROM_EDGE_M
     return AROUND_M if is_beneath and far > SAME_PLACE_M else np.zeros(3)
 
 

@@ -20,6 +20,12 @@ AFTER_S: Final = 0.95
 BEFORE_S: Final = 1.05
 """And is done so long before its next one."""
 
+SIDES: Final = (("crash_right", "ride", "china", "tom_floor"), ("crash_left", "hi_hat"))
+"""What is on the side of each hand, in the order of `HANDS`."""
+
+ALONE_S: Final = 1.2
+"""Nor does it where the other hand is at work on its side, or was or will be so soon."""
+
 CHANCE: Final = 0.4
 """In so many of the rests that are long enough."""
 
@@ -44,12 +50,17 @@ def plan_twirls(fingering: DrumFingering, seed: int) -> tuple[Sequence[float], S
             room = end - start - AFTER_S - TWIRL_S - BEFORE_S
             if room >= 0.0:
                 rests.append((start + AFTER_S, min(room, 2.0), side))
+    strangers = [
+        np.array([hit.onset_s for hit in fingering.hits if hit.limb == other and hit.piece in SIDES[side]])
+        for side, other in enumerate(reversed(HANDS))
+    ]
     found: tuple[list[float], list[float]] = ([], [])
     last = -np.inf
     for earliest, room, side in sorted(rests):
         takes, when = chance.uniform(size=2)
         at_s = earliest + room * float(when)
-        if takes < CHANCE and at_s - last >= APART_S:
+        is_alone = not (np.abs(strangers[side] - at_s - 0.5 * TWIRL_S) < ALONE_S).any()
+        if takes < CHANCE and is_alone and at_s - last >= APART_S:
             found[side].append(at_s)
             last = at_s
     return found
