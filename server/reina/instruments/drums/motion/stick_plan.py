@@ -84,7 +84,6 @@ REST_S: Final = 2.6
 
 GO_REST_S: Final = 0.9
 LEAVE_AFTER_S: Final = 0.45
-LEAVE_SOON_S: Final = 0.15
 GO_SOON_S: Final = 0.7
 OVER_SIDE_M: Final = 0.15
 """From farther than this over to the other's side it leaves and goes sooner."""
@@ -338,11 +337,11 @@ class _PlanMaker:
 
     def _to_rest(self, before: DrumHit) -> None:
         is_over = float(self.stations[-1].point[0]) * self._own_side < -OVER_SIDE_M
-        leave_s = self._free_s + (LEAVE_SOON_S if is_over else LEAVE_AFTER_S)
+        leave_s = self._free_s + (RISE_S if is_over else LEAVE_AFTER_S)
         back = min(_rebound(before), self.stations[-1].headroom_m)
         over = min(max(OVER_M, back), self.stations[-1].headroom_m)
         self.heights += [
-            (self._free_s, min(self._free_s + RISE_S, leave_s), back, RISE),
+            (self._free_s, self._free_s + RISE_S, back, RISE),
             (leave_s, leave_s + 0.3, over, GLIDE),
             (leave_s + 0.65, leave_s + 1.1, 0.0, GLIDE),
         ]
