@@ -77,7 +77,7 @@ BENEATH_M: Final = np.array([0.12, -0.05, -0.20])
 on the player's left."""
 
 OVER_HEAD_M: Final = 0.075
-"""A stick that is turned end for end on its way from a head goes up so far to be clear of it."""
+"""A stick that is turned end for end on its way to a head or from it goes up so far to be clear of it."""
 
 EARLIER: Final = 0.15
 LATER: Final = 0.85
@@ -285,7 +285,8 @@ class _Stick:
             height = height - lifts
             is_other = self._does[station] != self._does[after]
             leaves, comes = (is_other & (self._lever[one] > 0.0) for one in (station, after))
-            height = height + leaves * (4.0 * OVER_HEAD_M * done * (1.0 - done))
+            late = leaves * 4.0 + comes * 6.75 * (1.0 - done)
+            height = height + OVER_HEAD_M * late * done * (1.0 - done)
             # Most of the bow is where the head is.
             bow = 6.75 * done * (1.0 - done) * (leaves * (1.0 - done) + comes * done)
             point = point + bow[:, None] * self._beneath
