@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,8 +25,8 @@ if TYPE_CHECKING:
 
     Points = NDArray[np.float64]
 
-Hits = list[tuple[float, int, int]]
-"""Onset in beats, key, velocity."""
+Hits = Sequence[tuple[float, int, int] | tuple[float, int, int, float]]
+"""Onset in beats, key, velocity, and length in beats where that says something."""
 
 SCORES: dict[str, tuple[float, Hits]] = {
     "thirty-second notes": (120, [(2 + i / 8, 38, 80 + 20 * (i % 8 == 0)) for i in range(128)]),
@@ -59,6 +61,23 @@ SCORES: dict[str, tuple[float, Hits]] = {
     "hi-hat and floor tom in turn": (140, [(4 + 0.5 * i, (42, 43)[i % 2], 100) for i in range(32)]),
     "bell, snare, china": (130, [(2 + 0.5 * i, (53, 38, 52)[i % 3], 100) for i in range(36)]),
     "the farthest pieces": (140, [(4 + 0.5 * i, (42, 52, 49, 43, 46, 51)[i % 6], 110) for i in range(36)]),
+    "cross-sticks and rim shots under the hi-hat's arm": (
+        120,
+        [
+            *((2 + 0.5 * i, 42, 80) for i in range(56)),
+            *((3 + 2 * i, 37, 90) for i in range(6)),
+            *((15 + i, (37, 38, 40, 37)[i % 4], 110) for i in range(14)),
+        ],
+    ),
+    "chokes": (
+        110,
+        [
+            *((2 + 4 * i, 49, 110, 2.5) for i in range(8)),
+            *((4 + 4 * i, 57, 110, 2.5) for i in range(8)),
+            *((6 + 8 * i, 49, 115, 0.35) for i in range(4)),
+            *((8 + 8 * i, 57, 115, 0.35) for i in range(4)),
+        ],
+    ),
     "anything anywhere": (
         120,
         [
@@ -85,14 +104,19 @@ INSIDE_M = 0.003
 PEDAL_M = 0.002
 HAND_SPEED, STICK_SPEED = 15.0, 30.0
 LIMIT_DEG = 1.5
+HELD_M, TURNING_M = 0.003, 0.010
+"""A stick goes through where the hand of its hold has it, or some part of the hand is at it: within the first
+where it strikes, within the second where it is twirled or turned end for end."""
+SHAFT_M = 0.0072
+RIGS = Path(__file__).parents[2] / "rigs"
 FINE_FPS = 240
 EARLY_S = 1 / 60
 
 
 def midi(bpm: float, hits: Hits) -> bytes:
     track = mido.MidiTrack([mido.MetaMessage("set_tempo", tempo=mido.bpm2tempo(bpm))])
-    events = [(round(at * 480), 1, key, velocity) for at, key, velocity in hits]
-    events += [(round((at + 0.05) * 480), 0, key, 0) for at, key, _ in hits]
+    events = [(round(at * 480), 1, key, velocity) for at, key, velocity, *_ in hits]
+    events += [(round((at + sum(length or (0.05,))) * 480), 0, key, 0) for at, key, _, *length in hits]
     last = 0
     for tick, kind, key, velocity in sorted(events):
         name = "note_on" if kind else "note_off"
@@ -310,6 +334,55 @@ def test_no_stick_hand_or_arm_is_inside_the_kit_or_the_other(drummed: Drummed) -
             assert deep[worst] <= INSIDE_M, (
                 f"{frames.song_time_s[worst]:.3f} s: left {what}, right {other}: {1000 * deep[worst]:.1f} mm"
             )
+
+
+def off_fulcrum(drummed: Drummed, frames: Take, side: str) -> Points:
+    """How far a stick's middle line is from where the hand holds it to play, metres (F,)."""
+    hold = json.loads((RIGS / drummed.player / "holds" / "drumkit.json").read_text())
+    attached = hold["attachments"][f"{side}_stick"]
+    fulcrum = drummed.pose(frames, "player").point(attached["joint"], attached["position"])
+    return off_shaft(drummed.pose(frames, f"{side}_stick"), side, fulcrum)
+
+
+def off_shaft(stick: Pose, side: str, points: Points) -> Points:
+    ends = [stick.point(f"{side}Stick", [0.0, 0.0, along]) for along in (-0.135, 0.25)]
+    line = ends[1] - ends[0]
+    length = np.linalg.norm(line, axis=1)
+    line = line / length[:, None]
+    along = np.clip(np.einsum("fi,fi->f", points - ends[0], line), 0.0, length)
+    return np.linalg.norm(points - ends[0] - along[:, None] * line, axis=1)
+
+
+def off_hand(drummed: Drummed, frames: Take, side: str) -> Points:
+    """How far a stick's surface is from the nearest part of the hand, metres (F,)."""
+    player, stick = drummed.pose(frames, "player"), drummed.pose(frames, f"{side}_stick")
+    nearest = np.full(len(frames.song_time_s), np.inf)
+    parts = tuple(f"{side}{part}" for part in ("Hand", "Thumb", "Index", "Middle", "Ring", "Little"))
+    for capsule in player.rig["capsules"]:
+        if not capsule["joint"].startswith(parts):
+            continue
+        for share in np.linspace(0.0, 1.0, 8):
+            at = np.array(capsule["from"]) * (1 - share) + np.array(capsule["to"]) * share
+            apart = off_shaft(stick, side, player.point(capsule["joint"], at.tolist()))
+            nearest = np.minimum(nearest, apart - capsule["radius"] - SHAFT_M)
+    return nearest
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_each_stick_lies_in_its_hand(drummed: Drummed, side: str) -> None:
+    frames = drummed.frames
+    held, near = off_fulcrum(drummed, frames, side), off_hand(drummed, frames, side)
+    apart = np.where(held <= HELD_M, 0.0, near)
+    assert apart.max() <= TURNING_M, (
+        f"{frames.song_time_s[apart.argmax()]:.3f} s: {1000 * apart.max():.1f} mm"
+    )
+    for note in drummed.notes:
+        if not note["fingering"] or struck(note)["hand"] != side:
+            continue
+        last = int(np.searchsorted(frames.song_time_s, note["onset_s"] + 1e-6)) - 1
+        # A cross-stick is held otherwise, its shaft at the fingers.
+        off = held[last] if struck(note)["zone"] != "rim" else min(held[last], near[last])
+        assert off <= HELD_M, f"{note['onset_s']:.3f} s: {struck(note)}, {1000 * off:.1f} mm"
 
 
 def test_a_frame_is_the_same_by_seek_and_by_play(drummed: Drummed) -> None:
