@@ -238,8 +238,7 @@ def rebound(show: Show, registry: ParameterRegistry) -> Show:
 
 def _has_effect(track: Track | UnknownTrack, registry: ParameterRegistry) -> bool:
     parameter = registry.get(track.parameter)
-    named = track if isinstance(track, Track) else track.document
-    return parameter is not None and not unknown_choices(named, parameter)
+    return parameter is not None and not unknown_choices(track, parameter)
 
 
 def _show_for(score: Score, played: Sequence[PlayedPart], seats: Sequence[Seat]) -> Show:
