@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     )
     from reina.instruments.player import Seat
     from reina.music import Finding, Score, ScoreWarning, SongTimes
+    from reina.sessions.packed_score import PackedScore
     from reina.sessions.stage import Stage
     from reina.skeleton import HumanPose
 
@@ -64,6 +65,7 @@ class Production:
         show_plan: The show, made ready.
         performance: All of it as a function of time.
         manifest: What its frames hold.
+        packed_score: The score as it is answered with, where it is so long that it is written beforehand.
     """
 
     stage: Stage
@@ -76,6 +78,7 @@ class Production:
     show_plan: ShowPlan
     performance: Performance
     manifest: Manifest
+    packed_score: PackedScore | None = None
 
     @classmethod
     def plan(
@@ -223,7 +226,7 @@ class Production:
         if fps == self.manifest.fps:
             return self
         times, happens = self.show_plan.time_map, self.show_plan.triggers
-        plan = self.show.plan(self.registry, times, triggers=happens, fps=fps)
+        plan = self.show.plan(self.registry, times, triggers=happens, fps=fps, earlier=self.show_plan)
         performance = Performance(self.performers, plan, duration_s=self.score.duration_s, fps=fps)
         return replace(
             self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)

@@ -11,6 +11,7 @@ from fastapi import Request
 from fastapi.routing import APIRoute
 from starlette.routing import compile_path
 
+from reina.api.http import paths
 from reina.api.http.access import admit
 from reina.api.http.problems import ProblemError
 from reina.api.http.upload_limits import FILE_LIMITS, MAX_BYTES, MEGABYTE
@@ -36,19 +37,25 @@ class BodyLimit:
     most_bytes: int
     name: str = "body"
 
+    @property
+    def shown(self) -> str:
+        """So large, for people."""
+        most = self.most_bytes
+        return f"{most / MEGABYTE:g} MB" if most >= MEGABYTE else f"{most / 1000:g} kB"
+
 
 SMALL = BodyLimit(16_000)
 """Commands, changes of single fields, what the laboratory is asked."""
 SHOW = BodyLimit(FILE_LIMITS["show"], "show")
 CLIP = BodyLimit(20 * MEGABYTE, "clip")
-TRACK = BodyLimit(10 * MEGABYTE, "track")
+TRACK = BodyLimit(MEGABYTE, "track")
 BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/sessions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/song/analysis"): BodyLimit(FILE_LIMITS["song"], "sound"),
     ("POST", "/transcriptions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/show"): SHOW,
     ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
-    ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,
+    ("PUT", paths.TRACK): TRACK,
     ("POST", "/sessions/{session_id}/show/curves"): TRACK,
     ("POST", "/files/role"): BodyLimit(MEGABYTE, "file"),
     ("POST", "/sessions/{session_id}/stances"): CLIP,
@@ -91,8 +98,21 @@ def _limit_of(request: Request) -> BodyLimit:
     )
 
 
+def _route_of(request: Request) -> str:
+    """What is asked, with names in the place of what varies."""
+    path: str = request.scope["path"]
+    for name, value in request.path_params.items():
+        path = path.replace(f"/{value}", f"/{{{name}}}", 1)
+    return path
+
+
 class BoundedRequest(Request):
-    """A request whose body is held to a bound while it is read, and parsed on a thread where it is long."""
+    """A request whose body is held to a bound while it is read, and parsed on a thread where it is long.
+
+    Args:
+        request: As it came.
+        limit: How large its body may be.
+    """
 
     def __init__(self, request: Request, limit: BodyLimit) -> None:
         super().__init__(request.scope, request.receive)
@@ -122,14 +142,9 @@ class BoundedRequest(Request):
         return self._json
 
     def _too_large(self) -> ProblemError:
-        most, name = self._limit.most_bytes, self._limit.name
-        shown = f"{most / MEGABYTE:g} MB" if most >= MEGABYTE else f"{most / 1000:g} kB"
-        return ProblemError(
-            413,
-            f"{name}-too-large",
-            "Content Too Large",
-            f"this {name} is larger than {shown}, the most here",
-        )
+        name, asked = self._limit.name, f"{self.method} {_route_of(self)}"
+        detail = f"this {name} is larger than {self._limit.shown}, the most that {asked} takes"
+        return ProblemError(413, f"{name}-too-large", "Content Too Large", detail)
 
 
 def read_json(data: bytes) -> Any:
