@@ -17,7 +17,6 @@ from tests.integration.intake import (
     memory_peak,
     now,
     unknown_fields,
-    unknown_track,
 )
 from tests.integration.scores import scale, song
 from tests.integration.server import Owned, serve, upload
@@ -128,8 +127,10 @@ def test_what_was_sent_is_repeated_in_part(owned: Owned, method: str, below: str
 
 
 def test_a_history_holds_few_large_steps(owned: Owned) -> None:
+    words = "1" * (3 * MEGABYTE)
     for number in range(12):
-        answer = owned.change("PUT", "/show", content=unknown_track(3 * MEGABYTE, number), timeout=120)
+        show = f'{{"version":1,"tracks":[{{"parameter":"x/{number}","words":"{words}"}}]}}'
+        answer = owned.change("PUT", "/show", content=show, timeout=120)
         assert answer.status_code == 200, answer.text
     steps = owned.client.get(f"{owned.path}/show/history").json()
     assert steps["revision"] == 12
@@ -152,7 +153,8 @@ def test_of_very_many_unknown_tracks_few_are_told(owned: Owned) -> None:
 def test_no_frame_is_lost_while_strangers_are_answered(server: Running, client: httpx.Client) -> None:
     """The share of frames that never come, compared with that of the idle stream just before."""
     watched = upload(client, scale(240), song=("s.wav", song()))
-    long = upload(client, large_score(20_000), "s.json", song=("s.wav", song()))
+    files = {"score": ("s.json", large_score(8_000)), "song": ("s.wav", song())}
+    long = Owned(client, client.post("/api/v1/sessions", files=files, timeout=300).json())
     numbers = b"[" + b"1," * (4 * MEGABYTE) + b"1]"
     asked: list[tuple[str, str, bytes | None, int]] = [
         *[("PATCH", "/api/v1/sessions/nobody", numbers, 404)] * 2,
