@@ -107,6 +107,14 @@ def test_batches_of_very_many_faults(owned: Owned) -> None:
         assert len(answer.content) < 10_000
 
 
+def test_a_preview_of_very_many_fields(owned: Owned) -> None:
+    for body in (unknown_fields(30_000), b'{"track":' + unknown_fields(30_000) + b"}"):
+        answer = sent(owned, "POST", f"{owned.path}/show/curves?start_s=0&end_s=1", body)
+        assert answer.status_code == 422
+        assert len(answer.json()["errors"]) <= 20
+        assert len(answer.content) < 2000
+
+
 @pytest.mark.parametrize(
     ("method", "below", "body"),
     [
@@ -153,7 +161,7 @@ def test_of_very_many_unknown_tracks_few_are_told(owned: Owned) -> None:
 def test_no_frame_is_lost_while_strangers_are_answered(server: Running, client: httpx.Client) -> None:
     """The share of frames that never come, compared with that of the idle stream just before."""
     watched = upload(client, scale(240), song=("s.wav", song()))
-    files = {"score": ("s.json", large_score(8_000)), "song": ("s.wav", song())}
+    files = {"score": ("s.json", large_score(12_000)), "song": ("s.wav", song())}
     long = Owned(client, client.post("/api/v1/sessions", files=files, timeout=300).json())
     numbers = b"[" + b"1," * (4 * MEGABYTE) + b"1]"
     asked: list[tuple[str, str, bytes | None, int]] = [

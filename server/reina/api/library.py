@@ -1,12 +1,13 @@
 """The bundled shows, and what a show may hold."""
 
+import asyncio
 import json
 import logging
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request, Response
 
 from reina.api.examples import modified_ns
 from reina.api.http.access import ServerSettings, Store
@@ -16,6 +17,10 @@ from reina.protocol.links import API
 from reina.protocol.resources import ShowLibrary, ShowSummary
 from reina.show.document import ShowHead
 from reina.show.show_schema import show_schema
+from reina.system.json_text import json_text
+
+if TYPE_CHECKING:
+    from reina.system.turns import Turns
 
 router = APIRouter(tags=["show"])
 
@@ -38,10 +43,19 @@ def list_shows(settings: ServerSettings) -> ShowLibrary:
     return ShowLibrary(shows=shows)
 
 
-@router.get("/shows/schema")
-def get_schema(store: Store) -> dict[str, Any]:
+@router.get("/shows/schema", response_model=dict[str, Any])
+async def get_schema(request: Request, store: Store) -> Response:
     """JSON Schema of shows, over the parameters of any cast and the interpolations of this server."""
-    return show_schema(store.stage.schema_parameters(), interpolations(), any_player_pattern)
+    state, stage = request.app.state, store.stage
+    if not hasattr(state, "show_schema_text"):
+        computing: Turns = state.computing
+        async with computing.of("schema"):
+            state.show_schema_text = await asyncio.to_thread(
+                lambda: json_text(
+                    show_schema(stage.schema_parameters(), interpolations(), any_player_pattern)
+                )
+            )
+    return Response(state.show_schema_text, media_type="application/json")
 
 
 @lru_cache(maxsize=256)

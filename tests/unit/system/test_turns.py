@@ -55,7 +55,7 @@ def test_a_turn_that_was_given_to_who_has_just_gone_is_given_on() -> None:
     async def work() -> None:
         turns = Turns()
         async with turns.of("first"):
-            gone = asyncio.create_task(turns._begin("gone"))
+            gone = asyncio.create_task(turns.of("gone").__aenter__())
             await asyncio.sleep(0)
         gone.cancel()
         await asyncio.gather(gone, return_exceptions=True)

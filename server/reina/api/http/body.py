@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from fastapi import Request
 from fastapi.routing import APIRoute
@@ -64,6 +64,8 @@ BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
 }
 """By method and address; every other body is `SMALL`."""
 _PATTERNS = [(method, compile_path(path)[0], limit) for (method, path), limit in BODY_LIMITS.items()]
+MOST_FIELDS = 100
+"""No body that is read field by field has so many."""
 AT_ONCE = 64_000
 """Bytes of JSON that are parsed without a thread, within a millisecond."""
 
@@ -83,8 +85,8 @@ class BoundedRoute(APIRoute):
         async def bounded(request: Request) -> Response:
             await admit(request, self.dependant)
             checked = BoundedRequest(request, _limit_of(request))
-            if self.body_field is not None:
-                await checked.body()
+            if self.body_field is not None and len(await checked.body()) > AT_ONCE:
+                await checked.check_fields()
             return await handle(checked)
 
         return bounded
@@ -140,6 +142,20 @@ class BoundedRequest(Request):
             body = await self.body()
             self._json = read_json(body) if len(body) <= AT_ONCE else await asyncio.to_thread(read_json, body)
         return self._json
+
+    async def check_fields(self) -> None:
+        """Refuse a long body with more fields than any request has, each of which would be told on its own.
+
+        Raises:
+            ProblemError: 422.
+        """
+        try:
+            document = await self.json()
+        except (ValueError, RecursionError):
+            return  # It is told where it is read.
+        if isinstance(document, dict) and (count := len(cast("dict[str, Any]", document))) > MOST_FIELDS:
+            detail = f"the body has {count} fields; no request has more than {MOST_FIELDS}"
+            raise ProblemError(422, "request-invalid", "The request does not fit", detail)
 
     def _too_large(self) -> ProblemError:
         name, asked = self._limit.name, f"{self.method} {_route_of(self)}"

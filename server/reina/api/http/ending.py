@@ -92,13 +92,13 @@ class UntilTheEnd:
         Raises:
             ProblemError: 503, the server ends before it comes.
         """
-        tasks = [asyncio.ensure_future(coming) for coming in (receive(), self._ending.begun.wait())]
+        message = asyncio.ensure_future(receive())
+        end = asyncio.ensure_future(self._ending.begun.wait())
         try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait({message, end}, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            for task in tasks:
-                task.cancel()
-        message = tasks[0]
+            message.cancel()
+            end.cancel()
         if message.done() and not message.cancelled():
             return message.result()
         raise server_ends()

@@ -41,7 +41,7 @@ LONG_BYTES = 64_000
 """A longer file is read in a process; what takes a thread some tenths of a second is not worth one."""
 MIDI_BYTES = 16
 """A note that is written weighs about as much as so many bytes that are read."""
-LONG_NOTES = 2000
+LONG_NOTES = 10_000
 """The text of a score of so many notes is written where it is read, and kept."""
 PACKED = 30
 """A compressed score counts as so many times its size, about what JSON shrinks by."""
