@@ -1,10 +1,11 @@
 """What one stranger does to a viewer of another session, and to the server's memory.
 
-Run as ``python tests/benchmarks/bench_stranger.py``; ``--source`` measures another work tree's server, and
-words on the command line choose lines by their names. The viewer watches from a process of its own. A gap is
-the time between two frames' coming; what lies over 115 ms is seen to stand still. A frame is lost where the
-next one that came was not the next on the grid. Memory is that of the server's process; what its workers
-take, which are bounded each, stands beside it.
+Run as ``python tests/benchmarks/bench_stranger.py [all]``; ``--source`` measures another work tree's server,
+and words on the command line choose lines by their names.
+
+The viewer watches from a process of its own. A gap is the time between two frames' coming; what lies over
+115 ms is seen to stand still. A frame is lost where the next one that came was not the next on the grid.
+Memory is that of the server's process; what its workers take, which are bounded each, stands beside it.
 """
 
 from __future__ import annotations
@@ -158,16 +159,19 @@ class Stranger:
             return list(threads.map(ask, range(count)))
 
 
+QUICK = ("nothing", "lists", "edits", "100_000", "reads_of_a_long")
+"""What takes a minute or two together; all takes a quarter of an hour."""
 LINES = [name for name in vars(Stranger) if not name.startswith("_")]
 
 
 def main() -> int:
     """Measure and print; the status is 1 where a line is beyond its bounds."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("lines", nargs="*", help="parts of the names of lines; all when none is given")
+    parser.add_argument("lines", nargs="*", help="parts of lines' names, or `all`; the quick ones by default")
     parser.add_argument("--source", type=Path, default=None, help="the work tree of another server")
     options = parser.parse_args()
-    chosen = [name for name in LINES if any(word in name for word in options.lines or [""])]
+    words = [""] if options.lines == ["all"] else options.lines or QUICK
+    chosen = [name for name in LINES if any(word in name for word in words)]
     print(heading(__file__))
     print(
         f"{'while a stranger sends or asks for':36} took, s  longest gap, ms  p99, ms  frames  lost  "
