@@ -144,7 +144,6 @@ def test_what_the_server_does_not_decode_is_decoded_here(visit: Visit, client: h
     fingered.select_option("as the recording sounds: 2 semitones lower")
     page.locator("section[data-key='recording']").wait_for()
     assert first_pitch() == written - 2
-    page.screenshot(path="/tmp/key_align.png")
     assert faults(opened) == []
     panel.get_by_role("button", name="Undo").click()
     page.locator("section[data-key='score']").wait_for()
