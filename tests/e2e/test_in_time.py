@@ -36,13 +36,10 @@ def recording() -> bytes:
 
 
 def test_a_dropped_recording_is_found_and_put_right_by_hand(visit: Visit, client: httpx.Client) -> None:
-    # Where no session is, none has to be drawn first.
-    opened = visit("/s/no-such-session-0000000", size=SIZE, refusals=("404", "422"))
-    opened.page.get_by_role("heading", name="This session is not here").wait_for()
-    page = opened.page
     score = (SCORES / SCORE).read_bytes()
-    opened.choose_files((SCORE, "application/json", score), ("ode.flac", "audio/flac", recording()))
-    opened.until("window.reina?.session && window.reina.drawn")
+    files = ((SCORE, "application/json", score), ("ode.flac", "audio/flac", recording()))
+    opened = visit(files=files, size=SIZE, refusals=("404", "422"))
+    page = opened.page
     page.get_by_text("In time with the recording · ").first.wait_for()
 
     def kept() -> dict[str, Any]:
@@ -117,13 +114,11 @@ def test_what_the_server_does_not_decode_is_decoded_here(visit: Visit, client: h
     made = record(
         Rendition(SCORE.removesuffix(".json"), (SLOWER, 0.0), lead_in_s=LEAD_IN_S, transposition=-2)
     )
-    opened = visit("/s/no-such-session-0000000", size=SIZE, refusals=("404",))
-    page = opened.page
-    page.get_by_role("heading", name="This session is not here").wait_for()
     song = as_coded(made.samples, RATE, "webm")
     score = (SCORES / SCORE).read_bytes()
-    opened.choose_files((SCORE, "application/json", score), ("ode.webm", "audio/webm", song))
-    opened.until("window.reina?.session && window.reina.drawn")
+    files = ((SCORE, "application/json", score), ("ode.webm", "audio/webm", song))
+    opened = visit(files=files, size=SIZE, refusals=("404",))
+    page = opened.page
     page.get_by_text("In time with the recording · ").first.wait_for()
     page.keyboard.press("h")
     panel = page.get_by_role("region", name="score and recording")
