@@ -67,7 +67,7 @@ def told(client: httpx.Client, opened: Opened, **command: Any) -> None:
 
 
 def test_a_loop_by_bars_is_counted_in_on_the_beat_round_for_round(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(files=(SCALE,))
+    opened = visit().open_files(SCALE)
     page, panel = opened.page, practice(opened, "Passage")
     opened.until("window.reina.sound === 'ready' || window.reina.sound === 'blocked'")
     panel.get_by_role("button", name="1 bar").click()
