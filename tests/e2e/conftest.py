@@ -121,6 +121,9 @@ def visit(
 ) -> Iterator[Callable[..., Opened]]:
     """Opens pages of the server, each in a browser profile of its own unless `beside` another.
 
+    With `files` (name, media type, content of a score and what goes with it) it is their session that is
+    drawn, and none before it: to draw the bundled piece first takes seconds.
+
     Whatever a page says on its console as an error fails the test at its end, but for the HTTP statuses in
     `refusals`. With `sound_waits` the browser lets no sound out before a click or a key; `remembers` is what
     the page has kept in its storage from an earlier visit. With `touch` it is a phone: fingers, and no mouse.
@@ -130,6 +133,7 @@ def visit(
     def open_page(
         path: str = "/",
         *,
+        files: tuple[tuple[str, str, bytes], ...] = (),
         size: tuple[int, int] = SMALL,
         beside: Opened | None = None,
         refusals: tuple[str, ...] = (),
@@ -148,6 +152,8 @@ def visit(
             context.add_init_script(storing(remembers))
         one = Opened(context.new_page(), server.address, refusals)
         opened.append(one)
+        if files:
+            return one.begin_with(*files)
         one.go(path)
         return one
 

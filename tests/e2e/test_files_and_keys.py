@@ -76,7 +76,7 @@ def test_the_server_says_what_a_dropped_file_is(visit: Visit, client: httpx.Clie
 def test_of_two_scores_one_is_opened_by_name_and_the_other_offered(
     visit: Visit, client: httpx.Client
 ) -> None:
-    opened = visit(size=WIDE).open_files(("first.mid", "audio/midi", scale(8)), SCALE)
+    opened = visit(size=WIDE, files=(("first.mid", "audio/midi", scale(8)), SCALE))
     assert session_of(opened, client)["notes"] == 8
     opened.page.get_by_text("This is first.mid").wait_for()
     opened.page.get_by_text("scale.mid came with it").wait_for()
@@ -88,7 +88,7 @@ def test_of_two_scores_one_is_opened_by_name_and_the_other_offered(
 
 
 def test_what_a_recording_is_of_is_asked_and_it_is_kept(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=WIDE).open_files(SCALE)
+    opened = visit(size=WIDE, files=(SCALE,))
     page, first = opened.page, opened.session
     title = "Slow scale"
     path = f"/api/v1/sessions/{first}"
@@ -123,7 +123,7 @@ def test_what_a_recording_is_of_is_asked_and_it_is_kept(visit: Visit, client: ht
 
 
 def test_one_notice_at_a_time_beside_the_player_until_its_cause_is_past(visit: Visit) -> None:
-    opened = visit(size=WIDE, refusals=("ERR_FAILED", "ERR_CONNECTION", "ERR_INTERNET")).open_files(SCALE)
+    opened = visit(size=WIDE, files=(SCALE,), refusals=("ERR_FAILED", "ERR_CONNECTION", "ERR_INTERNET"))
     page = opened.page
     notices = page.locator(".notices .pane")
 
@@ -150,7 +150,7 @@ def test_one_notice_at_a_time_beside_the_player_until_its_cause_is_past(visit: V
 
 
 def test_keys_act_wherever_the_pointer_was_and_add_up(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=(1300, 620)).open_files(SCALE)
+    opened = visit(size=(1300, 620), files=(SCALE,))
     page, path = opened.page, f"/api/v1/sessions/{opened.session}/transport"
 
     def until(expression: str, argument: object = None) -> None:
@@ -222,7 +222,7 @@ def centre(locator: Any) -> tuple[float, float]:
 def test_of_chords_what_is_played_is_listed_and_lit_and_the_rest_is_faint(
     visit: Visit, client: httpx.Client
 ) -> None:
-    opened = visit(size=WIDE).open_files(("chord.json", "application/json", CHORD))
+    opened = visit(size=WIDE, files=(("chord.json", "application/json", CHORD),))
     page, path = opened.page, f"/api/v1/sessions/{opened.session}"
     notes = client.get(f"{path}/score").json()["notes"]
     played = [note for note in notes if note["valves"] is not None]

@@ -28,7 +28,7 @@ WAV = ("scale.wav", "audio/wav", song(12.0))
 
 def open_scale(visit: Visit) -> Opened:
     """A page with a session of its own: a scale and its recording, uploaded through the file input."""
-    return visit().open_files(MIDI, WAV)
+    return visit(files=(MIDI, WAV))
 
 
 def streamed_rotations(client: httpx.Client, session: str, index: int) -> dict[str, NDArray[np.float32]]:

@@ -26,7 +26,7 @@ VALVES = "() => [1, 2, 3].filter((valve) => window.reina.parameter(`trumpet/valv
 def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
     visit: Visit, client: httpx.Client
 ) -> None:
-    opened = visit(size=(1100, 620)).open_files(*COLLECTION)
+    opened = visit(size=(1100, 620), files=COLLECTION)
     page, path = opened.page, f"/api/v1/sessions/{opened.session}"
 
     def session() -> dict[str, Any]:
@@ -73,7 +73,7 @@ def test_sequence_written_pitch_and_octaves_are_chosen_in_the_page(
 
 
 def test_another_player_is_chosen_in_the_page(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=(1100, 620)).open_files(*COLLECTION)
+    opened = visit(size=(1100, 620), files=COLLECTION)
     path = f"/api/v1/sessions/{opened.session}"
     opened.page.keyboard.press("p")
     drawn = opened.measure("pictures")
@@ -83,8 +83,9 @@ def test_another_player_is_chosen_in_the_page(visit: Visit, client: httpx.Client
 
 
 def test_parts_are_joined_in_the_page(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=(1100, 620)).open_files(
-        ("relay.mid", "audio/midi", relay()), ("relay.wav", "audio/wav", song(0.5))
+    opened = visit(
+        size=(1100, 620),
+        files=(("relay.mid", "audio/midi", relay()), ("relay.wav", "audio/wav", song(0.5))),
     )
     page, path = opened.page, f"/api/v1/sessions/{opened.session}"
 

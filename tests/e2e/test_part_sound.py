@@ -94,8 +94,7 @@ def listening(visit: Callable[..., Opened], *files: tuple[str, str, bytes]) -> O
     """A page of these files whose sound can be heard by the test, with the place to practise."""
     opened = visit("/lab", remembers={"panels": ["practice"]})
     opened.page.add_init_script(TAP)
-    opened.go("/")
-    return opened.open_files(*files)
+    return opened.begin_with(*files)
 
 
 def test_at_half_and_a_quarter_of_the_speed_the_pitch_is_kept(

@@ -79,8 +79,7 @@ def test_pieces_are_listed_with_pictures_deleted_and_brought_back(visit: Visit, 
 
 
 def test_links_to_watch_and_to_control(visit: Visit) -> None:
-    opened = visit()
-    opened.open_files(MIDI, WAV)
+    opened = visit(files=(MIDI, WAV))
     panel = pieces(opened)
     address = panel.get_by_role("textbox", name="Address")
     watch = address.input_value()

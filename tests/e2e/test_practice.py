@@ -94,7 +94,7 @@ def test_a_loop_by_bars_is_counted_in_on_the_beat_round_for_round(visit: Visit, 
 
 
 def test_note_by_note_the_valves_are_held(visit: Visit, client: httpx.Client) -> None:
-    opened = visit().open_files(SCALE)
+    opened = visit(files=(SCALE,))
     page, panel = opened.page, practice(opened, "Note by note")
     score = client.get(f"/api/v1/sessions/{opened.session}/score").json()
     for number, key in ((1, "."), (2, "."), (3, "."), (2, ",")):
@@ -111,7 +111,7 @@ def test_note_by_note_the_valves_are_held(visit: Visit, client: httpx.Client) ->
 
 
 def test_a_drummer_has_strokes_note_by_note_and_a_part_of_their_own(visit: Visit) -> None:
-    opened = visit(size=(1000, 640)).open_files(("saints.mid", "audio/midi", SAINTS.read_bytes()))
+    opened = visit(size=(1000, 640), files=(("saints.mid", "audio/midi", SAINTS.read_bytes()),))
     page = opened.page
     page.keyboard.press("t")
     paper = page.get_by_role("region", name="The part on paper")
@@ -162,7 +162,7 @@ def answer(opened: Opened, valves: list[int]) -> None:
 
 
 def test_the_quiz_hides_what_comes_and_repeats_what_was_wrong(visit: Visit, client: httpx.Client) -> None:
-    owner = visit().open_files(SCALE)
+    owner = visit(files=(SCALE,))
     notes = client.get(f"/api/v1/sessions/{owner.session}/score").json()["notes"]
     told(client, owner, action="loop", start_s=0.0, end_s=1.0)
     # Who only watches is asked like anybody else, and moves nothing.

@@ -42,7 +42,7 @@ STRIP = """() => [...document.querySelectorAll("ol.notes li")].map((note) => [
 
 
 def test_the_page_tells_how_it_read_a_score(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=NARROW).open_files(REPAIRED)
+    opened = visit(size=NARROW, files=(REPAIRED,))
     page = opened.page
     path = f"/api/v1/sessions/{opened.session}"
 
@@ -137,7 +137,7 @@ def test_the_stage_says_who_plays_what_and_offers_the_octave(visit: Visit, clien
 
 
 def test_the_words_of_musicxml_stand_at_the_timeline(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=NARROW).open_files(("song.mxl", "", xml.compressed(SONG)))
+    opened = visit(size=NARROW, files=(("song.mxl", "", xml.compressed(SONG)),))
     page = opened.page
     lyrics = page.get_by_label("Lyrics", exact=True)
 
@@ -160,7 +160,7 @@ def test_the_words_of_musicxml_stand_at_the_timeline(visit: Visit, client: httpx
 
 def test_the_page_tells_what_is_amiss_with_a_song_and_a_show(visit: Visit, client: httpx.Client) -> None:
     cut = ("cut.wav", "audio/wav", song(12.0)[:20_044])
-    opened = visit(size=NARROW).open_files(("scale.mid", "audio/midi", duet()), cut)
+    opened = visit(size=NARROW, files=(("scale.mid", "audio/midi", duet()), cut))
     path = f"/api/v1/sessions/{opened.session}"
     opened.page.keyboard.press("p")
     opened.page.get_by_text("The recording says a wrong length of itself").first.wait_for()

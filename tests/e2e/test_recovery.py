@@ -33,8 +33,7 @@ def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> 
         port = urlsplit(before.address).port
         context = browser.new_context(viewport={"width": 760, "height": 430})
         opened = Opened(context.new_page(), before.address, LOST)
-        opened.go("/")
-        opened.open_files(*DUET)
+        opened.begin_with(*DUET)
         assert before.stop() == 0
         opened.page.get_by_text("The connection is lost").wait_for()
     with serve(tmp_path, "--port", str(port)):
@@ -47,7 +46,7 @@ def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> 
 
 
 def test_a_session_that_ends_says_so_and_offers_a_way_on(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(refusals=("404", *LOST)).open_files(*DUET)
+    opened = visit(files=DUET, refusals=("404", *LOST))
     assert client.delete(f"/api/v1/sessions/{opened.session}", headers=opened.headers).status_code == 204
     opened.page.get_by_role("heading", name="This session is not here").wait_for()
     opened.page.get_by_role("link", name="Open Reina's piece").click()
@@ -72,7 +71,7 @@ def test_what_changed_before_the_stream_began_is_seen(visit: Visit, client: http
 
 
 def test_the_keyboard_chooses_a_part(visit: Visit, client: httpx.Client) -> None:
-    opened = visit(size=(1100, 620)).open_files(*DUET)
+    opened = visit(size=(1100, 620), files=DUET)
     opened.page.keyboard.press("p")
     parts = opened.page.get_by_role("group", name="Part for the trumpet")
     chosen = parts.get_by_role("radio", checked=True)

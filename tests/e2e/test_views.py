@@ -25,7 +25,7 @@ INSET = (slice(68, 188), slice(624, 744))
 
 
 def test_views_lights_and_quality(visit: Visit, client: httpx.Client) -> None:
-    opened = visit().open_files(MIDI, WAV)
+    opened = visit(files=(MIDI, WAV))
     page = opened.page
 
     # The keys 3 and 6 go to the valves and to the hall, C back to the show.
@@ -74,7 +74,7 @@ def test_views_lights_and_quality(visit: Visit, client: httpx.Client) -> None:
 
 
 def test_who_watches_looks_around_and_leaves_the_light(visit: Visit) -> None:
-    opened = visit().open_files(MIDI, WAV)
+    opened = visit(files=(MIDI, WAV))
     watching = visit(f"/s/{opened.session}")
     watching.until_drawn()
     watching.page.keyboard.press("v")

@@ -6,7 +6,7 @@ import os
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -48,17 +48,24 @@ class Running:
 
 
 @contextmanager
-def serve(data_dir: Path, *arguments: str, source: Path | None = None) -> Generator[Running]:
-    """Start a server on a free port, from another work tree if one is named, and end it."""
+def serve(
+    data_dir: Path, *arguments: str, source: Path | None = None, log: Path | None = None
+) -> Generator[Running]:
+    """Start a server on a free port, from another work tree if one is named, and end it.
+
+    What it logs goes into a file where one is named.
+    """
     environment = os.environ | ({"PYTHONPATH": str(source / "server")} if source else {})
     command = [sys.executable, "-c", "import sys; from reina.cli import main; sys.exit(main())"]
-    process = subprocess.Popen(
-        [*command, "serve", "--port", "0", "--data-dir", str(data_dir), *arguments],
-        stdout=subprocess.PIPE,
-        text=True,
-        env=environment,
-        cwd=source,
-    )
+    with open(log, "w") if log else nullcontext() as said:  # noqa: PTH123
+        process = subprocess.Popen(
+            [*command, "serve", "--port", "0", "--data-dir", str(data_dir), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=said,
+            text=True,
+            env=environment,
+            cwd=source,
+        )
     try:
         assert process.stdout is not None
         address = process.stdout.readline().strip()

@@ -180,7 +180,9 @@ def test_what_was_dropped_and_shortened_is_told(client: httpx.Client) -> None:
 
 def test_choices_outlive_a_restart(tmp_path: Path) -> None:
     with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30) as client:
-        session = upload(client, collection(), sequence="1", written="1", octave_fit="on", **SONG)
+        session = upload(
+            client, collection(), sequence="1", written="1", octave_fit="on", in_time="true", **SONG
+        )
         before, notes = client.get(session.path).json(), played(session)
         server.stop()
     with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30) as client:

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from tests.integration.server import Owned
 
 PATHS: dict[str, dict[str, Any]] = create_app().openapi()["paths"]
-TRACK = "/api/v1/sessions/{session_id}/show/tracks/{path}"
 METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE", "PROPFIND")
 SEGMENTS = ("%00", "%ff", "%2e%2e", "a" * 300, "%e6%9c%88", "%0d%0a", "-1", "%20", "%25")
 VALUES = (
@@ -100,9 +99,6 @@ def check(answer: httpx.Response, asked: object) -> None:
 @pytest.mark.parametrize("path", PATHS)
 def test_methods(client: httpx.Client, watched: Owned, path: str) -> None:
     operations: set[str] = {method.upper() for method in PATHS[path]}
-    if path.startswith(TRACK):
-        # A parameter's path may have slashes: what is below a track may be a track.
-        operations |= {method.upper() for method in PATHS[TRACK]}
     for method in METHODS:
         answer = client.request(method, filled(path, watched))
         check(answer, (method, path))

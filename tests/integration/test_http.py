@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import socket
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -239,6 +240,28 @@ def test_methods_that_an_address_has_not_are_told_which_it_has(client: httpx.Cli
         assert answer.headers["content-type"] == "application/problem+json"
     assert client.options("/api/v1/nothing").status_code == 404
     assert client.head("/api/v1/lab/bvh").status_code == 405
+
+
+def filled(path: str, session: str) -> str:
+    """An address of a route's kind; of it nothing need be there."""
+    known = {"session_id": session, "path": "camera/fov", "folder": "scores", "name": "trumpet"}
+    return re.sub(r"\{(\w+)\}", lambda match: known.get(match[1], "x"), path)
+
+
+def test_every_address_tells_all_its_methods(client: httpx.Client, played: Owned) -> None:
+    paths: dict[str, dict[str, object]] = client.get("/openapi.json").json()["paths"]
+    assert len(paths) > 50
+    for path, operations in paths.items():
+        methods = {name.upper() for name in operations if name in {"get", "post", "put", "patch", "delete"}}
+        allowed = ", ".join(sorted(methods | {"OPTIONS"} | ({"HEAD"} if "GET" in methods else set())))
+        for method in ("GET", "POST", "PUT", "PATCH", "DELETE", "TRACE"):
+            if method in methods:
+                continue
+            answer = client.request(method, filled(path, played.id))
+            assert (answer.status_code, answer.headers.get("allow")) == (405, allowed), (method, path)
+    for method in ("GET", "POST", "PUT", "PATCH", "DELETE"):
+        assert client.request(method, "/api/v1/nothing").status_code == 404, method
+        assert client.request(method, f"{played.path}/nothing/at/all").status_code == 404, method
 
 
 HANDSHAKE = b"GET %b HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n%b\r\n"

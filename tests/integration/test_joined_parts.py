@@ -129,7 +129,7 @@ def test_another_part_is_played_alone_unless_others_are_named(client: httpx.Clie
 
 def test_what_is_joined_outlives_a_restart(tmp_path: Path) -> None:
     with serve(tmp_path) as server, httpx.Client(base_url=server.address, timeout=30) as client:
-        session = upload(client, relay(), joined_parts="2, 1", **SONG)
+        session = upload(client, relay(), joined_parts="2, 1", in_time="true", **SONG)
         before, notes = client.get(session.path).json(), played(session)
         assert before["joined_parts"] == [MUTED, FLUTE]
         server.stop()

@@ -28,7 +28,13 @@ def test_sessions_outlive_the_server(tmp_path: Path) -> None:
     sound = song()
     with serve(tmp_path) as running, httpx.Client(base_url=running.address, timeout=30) as client:
         session = upload(
-            client, duet(), "Duet.mid", song=("s.wav", sound), show=("show.json", show()), title="Two"
+            client,
+            duet(),
+            "Duet.mid",
+            song=("s.wav", sound),
+            show=("show.json", show()),
+            title="Two",
+            in_time="true",
         )
         session.change("PATCH", json={"part": 0, "transposition": -12, "public": True}).raise_for_status()
         session.change(

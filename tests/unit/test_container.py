@@ -75,3 +75,17 @@ def test_it_runs_as_nobody_in_particular_and_asks_for_its_health() -> None:
     assert named["VOLUME"][1] == "/data"
     assert "HEALTHCHECK" in named
     assert "REINA_DATA_DIR=/data" in named["ENV"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        r"    mem_limit: \"\$\{REINA_MEMORY:-\d+g\}\"",
+        r"    pids_limit: \d{3}",
+        r"    ulimits:\n      nofile: \d{4,5}",
+        r"    logging:\n      driver: json-file\n      options: \{max-size: \d+m, max-file: \"\d\"\}",
+    ],
+)
+def test_memory_processes_files_and_logs_of_a_container_are_bounded(line: str) -> None:
+    text = (ROOT / "docker-compose.yml").read_text()
+    assert re.search(rf"^{line}$", text, re.MULTILINE)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
@@ -35,16 +34,19 @@ from reina.api import (
 from reina.api.description import describe
 from reina.api.http import problems
 from reina.api.http.compression import Compression
+from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
+from reina.api.lab.work import lab_pool
 from reina.api.settings import Settings
 from reina.protocol.links import API
 from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
 from reina.sessions.transcriptions import Transcriptions
 from reina.sound.renderer import SongRenderer
+from reina.system.turns import Turns
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
@@ -86,16 +88,19 @@ def create_app(
         )
         await store.prune_songs()
         app.state.store = store
-        app.state.computing = asyncio.Semaphore(1)
+        app.state.computing = Turns()
+        app.state.lab_pool = lab_pool()
         app.state.transcriptions = Transcriptions()
         yield
         await app.state.transcriptions.aclose()
+        await app.state.lab_pool.aclose()
         await store.aclose()
 
     app = FastAPI(
         title="Reina", version=reina.__version__, description=DESCRIPTION, lifespan=lifespan, redoc_url=None
     )
     app.state.settings = chosen
+    app.state.ending = Ending()
     app.state.now = now
     for module in (
         sessions,
@@ -111,7 +116,7 @@ def create_app(
         rigs,
         examples,
         library,
-        lab,
+        *([lab] if chosen.lab else []),
         cast,
         part,
         stances,
@@ -127,4 +132,5 @@ def create_app(
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
     app.add_middleware(UnreadBody)
+    app.add_middleware(UntilTheEnd, ending=app.state.ending)
     return app

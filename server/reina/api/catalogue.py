@@ -1,12 +1,14 @@
 """What the server has for everybody: the show's parameters, lights to choose, and its health."""
 
+import asyncio
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Request, Response
 
 import reina
 from reina.api.http.access import Store, Watched
+from reina.api.http.work import in_turn
 from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, LightMood, LightMoodList, ShowParameterList
@@ -17,29 +19,36 @@ if TYPE_CHECKING:
 
 router = APIRouter(tags=["server"])
 
+JSON = "application/json"
 
-@router.get("/parameters")
-async def list_parameters(store: Store) -> ShowParameterList:
+
+@router.get("/parameters", response_model=ShowParameterList)
+async def list_parameters(request: Request, store: Store) -> Response:
     """Every parameter of the largest cast in the frame's order, and every interpolation of keyframes.
 
     What a session has of them says `GET /sessions/{id}/parameters`.
     """
-    stage = store.stage
-    return _listed(stage.largest_registry(), stage.streamed())
+    state, stage = request.app.state, store.stage
+    if not hasattr(state, "parameters_text"):
+        state.parameters_text = await asyncio.to_thread(
+            lambda: _listed(stage.largest_registry(), stage.streamed())
+        )
+    return Response(state.parameters_text, media_type=JSON)
 
 
-@router.get("/sessions/{session_id}/parameters")
-async def list_session_parameters(session: Watched) -> ShowParameterList:
+@router.get("/sessions/{session_id}/parameters", response_model=ShowParameterList)
+async def list_session_parameters(request: Request, session: Watched) -> Response:
     """Every parameter of a session's cast in the frame's order, and every interpolation of keyframes."""
-    performers = session.production.performers
-    streamed = [parameter for performer in performers for parameter in performer.parameters]
-    return _listed(session.production.registry, streamed)
+    production = session.production
+    streamed = [parameter for performer in production.performers for parameter in performer.parameters]
+    text = await in_turn(request, session, lambda: _listed(production.registry, streamed))
+    return Response(text, media_type=JSON)
 
 
-def _listed(registry: ParameterRegistry, streamed: Sequence[Parameter]) -> ShowParameterList:
+def _listed(registry: ParameterRegistry, streamed: Sequence[Parameter]) -> str:
     described = registry.describe()
     others = ParameterRegistry(streamed).describe()["parameters"]
-    return ShowParameterList.model_validate({**described, "streamed": others})
+    return ShowParameterList.model_validate({**described, "streamed": others}).model_dump_json()
 
 
 @router.get("/moods")

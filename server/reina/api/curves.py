@@ -1,16 +1,16 @@
 """What a timeline editor draws, so that it has no value to work out: curves, and the music's time."""
 
-import asyncio
 import hashlib
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Depends, Query, Response
+from fastapi import APIRouter, Body, Depends, Query, Request, Response
 
 from reina.api.frames import LATEST_S
-from reina.api.http.access import Controlled, Watched
+from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.conditions import IfNoneMatch, named, not_modified, validated
 from reina.api.http.problems import ProblemError
+from reina.api.http.work import in_turn
 from reina.api.tracks import known_parameter
 from reina.protocol.timeline import CurvePreview, MusicTime, ShowCurves
 from reina.sessions.show_curves import (
@@ -21,7 +21,6 @@ from reina.sessions.show_curves import (
     music_time,
 )
 from reina.show import ShowError
-from reina.show.show_reader import read_track
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -59,6 +58,7 @@ Span = Annotated[CurveSpan, Depends(_span)]
 
 @router.get("/sessions/{session_id}/show/curves", response_model=ShowCurves)
 async def get_curves(
+    request: Request,
     session: Watched,
     span: Span,
     parameter: Annotated[
@@ -86,29 +86,37 @@ async def get_curves(
     etag = f'"{hashlib.sha256(identity.encode()).hexdigest()[:24]}"'
     if if_none_match is not None and named(if_none_match, etag, strongly=False):
         return not_modified(etag)
-    text = await asyncio.to_thread(
-        lambda: curves_of_show(production, kept, parameter, span).model_dump_json()
+    text = await in_turn(
+        request, session, lambda: curves_of_show(production, kept, parameter, span).model_dump_json()
     )
     return validated(text, etag)
 
 
-@router.post("/sessions/{session_id}/show/curves")
-def preview_curve(
+@router.post("/sessions/{session_id}/show/curves", response_model=ShowCurves)
+async def preview_curve(
+    request: Request,
     session: Controlled,
+    store: Store,
     span: Span,
     asked: Annotated[CurvePreview, Body(examples=[{"track": EXAMPLE}])],
-) -> ShowCurves:
+) -> Response:
     """The curve of a track as it would be: nothing is kept. For a key or a handle that is being dragged."""
     track = asked.track
     path = track.get("parameter")
     if not isinstance(path, str):
         raise ShowError("a parameter's path is needed here", field="track/parameter")
     parameter = known_parameter(session.production.registry, path)
-    read = read_track(track, parameter, session.show_revision.show.time)
-    return curves_of_track(session.production, read, span)
+    size, unit = len(await request.body()), session.show_revision.show.time
+    read = await store.reader.preview(track, size, parameter, unit, owner=session.id)
+    text = await in_turn(
+        request, session, lambda: curves_of_track(session.production, read, span).model_dump_json()
+    )
+    return Response(text, media_type="application/json")
 
 
-@router.get("/sessions/{session_id}/time")
-def get_music_time(session: Watched) -> MusicTime:
+@router.get("/sessions/{session_id}/time", response_model=MusicTime)
+async def get_music_time(request: Request, session: Watched) -> Response:
     """How seconds, beats and bars run in this piece, and what keys may snap to."""
-    return music_time(session.production, session.clock.duration_s)
+    production, duration_s = session.production, session.clock.duration_s
+    text = await in_turn(request, session, lambda: music_time(production, duration_s).model_dump_json())
+    return Response(text, media_type="application/json")

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING, Any
 
+from fastapi.responses import Response
 from pydantic import TypeAdapter
+from starlette.routing import Route
 
 from reina.api.http.conditions import IF_NONE_MATCH_TEXT
 from reina.api.http.problems import MEDIA_TYPE
 from reina.show.document import ShowDocument
 from reina.show.edits import Edit
+from reina.system.json_text import json_text
 
 if TYPE_CHECKING:
-    from fastapi import FastAPI
+    from fastapi import FastAPI, Request
 
 IF_NONE_MATCH: dict[str, Any] = {
     "name": "if-none-match",
@@ -23,9 +27,26 @@ IF_NONE_MATCH: dict[str, Any] = {
 }
 
 
+OPENAPI = "/openapi.json"
+
+
 def describe(app: FastAPI) -> None:
-    """Have the application describe its errors with the media type that they are sent with."""
+    """Have the application describe its errors with the media type that they are sent with.
+
+    It is described once, on a thread, since that takes a second: FastAPI would on the event loop.
+    """
     generate = app.openapi
+    made: list[bytes] = []
+    making = asyncio.Lock()
+
+    async def answer(_: Request) -> Response:
+        async with making:
+            if not made:
+                made.append(await asyncio.to_thread(lambda: json_text(app.openapi())))
+        return Response(made[0], media_type="application/json")
+
+    app.router.routes = [route for route in app.router.routes if getattr(route, "path", "") != OPENAPI]
+    app.router.routes.insert(0, Route(OPENAPI, answer, include_in_schema=False))
 
     def openapi() -> dict[str, Any]:
         document = generate()

@@ -1,5 +1,6 @@
 """The bundled pieces: files of the examples folder, to be posted as sessions of one's own."""
 
+import logging
 from functools import lru_cache
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from fastapi.responses import FileResponse
 from reina.api.http.access import ServerSettings
 from reina.api.http.files import ServedFile, file_below
 from reina.api.http.problems import ProblemError
+from reina.errors import InputError
 from reina.music import read_score
 from reina.protocol.links import API
 from reina.protocol.resources import Example, ExampleList
@@ -20,6 +22,8 @@ FIRST_VISIT = "prince-of-denmarks-march"
 """The piece that a first visitor is shown."""
 SCORES = frozenset({".mid", ".midi", ".json"})
 
+_log = logging.getLogger(__name__)
+
 
 @router.get("/examples")
 def list_examples(settings: ServerSettings) -> ExampleList:
@@ -30,6 +34,9 @@ def list_examples(settings: ServerSettings) -> ExampleList:
     scores = sorted(path for path in (settings.examples_dir / "scores").glob("*") if path.suffix in SCORES)
     examples: list[Example] = []
     for path in scores:
+        title = _title(path, modified_ns(path))
+        if title is None:
+            continue
         files = {
             folder: next(iter(sorted((settings.examples_dir / folder).glob(f"{path.stem}.*"))), None)
             for folder in ("songs", "shows")
@@ -38,7 +45,7 @@ def list_examples(settings: ServerSettings) -> ExampleList:
         examples.append(
             Example(
                 name=path.stem,
-                title=_title(path, path.stat().st_mtime_ns),
+                title=title,
                 score=_href(path),
                 song=links["songs"],
                 show=links["shows"],
@@ -63,6 +70,19 @@ def _href(path: Path) -> str:
     return f"{API}/examples/{path.parent.name}/{path.name}"
 
 
+def modified_ns(path: Path) -> int:
+    """When a file was written last, for what is kept of it; 0 where it cannot be told."""
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0
+
+
 @lru_cache(maxsize=256)
-def _title(path: Path, modified_ns: int) -> str:  # noqa: ARG001 - a file that is written anew is read anew
-    return read_score(path.read_bytes(), filename=path.name).title
+def _title(path: Path, modified_ns: int) -> str | None:  # noqa: ARG001 - a file that is written anew is read anew
+    """A score's title; None, and a line in the log, where it cannot be read: the others are there."""
+    try:
+        return read_score(path.read_bytes(), filename=path.name).title
+    except (InputError, OSError) as error:
+        _log.warning("the example %s is left out: %s", path.name, error)
+        return None

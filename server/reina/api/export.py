@@ -12,6 +12,7 @@ from fastapi.responses import StreamingResponse
 from reina.api.frames import EndS, FramesPerSecond, StartS, frame_span
 from reina.api.http.access import Store, Watched
 from reina.sessions.motion_export import BvhExport, player_skeleton
+from reina.system.turns import Turns
 
 router = APIRouter(tags=["frames"])
 
@@ -41,11 +42,13 @@ async def export_bvh(
     the frames have them.
     """
     first, end = frame_span(session, start_s, end_s, fps)
-    production = await asyncio.to_thread(session.production.at_rate, fps)
+    computing: Turns = request.app.state.computing
+    async with computing.of(session.id):
+        production = await asyncio.to_thread(session.production.at_rate, fps)
     name = player_skeleton(production, player) if skeleton is None else skeleton
     export = BvhExport(production, name, first, end)
     return StreamingResponse(
-        _lines(export, request.app.state.computing),
+        _lines(export, computing, session.id),
         media_type="text/plain; charset=utf-8",
         headers=attachment(f"{session.record.title} - {name}", "bvh"),
     )
@@ -61,7 +64,7 @@ async def export_midi(session: Watched, store: Store) -> Response:
 
     What no player plays stays as the score has it.
     """
-    data = await store.reader.midi(session.production)
+    data = await store.reader.midi(session.production, owner=session.id)
     return Response(data, media_type="audio/midi", headers=attachment(session.record.title, "mid"))
 
 
@@ -72,9 +75,9 @@ def attachment(name: str, ending: str) -> dict[str, str]:
     return {"Content-Disposition": f"attachment; filename*=UTF-8''{filename}", "Cache-Control": "no-store"}
 
 
-async def _lines(export: BvhExport, computing: asyncio.Semaphore) -> AsyncIterator[bytes]:
+async def _lines(export: BvhExport, computing: Turns, owner: str) -> AsyncIterator[bytes]:
     for block in export.blocks:
         # As for frames over HTTP: on a thread, one block at a time, whoever computes.
-        async with computing:
+        async with computing.of(owner):
             text = await asyncio.to_thread(export.text, block)
         yield text.encode()

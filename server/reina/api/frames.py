@@ -14,6 +14,7 @@ from reina.protocol.messages import Hello
 from reina.sessions.frames import FRAMES_PER_BLOCK, EncodedFrames
 from reina.sessions.production import Production
 from reina.sessions.session import Session
+from reina.system.turns import Turns
 
 router = APIRouter(tags=["frames"])
 
@@ -55,7 +56,7 @@ async def get_frames(
     first, end = frame_span(session, start_s, end_s, fps)
     production = session.production
     return StreamingResponse(
-        _frames(production, first, end, fps, request.app.state.computing),
+        _frames(production, first, end, fps, request.app.state.computing, session.id),
         media_type="application/octet-stream",
         headers={
             "Content-Length": str((end - first) * production.manifest.frame_size),
@@ -83,15 +84,17 @@ def frame_span(session: Session, start_s: float, end_s: float | None, fps: int) 
 
 
 async def _frames(
-    production: Production, first: int, end: int, fps: int, computing: asyncio.Semaphore
+    production: Production, first: int, end: int, fps: int, computing: Turns, owner: str
 ) -> AsyncIterator[bytes]:
-    production = await asyncio.to_thread(production.at_rate, fps)
-    frames = EncodedFrames(production.performance, production.manifest, kept=1)
+    frames: EncodedFrames | None = None
     while first < end:
         # Up to the end of an aligned block at a time; a thread, since a viewer's frames come first.
         last = min(end, (first // FRAMES_PER_BLOCK + 1) * FRAMES_PER_BLOCK) - 1
         # Whoever computes, one block at a time: a hundred exports slow one another and nobody else.
-        async with computing:
+        async with computing.of(owner):
+            if frames is None:
+                production = await asyncio.to_thread(production.at_rate, fps)
+                frames = EncodedFrames(production.performance, production.manifest, kept=1)
             span = await asyncio.to_thread(frames.span, first, last)
         yield span.tobytes()
         first = last + 1

@@ -35,6 +35,13 @@ def get_page(settings: ServerSettings) -> ServedFile:
 @router.get("/lab")
 def get_lab(settings: ServerSettings) -> ServedFile:
     """The laboratory: a page of its own."""
+    if not settings.lab:
+        raise ProblemError(
+            404,
+            "no-lab",
+            "There is no laboratory here",
+            "the server listens to other machines too and was not started with --lab",
+        )
     return _document(settings, "lab.html")
 
 

@@ -1,10 +1,13 @@
 """Sessions: made from an upload, listed, changed and ended."""
 
 import asyncio
+from collections.abc import AsyncIterator, Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from fastapi import APIRouter, Body, Query, Request, Response
+from fastapi.responses import StreamingResponse
 from pydantic import ValidationError
 
 from reina.api.cast import cast_of_fields, refuse_twice
@@ -12,11 +15,13 @@ from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
+from reina.api.http.work import in_turn
 from reina.api.upload import Upload, receive_upload
+from reina.music import Score
 from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
-from reina.sessions.description import score_text
+from reina.sessions.score_text import packed_score
 from reina.sessions.store import Draft
 
 router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
@@ -66,13 +71,13 @@ async def create_session(request: Request, response: Response, store: Store) -> 
     """
     async with store.staging() as folder:
         upload = await receive_upload(request, folder)
-        session, token = await store.create(_draft(folder, upload))
+        session, token = await store.create(_draft(folder, upload, request))
     response.headers["Location"] = session_links(session.id).self
     resource = await asyncio.to_thread(session.resource)
     return resources.CreatedSession(**dict(resource), control_token=token)
 
 
-def _draft(folder: Path, upload: Upload) -> Draft:
+def _draft(folder: Path, upload: Upload, request: Request) -> Draft:
     if "score" not in upload.files:
         raise ProblemError(
             422,
@@ -94,6 +99,7 @@ def _draft(folder: Path, upload: Upload) -> Draft:
         public=fields.public,
         cast=cast_of_fields(fields),
         in_time=fields.in_time,
+        sender=request.client.host if request.client else "",
     )
 
 
@@ -152,6 +158,7 @@ async def end_session(session: Controlled, store: Store) -> None:
 
 @router.get("/sessions/{session_id}/score", response_model=resources.Score)
 async def get_score(
+    request: Request,
     session: Watched,
     part: Annotated[int | None, Query(ge=0, description="The notes of this part alone.")] = None,
 ) -> Response:
@@ -162,9 +169,30 @@ async def get_score(
         raise ProblemError(
             404, "unknown-part", "There is no such part", f"the score's parts are 0 to {known}, not {part}"
         )
-    # A long score takes a while to write out; that must not hold up the streams.
-    body = await asyncio.to_thread(score_text, production, session.record.title, part)
-    return Response(body, media_type="application/json")
+    text = production.packed_score or await in_turn(request, session, lambda: packed_score(production))
+    title = session.record.title
+    headers = {
+        "ETag": text.etag(title, part),
+        "Cache-Control": "no-cache",
+        "Vary": "Accept-Encoding",
+    }
+    if part is None and "gzip" in request.headers.get("accept-encoding", ""):
+        pieces, size = text.gzipped(title)
+        headers |= {"Content-Encoding": "gzip", "Content-Length": str(size)}
+        return StreamingResponse(_each(pieces), media_type="application/json", headers=headers)
+    wanted = None if part is None else await asyncio.to_thread(_of_part, production.score, part)
+    return StreamingResponse(text.plain(title, wanted), media_type="application/json", headers=headers)
+
+
+async def _each(pieces: Iterable[memoryview]) -> AsyncIterator[memoryview]:
+    for piece in pieces:
+        yield piece
+
+
+def _of_part(score: Score, part: int) -> list[bool]:
+    wanted = np.zeros(len(score.notes), bool)
+    wanted[score.note_indices(part)] = True
+    return wanted.tolist()
 
 
 @router.get("/sessions/{session_id}/transport", tags=["transport"])

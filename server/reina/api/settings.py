@@ -43,6 +43,7 @@ class Settings:
         allowed_hosts: Host names that the server answers to, without ports.
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
+        lab: Whether the laboratory is there.
     """
 
     data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", "data"))
@@ -52,6 +53,7 @@ class Settings:
     song_cache_bytes: int = field(default_factory=_song_cache_bytes)
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
+    lab: bool = True
 
 
 def require_page(settings: Settings) -> None:

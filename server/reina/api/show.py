@@ -70,7 +70,7 @@ async def get_show(
 )
 async def put_show(session: Controlled, store: Store, request: Request, if_match: IfMatch = None) -> Response:
     """Another show in its place. Tracks of parameters that nobody knows are kept, without effect."""
-    show = await store.reader.show(await request.body(), session.production.registry)
+    show = await store.reader.show(await request.body(), session.production.registry, owner=session.id)
     kept = await ShowChange(session, store, if_match).edit(lambda _: show)
     return validated(await asyncio.to_thread(kept.text.text), kept.text.etag)
 

@@ -12,7 +12,8 @@ from reina.api.http.problems import ProblemError
 from reina.api.show_change import ShowChange
 from reina.protocol.resources import ShowEdited
 from reina.sessions.show_revision import ShowRevision
-from reina.show import KeyNotFoundError, Show, ShowError, ShowHistory, with_edits
+from reina.show import KeyNotFoundError, Show, ShowHistory
+from reina.show.edits import with_read_edits
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
 
@@ -75,14 +76,12 @@ async def edit_show(
 
     Only their outcome has to be a show, so that keyframes may change places.
     """
-    try:
-        edits: object = await request.json()
-    except (ValueError, RecursionError) as error:
-        raise ShowError(f"the edits are no JSON: {error}") from error
+    edits = await store.reader.edits(await request.body(), owner=session.id)
 
     def edit(show: Show) -> Show:
         try:
-            return with_edits(show, edits, session.production.registry, session.production.show_plan.time_map)
+            production = session.production
+            return with_read_edits(show, edits, production.registry, production.show_plan.time_map)
         except KeyNotFoundError as error:
             raise ProblemError(
                 409, "unknown-keyframe", "There is no such track or keyframe", str(error)

@@ -1,23 +1,21 @@
 """A session's own stances: poses of motion files that its players can stand in."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
 
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
-from reina.api.lab.clips import BODY, Positions, read_clip_file
-from reina.api.lab.work import compute
+from reina.api.lab.clips import BODY, Positions, unreadable_clip
+from reina.api.lab.long_work import pose_in_clip
+from reina.api.lab.work import compute_long
 from reina.instruments.player import STANCES
 from reina.protocol import resources
 from reina.protocol.resources import Fault
 from reina.sessions.description import stance_resource, stances_of
 from reina.sessions.record import StanceRecord
-from reina.skeleton import HumanPose, PoseError, human_pose, pose_numbers
-
-if TYPE_CHECKING:
-    from reina.skeleton import PositionMeaning
+from reina.skeleton import BvhError, PoseError, pose_numbers
 
 router = APIRouter(tags=["stances"], route_class=BoundedRoute)
 
@@ -69,7 +67,15 @@ async def make_stance(
     session's show has the choice; no keyframe is written.
     """
     data = await request.body()
-    pose = await compute(request, lambda: _pose(data, positions, time_s))
+    try:
+        pose = await compute_long(request, len(data), pose_in_clip, data, positions, time_s, owner=session.id)
+    except BvhError as error:
+        raise unreadable_clip(error) from error
+    except PoseError as error:
+        fault = Fault(detail=error.detail, location=error.location)
+        raise ProblemError(
+            422, "pose-unusable", "The BVH file has no such pose", str(error), errors=[fault]
+        ) from error
     made = StanceRecord(name=name, file=filename, time_s=time_s, turns=tuple(map(_four, pose_numbers(pose))))
     if name in STANCES:
         raise ProblemError(
@@ -113,16 +119,6 @@ async def remove_stance(
         return left
 
     await store.change(session, restance=without_it)
-
-
-def _pose(data: bytes, positions: "PositionMeaning", time_s: float) -> HumanPose:
-    try:
-        return human_pose(read_clip_file(data, positions), time_s)
-    except PoseError as error:
-        fault = Fault(detail=error.detail, location=error.location)
-        raise ProblemError(
-            422, "pose-unusable", "The BVH file has no such pose", str(error), errors=[fault]
-        ) from error
 
 
 def _four(numbers: list[float]) -> tuple[float, float, float, float]:

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Body, Path, Request, Response
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.conditions import IfMatch, validated
+from reina.api.http.paths import TRACK
 from reina.api.http.problems import ProblemError
 from reina.api.show_change import ShowChange
 from reina.curves import Keyframe, Parameter, ParameterRegistry
@@ -58,8 +59,7 @@ TRACK_SCHEMA: Document = {
     "description": "It may leave out its parameter.",
 }
 
-KEYFRAMES = "/sessions/{session_id}/show/tracks/{path:path}/keyframes"
-TRACK = "/sessions/{session_id}/show/tracks/{path:path}"
+KEYFRAMES = f"{TRACK}/keyframes"
 
 
 @router.get(KEYFRAMES, response_model=KeyframeList)
@@ -173,7 +173,9 @@ async def put_track(
 ) -> Response:
     """Another track of the parameter in the place of its present one, if there is any."""
     parameter = known_parameter(session.production.registry, path)
-    track = await store.reader.track(await request.body(), parameter, session.show_revision.show.time)
+    track = await store.reader.track(
+        await request.body(), parameter, session.show_revision.show.time, owner=session.id
+    )
     registry = session.production.registry
     kept = await ShowChange(session, store, if_match, path).edit(
         lambda show: with_track(show, track, registry)

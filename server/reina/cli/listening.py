@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import errno
+import ipaddress
 import socket
+from typing import TYPE_CHECKING
 
 from reina.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 BACKLOG = 2048
 UNSENT_BYTES = 64 * 1024
@@ -44,6 +49,11 @@ def listen(host: str, port: int) -> list[socket.socket]:
     if not sockets:
         raise InputError(f"this machine has no address of the host {host!r}; try --host 127.0.0.1")
     return sockets
+
+
+def are_loopback(sockets: Iterable[socket.socket]) -> bool:
+    """Whether only this machine can reach what listens there."""
+    return all(ipaddress.ip_address(one.getsockname()[0]).is_loopback for one in sockets)
 
 
 def _bound(family: int, kind: int, protocol: int, address: tuple[str | int, ...]) -> socket.socket:

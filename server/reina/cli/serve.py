@@ -18,13 +18,16 @@ import uvicorn
 from reina.api.app import create_app
 from reina.api.settings import Settings, require_page, require_writable
 from reina.cli.http_protocol import ProblemProtocol
-from reina.cli.listening import listen
+from reina.cli.listening import are_loopback, listen
+from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.stage import Stage
 
 if TYPE_CHECKING:
     import socket
     from collections.abc import Generator, Sequence
+
+    from reina.api.http.ending import Ending
 
 HOST = "127.0.0.1"
 PORT = 8000
@@ -69,8 +72,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="an origin whose pages may write and watch, beside the server's own; may be repeated",
     )
     parser.add_argument(
+        "--lab",
+        action=argparse.BooleanOptionalAction,
+        default=_switch(environment.get("REINA_LAB", "")),
+        help="answer at /lab and under /api/v1/lab (only where it listens on this machine's own address)",
+    )
+    parser.add_argument(
         "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
     )
+
+
+def _switch(text: str) -> bool | None:
+    """A switch in the environment: 1 or 0; else it is as by default."""
+    return {"1": True, "0": False}.get(text.strip())
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -85,6 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
         require_writable(settings.data_dir)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
+        settings = replace(settings, lab=are_loopback(sockets) if arguments.lab is None else arguments.lab)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
@@ -92,10 +107,12 @@ def run(arguments: argparse.Namespace) -> int:
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
+    app = create_app(settings, stage=stage)
     server = Server(
         uvicorn.Config(
-            create_app(settings, stage=stage),
+            app,
             http=ProblemProtocol,
+            ws=TextProtocol,
             # Deflate saves 3 % of the frames' bytes at ten times the cost.
             ws_per_message_deflate=False,
             ws_max_size=LARGEST_MESSAGE,
@@ -104,7 +121,8 @@ def run(arguments: argparse.Namespace) -> int:
             log_level="warning",
             access_log=False,
             server_header=False,
-        )
+        ),
+        app.state.ending,
     )
     server.run(sockets)
     return 0 if server.started else 1
@@ -128,7 +146,9 @@ def _settings(arguments: argparse.Namespace) -> Settings:
     if arguments.host not in EVERY_ADDRESS:
         hosts.add(arguments.host.lower())
     return replace(
-        settings, allowed_hosts=frozenset(hosts), allowed_origins=frozenset(arguments.allow_origin)
+        settings,
+        allowed_hosts=frozenset(hosts),
+        allowed_origins=frozenset(arguments.allow_origin),
     )
 
 
@@ -143,7 +163,16 @@ def _stage(settings: Settings) -> Stage:
 
 
 class Server(uvicorn.Server):
-    """Prints its address once it answers, and takes a signal for a request, not for a failure."""
+    """Prints its address once it answers, and takes a signal for a request, not for a failure.
+
+    Args:
+        config: How it serves.
+        ending: Hears when it ends.
+    """
+
+    def __init__(self, config: uvicorn.Config, ending: Ending) -> None:
+        super().__init__(config)
+        self._ending = ending
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Listen, then say where."""
@@ -152,6 +181,11 @@ class Server(uvicorn.Server):
             host, port = listening.sockets[0].getsockname()[:2]
             shown = "localhost" if host in EVERY_ADDRESS else host
             print(f"http://[{shown}]:{port}" if ":" in shown else f"http://{shown}:{port}", flush=True)
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Tell whoever still sends or waits, and end."""
+        self._ending.begin()
+        await super().shutdown(sockets)
 
     @contextlib.contextmanager
     def capture_signals(self) -> Generator[None]:

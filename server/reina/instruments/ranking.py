@@ -65,11 +65,13 @@ def rank_parts(score: Score, suitability: Suitability) -> tuple[PartRanking, ...
 
 def _rank(part: Part, notes: Notes, most_notes: int, suitability: Suitability) -> PartRanking:
     evidence: list[tuple[float, str]] = []
+    is_struck = part.is_drums and suitability.drums > 0
     if part.is_drums:
-        evidence.append((suitability.drums, "drums"))
+        # What is struck has no range to be out of, and is struck together as it likes.
+        evidence.append((suitability.drums + (IN_RANGE + ONE_AT_A_TIME if is_struck else 0.0), "drums"))
     evidence += _of_program(part, suitability)
     evidence += _of_name(part, suitability)
-    if part.is_drums and suitability.drums > 0:
+    if is_struck:
         return _ranked(part, notes, most_notes, evidence)
     inside = float(
         np.mean((notes.sounding_pitch >= suitability.lowest) & (notes.sounding_pitch <= suitability.highest))

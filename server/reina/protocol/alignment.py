@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 
 MAX_POINTS = 100_000
 MAX_ANCHORS = 10_000
@@ -110,7 +110,7 @@ class Alignment(AlignmentState):
     same score and song. Null until something is known."""
 
 
-class AlignmentCorrections(WireModel):
+class AlignmentCorrections(RequestModel):
     """What a person puts right in an alignment."""
 
     anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = Field(

@@ -2,9 +2,9 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, Strict
 
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 from reina.protocol.resources import Warned
 
 EulerOrder = Literal["xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"]
@@ -21,11 +21,12 @@ Quaternion = tuple[float, float, float, float]
 
 _Angle = Annotated[float, Field(ge=-12.6, le=12.6)]
 _Metres = Annotated[float, Field(ge=-10.0, le=10.0)]
-_Target = tuple[_Metres, _Metres, _Metres]
-_AngleTriple = tuple[_Angle, _Angle, _Angle]
+_Target = Annotated[tuple[_Metres, _Metres, _Metres], Strict(strict=False)]
+"""JSON's list is read as a tuple; the numbers in it are numbers all the same."""
+_AngleTriple = Annotated[tuple[_Angle, _Angle, _Angle], Strict(strict=False)]
 
 
-class EulerOrientation(WireModel):
+class EulerOrientation(RequestModel):
     """An orientation by three angles; `zyx` is Rz Ry Rx."""
 
     kind: Literal["euler"]
@@ -33,19 +34,19 @@ class EulerOrientation(WireModel):
     angles_rad: _AngleTriple
 
 
-class AxisAngleOrientation(WireModel):
+class AxisAngleOrientation(RequestModel):
     """An orientation by an axis of any length and an angle about it."""
 
     kind: Literal["axis_angle"]
-    axis: tuple[_Metres, _Metres, _Metres]
+    axis: _Target
     angle_rad: _Angle
 
 
-class QuaternionOrientation(WireModel):
+class QuaternionOrientation(RequestModel):
     """An orientation by a quaternion of any length."""
 
     kind: Literal["quaternion"]
-    quaternion: tuple[_Metres, _Metres, _Metres, _Metres]
+    quaternion: Annotated[tuple[_Metres, _Metres, _Metres, _Metres], Strict(strict=False)]
 
 
 WireOrientation = Annotated[
@@ -53,7 +54,7 @@ WireOrientation = Annotated[
 ]
 
 
-class InterpolationRequest(WireModel):
+class InterpolationRequest(RequestModel):
     """Two orientations, and how to go from one to the other.
 
     Angles that are given are interpolated as they are given, in the order that is interpolated: 270° goes
@@ -65,7 +66,7 @@ class InterpolationRequest(WireModel):
     euler_order: EulerOrder = "zyx"
     """Of the Euler angles that are interpolated."""
     samples: Annotated[int, Field(ge=2, le=481)] = 121
-    tip: tuple[_Metres, _Metres, _Metres] = (1.0, 0.0, 0.0)
+    tip: _Target = (1.0, 0.0, 0.0)
     """The point of the turned body whose path is told."""
 
 
@@ -189,7 +190,7 @@ class LabChainList(WireModel):
     chains: list[LabChain]
 
 
-class ForwardRequest(WireModel):
+class ForwardRequest(RequestModel):
     """Angles for every hinge of a chain."""
 
     rig: str = "trumpeter"
@@ -200,7 +201,7 @@ class ForwardRequest(WireModel):
     """Whether an angle beyond the rig's limits is refused."""
 
 
-class SolverChoice(WireModel):
+class SolverChoice(RequestModel):
     """Which solver, and how."""
 
     solver: SolverName
@@ -218,7 +219,7 @@ class SolverChoice(WireModel):
     """For `two_bone`: turn of the elbow or knee about the line to the target; null to have one chosen."""
 
 
-class InverseRequest(WireModel):
+class InverseRequest(RequestModel):
     """A target for the end of a chain, in the frame of the joint that carries it."""
 
     rig: str = "trumpeter"
@@ -249,7 +250,7 @@ class InverseAnswer(WireModel):
     pose: LabPose
 
 
-class ReachRequest(WireModel):
+class ReachRequest(RequestModel):
     """A plane through a point, to be asked cell by cell."""
 
     rig: str = "trumpeter"

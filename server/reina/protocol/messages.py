@@ -6,7 +6,7 @@ from pydantic import Field, TypeAdapter
 
 from reina.protocol.alignment import AlignmentState
 from reina.protocol.manifest import Manifest
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 from reina.protocol.notes import WireNote
 from reina.protocol.transport import TransportState
 
@@ -166,14 +166,14 @@ class StreamError(WireModel):
     detail: str
 
 
-class Ping(WireModel):
+class Ping(RequestModel):
     """A viewer measures the offset between its clock and the server's."""
 
     type: Literal["ping"]
     id: Annotated[int, Field(ge=0, le=2**53)]
 
 
-class Lead(WireModel):
+class Lead(RequestModel):
     """A viewer wants frames longer before they are due, as behind a network that is slow or loses packets.
 
     Some that were sent already may come again.

@@ -17,3 +17,9 @@ class WireModel(BaseModel):
         use_attribute_docstrings=True,
         json_schema_serialization_defaults_required=True,
     )
+
+
+class RequestModel(WireModel):
+    """What is sent to the server; strict about types too: true is no number, "3" neither."""
+
+    model_config = ConfigDict(strict=True)

@@ -9,7 +9,7 @@ from reina.instruments import MAX_PLAYERS
 from reina.instruments.note_fingerings import Side
 from reina.protocol.alignment import AlignmentState
 from reina.protocol.messages import ShowState, SongState
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 from reina.protocol.notes import WireNote
 from reina.show.document import ShowHead, ShowKeyframe, ShowTrack
 
@@ -194,7 +194,7 @@ class SessionList(WireModel):
     """What the next page is asked for with, as `after`; null when there are no more."""
 
 
-class SessionChange(WireModel):
+class SessionChange(RequestModel):
     """What PATCH may change of a session; a field left out stays.
 
     Of another sequence the best part is played, unless one is named with it. Another part is played alone,
@@ -216,7 +216,7 @@ class SessionChange(WireModel):
     """`auto`: the score itself says who plays it; the fields for one player are then left out."""
 
 
-class CastingFields(WireModel):
+class CastingFields(RequestModel):
     """What a player is asked to do; a field left out is as it is by default."""
 
     part: PartIndex | None = None
@@ -236,7 +236,7 @@ class CastingFields(WireModel):
     """Take no fingering but the usual one of each note."""
 
 
-class CastFields(WireModel):
+class CastFields(RequestModel):
     """Who is to play what, the first player first."""
 
     castings: Annotated[list[CastingFields], Field(min_length=1, max_length=MAX_PLAYERS)]
@@ -244,7 +244,7 @@ class CastFields(WireModel):
     """Which sequence of a MIDI file of format 2; null leaves it as it is."""
 
 
-class AutoCast(WireModel):
+class AutoCast(RequestModel):
     """That the score itself is to say who plays it."""
 
     cast: Literal["auto"]

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 from reina.show.document import ShowTrack
 from reina.show.model import read_later
 
@@ -38,7 +38,7 @@ class ShowCurves(WireModel):
     """In the order in which they were asked for."""
 
 
-class CurvePreview(WireModel):
+class CurvePreview(RequestModel):
     """A track whose curve is asked for; it is not kept."""
 
     track: Annotated[dict[str, Any], read_later(ShowTrack)]

@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 
 MINIMUM_RATE = 0.1
 MAXIMUM_RATE = 4.0
@@ -43,7 +43,7 @@ class TransportState(WireModel):
 CountIn = Annotated[float, Field(ge=0, le=MAXIMUM_COUNT_IN_S)]
 
 
-class Play(WireModel):
+class Play(RequestModel):
     """Play from where the clock stands (from the start, where it stands at the end)."""
 
     action: Literal["play"]
@@ -51,27 +51,27 @@ class Play(WireModel):
     """Song seconds that are counted in before: so long song time stands, at the rate."""
 
 
-class Pause(WireModel):
+class Pause(RequestModel):
     """Stop, and stay."""
 
     action: Literal["pause"]
 
 
-class Seek(WireModel):
+class Seek(RequestModel):
     """Go to a song time, held within the score."""
 
     action: Literal["seek"]
     song_time_s: Annotated[float, Field(ge=0)]
 
 
-class SetRate(WireModel):
+class SetRate(RequestModel):
     """Play faster or slower."""
 
     action: Literal["rate"]
     rate: Annotated[float, Field(ge=MINIMUM_RATE, le=MAXIMUM_RATE)]
 
 
-class SetLoop(WireModel):
+class SetLoop(RequestModel):
     """Loop over a span; both null, or left out, end the loop."""
 
     action: Literal["loop"]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
-from reina.protocol.model import WireModel
+from reina.protocol.model import RequestModel, WireModel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,7 +63,7 @@ def field_types(model: type[BaseModel]) -> dict[str, tuple[str, str]]:
 def _base(model: type[BaseModel]) -> type[BaseModel] | None:
     """The model that it extends, or None."""
     base = model.__base__
-    return base if base and issubclass(base, WireModel) and base is not WireModel else None
+    return base if base and issubclass(base, WireModel) and base not in (WireModel, RequestModel) else None
 
 
 def _definition(name: str, schema: Schema, base: str | None, inherited: Schema, *, readonly: bool) -> str:

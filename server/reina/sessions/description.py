@@ -21,7 +21,6 @@ from reina.protocol.messages import Transport
 from reina.protocol.notes import WireNote
 from reina.protocol.transport import Loop, TransportState
 from reina.sessions.written_part import music_keys
-from reina.system.json_text import Written, json_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -202,17 +201,12 @@ def score_texts(score: Score, kind: TextKind) -> list[resources.ScoreText]:
     ]
 
 
-def score_text(production: Production, title: str, part: int | None = None) -> bytes:
-    """The whole score as JSON, or the notes of one part of it alone.
-
-    Written note by note: as one, a long score would hold the interpreter's lock for most of a second.
-    """
+def score_head(production: Production) -> dict[str, Any]:
+    """A score as JSON, without its title and its notes."""
     score = production.score
-    table = note_table(production)
-    indices = range(len(score.notes)) if part is None else score.note_indices(part)
     bar_lines = score.metre_map.bar_lines(score.duration_beats + 1e-9)
     head = resources.Score(
-        title=title,
+        title="",
         duration_s=score.duration_s,
         sequence=score.sequence,
         **lead_fields(production),
@@ -227,8 +221,7 @@ def score_text(production: Production, title: str, part: int | None = None) -> b
         texts=score_texts(score, "text"),
         warnings=warned(production.warnings),
     )
-    notes = [Written(wire_note(table.note(int(index))).model_dump_json().encode()) for index in indices]
-    return json_text({**head.model_dump(mode="json"), "notes": notes})
+    return head.model_dump(mode="json", exclude={"title", "notes"})
 
 
 def stances_of(record: SessionRecord) -> list[resources.Stance]:

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     )
     from reina.instruments.player import Seat
     from reina.music import Finding, Score, ScoreWarning, SongTimes
+    from reina.sessions.packed_score import PackedScore
     from reina.sessions.stage import Stage
     from reina.skeleton import HumanPose
 
@@ -65,6 +66,7 @@ class Production:
         show_plan: The show, made ready.
         performance: All of it as a function of time.
         manifest: What its frames hold.
+        packed_score: The score as it is answered with, where it is so long that it is written beforehand.
     """
 
     stage: Stage
@@ -77,6 +79,7 @@ class Production:
     show_plan: ShowPlan
     performance: Performance
     manifest: Manifest
+    packed_score: PackedScore | None = None
 
     @classmethod
     def plan(
@@ -239,7 +242,7 @@ class Production:
         if fps == self.manifest.fps:
             return self
         times, happens = self.show_plan.time_map, self.show_plan.triggers
-        plan = self.show.plan(self.registry, times, triggers=happens, fps=fps)
+        plan = self.show.plan(self.registry, times, triggers=happens, fps=fps, earlier=self.show_plan)
         performance = Performance(self.performers, plan, duration_s=self.score.duration_s, fps=fps)
         return replace(
             self, show_plan=plan, performance=performance, manifest=build_manifest(performance.layout)
@@ -254,8 +257,7 @@ def rebound(show: Show, registry: ParameterRegistry) -> Show:
 
 def _has_effect(track: Track | UnknownTrack, registry: ParameterRegistry) -> bool:
     parameter = registry.get(track.parameter)
-    named = track if isinstance(track, Track) else track.document
-    return parameter is not None and not unknown_choices(named, parameter)
+    return parameter is not None and not unknown_choices(track, parameter)
 
 
 def _places(castings: Sequence[Casting], seats: Sequence[Seat]) -> tuple[Place, ...]:

@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.curves.shown import shortened
 from reina.music import ScoreWarning
 from reina.show import Track, UnknownTrack, unknown_choices
+from reina.show.errors import MAX_FAULTS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from reina.sessions.production import Production
     from reina.show import Show, TimeMap, TimeUnit
 
+MOST_NAMES = 8
+"""So many are told in one warning."""
 LATE = 1e-6
 """Seconds after the end that are a rounding and no keyframe too late."""
 
@@ -36,20 +40,29 @@ def show_warnings(production: Production, duration_s: float) -> list[ScoreWarnin
 
 
 def _unknown(production: Production) -> Iterator[ScoreWarning]:
-    for track in production.show.tracks:
-        if not isinstance(track, UnknownTrack):
-            continue
+    unknown = [track for track in production.show.tracks if isinstance(track, UnknownTrack)]
+    for track in unknown[:MAX_FAULTS]:
         parameter, kept = (
             production.registry.get(track.parameter),
             "its track is kept as it came and has no effect",
         )
         if parameter is None:
             message = f"no parameter of this name is known here; {kept}"
-            yield ScoreWarning("show-unknown-parameter", track.parameter, message)
+            yield ScoreWarning("show-unknown-parameter", shortened(track.parameter), message)
         else:
-            names = ", ".join(unknown_choices(track.document, parameter))
+            names = _some(unknown_choices(track, parameter))
             message = f"it names {names}, which is not here; there are {', '.join(parameter.choices)}; {kept}"
             yield ScoreWarning("show-unknown-choice", track.parameter, message)
+    others = len(unknown) - MAX_FAULTS
+    if others > 0:
+        message = f"{others} more tracks are kept as they came and have no effect"
+        yield ScoreWarning("show-unknown-parameter", "tracks", message, others)
+
+
+def _some(names: Sequence[str]) -> str:
+    """Names in a row: the first few, and how many more there are."""
+    told = ", ".join(map(shortened, names[:MOST_NAMES]))
+    return told if len(names) <= MOST_NAMES else f"{told} and {len(names) - MOST_NAMES} more"
 
 
 def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[ScoreWarning]:
@@ -67,7 +80,7 @@ def _late_keyframes(show: Show, time_map: TimeMap, duration_s: float) -> Iterato
 def _late_markers(show: Show, time_map: TimeMap, duration_s: float) -> Iterator[ScoreWarning]:
     late = _late([marker.time for marker in show.markers], show.time, time_map, duration_s)
     if late:
-        names = ", ".join(marker.name for marker in show.markers[len(show.markers) - late :])
+        names = _some([marker.name for marker in show.markers[len(show.markers) - late :]])
         message = f"these stand {_beyond(show.time, time_map, duration_s)}: {names}"
         yield ScoreWarning("show-markers-after-the-end", "markers", message, late)
 
@@ -93,7 +106,7 @@ def _never_answers(production: Production) -> Iterator[ScoreWarning]:
         pieces = track.events.where.pieces or ()
         unknown = [piece for piece in pieces if piece not in kit]
         if kit and unknown:
-            message = f"it answers strokes on {', '.join(unknown)}; the kit has {', '.join(kit)}"
+            message = f"it answers strokes on {_some(unknown)}; the kit has {', '.join(kit)}"
             yield ScoreWarning("show-unknown-piece", track.parameter, message)
             if len(unknown) == len(pieces):
                 continue

@@ -9,16 +9,24 @@ from typing import TYPE_CHECKING
 from reina.protocol.messages import ShowState
 from reina.sessions.show_text import ShowText
 from reina.show import Show, ShowHistory, Track
+from reina.system.json_text import json_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
+    from typing import Any
 
+    from reina.curves import Keyframe
+    from reina.sessions.show_text import TrackText
     from reina.show import UnknownTrack
 
-MAX_KEYFRAMES_KEPT = 200_000
-"""Keyframes that only the history still holds; beyond that, its oldest steps are forgotten."""
-REFERENCES_A_KEYFRAME = 64
-"""A track that was edited holds its unchanged keyframes by reference alone: so many weigh what one weighs."""
+MAX_BYTES_KEPT = 16_000_000
+"""Text that only the history still holds; beyond that, its oldest steps are forgotten."""
+REFERENCE_BYTES = 1
+"""A track that was edited holds its unchanged keyframes by reference alone: each weighs so much."""
+STEP_BYTES = 100
+"""What a step weighs of itself."""
+FEW = 64
+"""One keyframe in so many that was replaced is found without looking for it elsewhere in the track."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +39,8 @@ class ShowRevision:
         history: The show, its past, and what was taken back.
         text: The show, written.
         revision: How many steps led here, since the session was loaded.
-        weights: What each step holds beside what its neighbours hold, in keyframes: one for each state of the
-            past, the oldest first, then one for each that was taken back, the latest first.
+        weights: What each step holds beside what its neighbours hold, in bytes of text: one for each state of
+            the past, the oldest first, then one for each that was taken back, the latest first.
     """
 
     history: ShowHistory
@@ -59,13 +67,13 @@ class ShowRevision:
         history = step(self.history)
         if history is self.history:
             return self
-        weights = self.weights
+        text, weights = ShowText.of(history.show, self.text), self.weights
         if history.past and history.past[-1] is self.show and not history.future:
             # An edit, and what was taken back before is forgotten; or the last such, which weighs the same.
             done = len(self.history.past)
-            weights = (*weights[:done], _weight(self.show, history.show))[-len(history.past) :]
+            weights = (*weights[:done], _weight(self.text, text))[-len(history.past) :]
         history, weights = _bounded(history, weights)
-        return ShowRevision(history, ShowText.of(history.show, self.text), self.revision + 1, weights)
+        return ShowRevision(history, text, self.revision + 1, weights)
 
     @property
     def state(self) -> ShowState:
@@ -92,30 +100,46 @@ def _same(one: Track | UnknownTrack | None, other: Track | UnknownTrack | None) 
     return one is other or one == other
 
 
-def _weight(before: Show, after: Show) -> int:
-    """What two states of a show hold that the other does not, in keyframes; 1 at least."""
-    old, new = ({track.parameter: track for track in show.tracks} for show in (before, after))
-    return 1 + sum(_weight_of_tracks(old.get(path), new.get(path)) for path in {**old, **new})
+def _weight(before: ShowText, after: ShowText) -> int:
+    """What two states of a show hold that the other does not, in bytes of text."""
+    paths = {**before.tracks, **after.tracks}
+    tracks = sum(_weight_of_tracks(before.tracks.get(path), after.tracks.get(path)) for path in paths)
+    heads = 0 if before.head == after.head else max(len(json_text(text.head)) for text in (before, after))
+    return STEP_BYTES + heads + tracks
 
 
-def _weight_of_tracks(old: Track | UnknownTrack | None, new: Track | UnknownTrack | None) -> int:
-    if old is new:
+def _weight_of_tracks(old: TrackText | None, new: TrackText | None) -> int:
+    written = [text for text in (old, new) if text is not None]
+    if old is not None and new is not None and old.track is new.track:
         return 0
-    one, other = (track.keyframes if isinstance(track, Track) else () for track in (old, new))
-    references = max(len(one), len(other)) // REFERENCES_A_KEYFRAME
+    whole = max(len(text.text) for text in written)
+    one, other = map(_keyframes, (old, new))
+    most = max(len(one), len(other))
+    if not most:
+        return whole
     if len(one) == len(other):
-        # Few keyframes that gave way to others at their own places, as mostly: no need to look for them.
-        replaced = sum(map(is_not, one, other))
-        if replaced <= references:
-            return replaced + references
-    shared = len(set(map(id, one)) & set(map(id, other)))
-    return max(len(one), len(other)) - shared + references
+        # At their own places, as mostly: no need to look for those that moved.
+        apart = sum(map(is_not, one, other))
+        if apart * FEW > most:
+            apart = most - _shared(one, other)
+    else:
+        apart = most - _shared(one, other)
+    return most * REFERENCE_BYTES + whole * apart // most
+
+
+def _keyframes(written: TrackText | None) -> tuple[Keyframe[Any], ...]:
+    return written.track.keyframes if written is not None and isinstance(written.track, Track) else ()
+
+
+def _shared(one: Sequence[Keyframe[Any]], other: Sequence[Keyframe[Any]]) -> int:
+    """How many keyframes both hold."""
+    return len(set(map(id, one)) & set(map(id, other)))
 
 
 def _bounded(history: ShowHistory, weights: tuple[int, ...]) -> tuple[ShowHistory, tuple[int, ...]]:
     """Forget the oldest steps while all together weigh too much; what was taken back goes last."""
     past = history.past
-    too_much = sum(weights) - MAX_KEYFRAMES_KEPT
+    too_much = sum(weights) - MAX_BYTES_KEPT
     while past and too_much > 0:
         too_much -= weights[0]
         past, weights = past[1:], weights[1:]

@@ -75,7 +75,7 @@ class ShowText:
 
 
 def _written(track: Track | UnknownTrack, show: Show) -> TrackText:
-    text = track_text(track, show.time) if isinstance(track, Track) else json_text(track.document)
+    text = track_text(track, show.time) if isinstance(track, Track) else track.text
     return TrackText(track, text, _etag(text))
 
 

@@ -83,6 +83,7 @@ class Draft:
         public: Whether the list of sessions shows it.
         cast: Who plays what.
         in_time: Whether the score's seconds are the song's already, so that it need not be looked for.
+        sender: Who sent it, as far as that is known; what is read of senders is read in turn.
     """
 
     folder: Path
@@ -94,6 +95,7 @@ class Draft:
     public: bool = False
     cast: Cast = field(default_factory=Cast)
     in_time: bool = False
+    sender: str = ""
 
 
 class SessionStore:
@@ -170,7 +172,9 @@ class SessionStore:
         """
         token = new_token()
         try:
-            production = await self._plan(draft.folder / draft.score, draft.score_filename, draft.cast)
+            production = await self._plan(
+                draft.folder / draft.score, draft.score_filename, draft.cast, owner=draft.sender
+            )
         except ScoreError as error:
             if await asyncio.to_thread(_role_of_file, draft.folder / draft.score) == "show":
                 raise ScoreError("this is a show; send it as the show, beside a score") from error
@@ -180,7 +184,7 @@ class SessionStore:
             show_file = draft.folder / draft.show
             data = await asyncio.to_thread(show_file.read_bytes)
             try:
-                show = await self.reader.show(data, production.registry)
+                show = await self.reader.show(data, production.registry, owner=draft.sender)
             except ShowError as error:
                 sent = await asyncio.to_thread(role_of, data)
                 if sent in {SHOW_DOCUMENT, OTHER_JSON}:
@@ -499,9 +503,10 @@ class SessionStore:
         record = await asyncio.to_thread(self._folders.record, session_id)
         alignment = await asyncio.to_thread(self._folders.alignment, session_id)
         planned = await self._plan(
-            folder / SCORE, record.score_filename, record.cast, alignment, record.stances
+            folder / SCORE, record.score_filename, record.cast, alignment, record.stances, owner=session_id
         )
-        show = await self.reader.show(await asyncio.to_thread((folder / SHOW).read_bytes), planned.registry)
+        data = await asyncio.to_thread((folder / SHOW).read_bytes)
+        show = await self.reader.show(data, planned.registry, owner=session_id)
 
         def prepared() -> tuple[SessionRecord, Production, ShowRevision, NoteMessages, Alignment | None]:
             production = planned.with_show(show)
@@ -516,6 +521,8 @@ class SessionStore:
         cast: Cast,
         alignment: Alignment | None = None,
         stances: Stances = (),
+        *,
+        owner: str,
     ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it."""
         heard = alignment if alignment is not None and alignment.moves else None
@@ -527,6 +534,7 @@ class SessionStore:
             alignment=heard,
             stances=poses,
             transposition=0 if heard is None else heard.played_higher,
+            owner=owner,
         )
 
     async def _plan_other(
@@ -535,7 +543,9 @@ class SessionStore:
         """Plan another cast, or the same heard elsewhere or with other stances, in place of the session's."""
         before, kept = session.production, session.show_revision
         path = self._folders.folder(session.id) / SCORE
-        planned = await self._plan(path, session.record.score_filename, wanted, alignment, stances)
+        planned = await self._plan(
+            path, session.record.score_filename, wanted, alignment, stances, owner=session.id
+        )
         another = (
             planned.score.sequence != before.score.sequence
             or planned.places != before.places

@@ -238,8 +238,12 @@ EDITS: dict[str, type[ShowModel]] = {
 """Every edit by its name."""
 
 
-def _read_edits(document: object) -> list[Edit]:
-    """Read a list of edits from JSON; an error knows of what else is wrong."""
+def read_edits(document: object) -> list[Edit]:
+    """Read a list of edits from JSON.
+
+    Raises:
+        ShowError: It is none; the error knows of what else is wrong.
+    """
     if not isinstance(document, list | tuple):
         raise ShowError(f"{shown(document)} is no list; a list of edits is needed here", field="edits")
     edits: list[Edit] = []
@@ -275,8 +279,15 @@ def with_edits(
         ShowError: An edit, or what comes of them, is not as it should be.
         KeyNotFoundError: A track or keyframe is not there.
     """
+    return with_read_edits(show, read_edits(edits), registry, time_map)
+
+
+def with_read_edits(
+    show: Show, edits: Sequence[Edit], registry: ParameterRegistry, time_map: TimeMap | None = None
+) -> Show:
+    """`with_edits` of edits that are read already."""
     draft = ShowDraft(show, registry, time_map or TimeMap.steady())
-    for index, edit in enumerate(_read_edits(edits)):
+    for index, edit in enumerate(edits):
         try:
             edit.make(draft)
         except ShowError as error:

@@ -36,7 +36,7 @@ def show_error(
         location = _location(fault)
         track, key, field = at(location) if at is not None else (None, None, field_name(location))
         errors.append(ShowError(_words(fault, model, unit), track=track, key=key, field=field))
-    return together(errors)
+    return together(errors, error.error_count() - len(found))
 
 
 def _rank(fault: ErrorDetails) -> tuple[int, bool]:

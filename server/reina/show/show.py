@@ -13,11 +13,12 @@ from reina.show.faults import show_error
 from reina.show.plain_json import check_plain
 from reina.show.show_plan import ShowPlan
 from reina.show.show_reader import read_track
-from reina.show.show_writer import json_value, track_document
+from reina.show.show_writer import track_document
 from reina.show.time_map import TimeMap, TimeUnit
 from reina.show.track import Track, UnknownTrack
 from reina.show.triggers import Triggers
-from reina.show.unknown_choices import unknown_choices
+from reina.show.unknown_choices import choices_of
+from reina.system.json_text import json_text
 
 VERSION = 1
 MAX_KEYFRAMES = 500_000
@@ -105,7 +106,7 @@ class Show:
         if self.markers:
             document["markers"] = [{"time": marker.time, "name": marker.name} for marker in self.markers]
         document["tracks"] = [
-            track_document(track, self.time) if isinstance(track, Track) else json_value(track.document)
+            track_document(track, self.time) if isinstance(track, Track) else track.document
             for track in self.tracks
         ]
         return document
@@ -167,10 +168,11 @@ def _read_track(
     if not isinstance(path, str) or not path:
         raise ShowError("a parameter's path is needed here", field=f"tracks/{index}/parameter")
     parameter = registry.get(path)
-    if parameter is not None and not unknown_choices(document, parameter):
+    choices = () if parameter is None else choices_of(document, parameter)
+    if parameter is not None and all(choice in parameter.choices for choice in choices):
         return read_track(document, parameter, unit)
     try:
         check_plain(document)
     except ValueError as error:
         raise ShowError(str(error), field=f"tracks/{index}") from None
-    return UnknownTrack(path, document)
+    return UnknownTrack(path, json_text(document), choices)

@@ -3,7 +3,7 @@
 import pickle
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from reina.curves.extrapolation import Extrapolation
 from reina.curves.keyframe import Keyframe
@@ -11,6 +11,7 @@ from reina.curves.spaces import ColorSpace
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.show.event_response import EventResponse
 from reina.show.time_map import TimeUnit
+from reina.system.json_text import read_json
 
 NEAREST = 1e-9
 """Keys that are nearer than this stand at one time: a slope between them would be beyond all measure."""
@@ -99,10 +100,19 @@ class Track:
 class UnknownTrack:
     """A track of a parameter, or with a choice, that is not in the registry: kept as it came, without effect.
 
+    It is kept as text: as objects it would take thirty times the memory.
+
     Attributes:
         parameter: The path.
-        document: The track as JSON.
+        text: The track as JSON, UTF-8.
+        choices: What it chooses, each once, where its parameter is known and has choices that may be added.
     """
 
     parameter: str
-    document: Mapping[str, Any]
+    text: bytes
+    choices: tuple[str, ...] = ()
+
+    @property
+    def document(self) -> Mapping[str, Any]:
+        """The track as JSON; read anew each time."""
+        return cast("Mapping[str, Any]", read_json(self.text))

@@ -1,24 +1,27 @@
 """Choices that a track names and that are not there, of parameters whose choices a session may add to."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, cast
 
 from reina.curves.parameter import Parameter
-from reina.show.track import Track
+from reina.show.track import Track, UnknownTrack
 
 
-def unknown_choices(track: Track | Mapping[str, Any], parameter: Parameter) -> tuple[str, ...]:
-    """Names of choices that a track has and its parameter has not; none where choices are not open.
-
-    Args:
-        track: The track, or its document, which may be anything.
-        parameter: What it moves.
-    """
+def unknown_choices(track: Track | UnknownTrack, parameter: Parameter) -> tuple[str, ...]:
+    """Names of choices that a track has and its parameter has not; none where choices are not open."""
     if not parameter.open_choices:
         return ()
-    named = _of_track(track) if isinstance(track, Track) else _of_document(track)
-    names = (name for name in named if isinstance(name, str) and name not in parameter.choices)
-    return tuple(dict.fromkeys(names))
+    named = track.choices if isinstance(track, UnknownTrack) else _distinct(_of_track(track))
+    return tuple(name for name in named if name not in parameter.choices)
+
+
+def choices_of(document: Mapping[str, Any], parameter: Parameter) -> tuple[str, ...]:
+    """What a track's document, which may be anything, chooses; nothing where choices are not open."""
+    return _distinct(_of_document(document)) if parameter.open_choices else ()
+
+
+def _distinct(named: Iterable[object]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for name in named if isinstance(name, str)))
 
 
 def _of_track(track: Track) -> Iterator[object]:

@@ -82,34 +82,67 @@ SEWN_ON = {"Lapels", "Pockets", "Buttons"}
 SHIFTS = 0.010 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
 
 
-def outside(inner: Cloth, outer: Cloth, pose: Array, shift: Array | None = None) -> Array:
-    """How far each vertex of `inner` is outside of `outer`, metres ``(V,)``; NaN if it is not under it."""
-    points, _ = inner.posed(pose)
-    corners, shares = outer.samples
-    at, facing = outer.posed(pose)
+@dataclass(frozen=True)
+class Draped:
+    """A cloth in a pose: points all over it (N, 3), and the tree that finds the nearest of them."""
+
+    tree: cKDTree
+    places: Array
+    normals: Array
+    border: NDArray[np.bool_]
+
+
+def drape(cloth: Cloth, pose: Array) -> Draped:
+    corners, shares = cloth.samples
+    at, facing = cloth.posed(pose)
     places = np.einsum("nk,nkj->nj", shares, at[corners])
     normals = np.einsum("nk,nkj->nj", shares, facing[corners])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    border: NDArray[np.bool_] = np.any(outer.border[corners], axis=1)
+    # Asked once or a few times, a tree that is built fast serves better than one that is searched fast.
+    tree = cKDTree(places, balanced_tree=False, compact_nodes=False)
+    return Draped(tree, places, normals, np.any(cloth.border[corners], axis=1))
+
+
+def outside(inner: Cloth, outer: Draped, pose: Array, shift: Array | None = None) -> Array:
+    """How far each vertex of `inner` is outside of `outer`, metres ``(V,)``; NaN if it is not under it.
+
+    With a `shift`, metres (3,), the outer one hangs so far off.
+    """
+    points, _ = inner.posed(pose)
     if shift is not None:
-        places = places + shift
-    distance, index = cKDTree(places).query(points, k=1)
-    depth: Array = ((points - places[index]) * normals[index]).sum(axis=1)
-    depth[(distance > NEAR_M) | border[index]] = np.nan
+        points = points - shift
+    # The bound itself would be excluded.
+    distance, index = outer.tree.query(points, k=1, distance_upper_bound=np.nextafter(NEAR_M, 1.0))
+    under = np.flatnonzero(distance <= NEAR_M)
+    under = under[~outer.border[index[under]]]
+    nearest = index[under]
+    depth: Array = np.full(len(points), np.nan)
+    depth[under] = ((points[under] - outer.places[nearest]) * outer.normals[nearest]).sum(axis=1)
     return depth
 
 
-def most_outside(model: Model, inner: Cloth, outer: str, shift: Array | None = None) -> float:
+def most_outside(model: Model, inner: Cloth, outer: str) -> float:
     """How far a vertex comes out of the cloth over it, at most over all poses, metres."""
     worst = -1.0
     judged = 0
     for pose in model.poses:
-        depth = outside(inner, model.cloths[outer], pose, shift)
+        depth = outside(inner, drape(model.cloths[outer], pose), pose)
         depth = depth[~np.isnan(depth)]
         judged += len(depth)
         worst = max(worst, float(depth.max(initial=-1.0)))
-    assert shift is not None or judged >= len(model.poses), "too little was there to be judged"
+    assert judged >= len(model.poses), "too little was there to be judged"
     return worst
+
+
+def found_off(model: Model, inner: Cloth, outer: str, allowed_m: float) -> bool:
+    """Whether in any pose a vertex would come further out, were the cloth over it a centimetre off."""
+    for pose in model.poses:
+        draped = drape(model.cloths[outer], pose)
+        for shift in SHIFTS:
+            depth = outside(inner, draped, pose, shift)
+            if depth[~np.isnan(depth)].max(initial=-1.0) > allowed_m:
+                return True
+    return False
 
 
 def wrists(model: Model) -> Cloth:
@@ -127,7 +160,7 @@ def test_skin_stays_under_the_coat(model: Model) -> None:
 
 def test_a_sleeve_a_centimetre_off_would_be_found(model: Model) -> None:
     coat = COAT[model.player]
-    assert max(most_outside(model, wrists(model), coat, shift=shift) for shift in SHIFTS) > 0.0
+    assert found_off(model, wrists(model), coat, 0.0)
 
 
 def test_what_is_worn_under_the_coat_stays_under_it(model: Model) -> None:
@@ -138,13 +171,14 @@ def test_what_is_worn_under_the_coat_stays_under_it(model: Model) -> None:
     shirt = shirt.only(shirt.positions[:, 1] < model.cloths[coat].positions[:, 1].max() - NECK_M)
     judged = 0
     for pose in model.poses:
-        depth = np.fmin(outside(shirt, lapels, pose), outside(shirt, model.cloths[coat], pose))
+        over = (drape(lapels, pose), drape(model.cloths[coat], pose))
+        depth = np.fmin(outside(shirt, over[0], pose), outside(shirt, over[1], pose))
         judged += int(np.sum(~np.isnan(depth)))
         assert np.nanmax(depth) < GRAZE_M
     assert judged >= 100 * len(model.poses)
     legs = model.cloths[LEGS[model.player]]
     assert most_outside(model, legs, coat) < GRAZE_M
-    assert max(most_outside(model, legs, coat, shift=shift) for shift in SHIFTS) > GRAZE_M
+    assert found_off(model, legs, coat, GRAZE_M)
 
 
 @pytest.mark.parametrize("tier", ["medium", "low"])
@@ -158,7 +192,7 @@ def test_hems_hold_in_the_lesser_tiers(model: Model, tier: str, tmp_path: Path) 
 def test_feet_are_in_their_shoes_and_shoes_under_the_trousers(model: Model) -> None:
     inner, outer = FEET[model.player]
     assert most_outside(model, model.cloths[inner], outer) < GRAZE_M
-    assert max(most_outside(model, model.cloths[inner], outer, shift=shift) for shift in SHIFTS) > GRAZE_M
+    assert found_off(model, model.cloths[inner], outer, GRAZE_M)
 
 
 def test_what_is_sewn_on_the_coat_faces_as_the_coat_does(model: Model) -> None:
@@ -181,5 +215,7 @@ def test_fingers_stay_clear_of_all_cloth(model: Model) -> None:
         if name in ("Skin", "Lashes", "Eyes", "Hair", "Shirt"):
             continue  # the shirt's cuffs are at the wrists, where thumbs begin
         for pose in model.poses:
-            distance, _ = cKDTree(cloth.posed(pose)[0]).query(fingers.posed(pose)[0], k=1)
+            tree = cKDTree(cloth.posed(pose)[0], balanced_tree=False, compact_nodes=False)
+            # inf where nothing is as near as twice that.
+            distance, _ = tree.query(fingers.posed(pose)[0], k=1, distance_upper_bound=2 * CLEAR_M)
             assert distance.min() > CLEAR_M, name

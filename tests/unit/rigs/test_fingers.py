@@ -52,7 +52,8 @@ class Metal:
     def depth(self, places: Array, amount: float) -> Array:
         """How deep each place (V, 3) is in it, metres (V,); NaN where it is not near."""
         moved = places - amount * self.travel
-        distance, index = self.tree.query(moved, k=1)
+        # Beyond NEAR_M the search gives up, and says inf.
+        distance, index = self.tree.query(moved, k=1, distance_upper_bound=NEAR_M)
         near = distance < NEAR_M
         deep = np.full(len(places), np.nan)
         index = index[near]
@@ -190,12 +191,14 @@ def test_no_finger_is_in_another(hands: Hands) -> None:
             for own in FINGERS:
                 mine = outer & (finger == own) & (side == which)
                 others = (finger != own) & (finger != "") & (side == which)
-                distance, index = cKDTree(places[others]).query(places[mine], k=1)
+                distance, index = cKDTree(places[others]).query(
+                    places[mine], k=1, distance_upper_bound=NEAR_M
+                )
                 near = distance < NEAR_M
                 index = index[near]
                 apart = ((places[mine][near] - places[others][index]) * normals[others][index]).sum(axis=1)
                 judged += len(apart)
                 assert apart.min(initial=1.0) > 0.0, (which, own)
         left, right = cKDTree(places[side == "left"]), places[side == "right"]
-        assert left.query(right, k=1)[0].min() > 0.004
+        assert left.query(right, k=1, distance_upper_bound=NEAR_M)[0].min() > 0.004
     assert judged > 100 * len(hands.frames)

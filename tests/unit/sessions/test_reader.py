@@ -6,7 +6,7 @@ import asyncio
 import json
 import pickle
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import pytest
 from tests.integration.intake import large_show
@@ -45,8 +45,8 @@ def in_process(
         here, there = Reader(stage), Reader(stage, pool)
         monkeypatch.setattr(module, "LONG_BYTES", 10**9)
 
-        async def elsewhere(size: int, function: Any, *arguments: Any) -> Any:
-            return await pool.run(function, *arguments)
+        async def elsewhere(size: int, function: Any, *arguments: Any, owner: Any = None) -> Any:
+            return await pool.run(function, *arguments, owner=owner)
 
         monkeypatch.setattr(there, "_read", elsewhere)
         try:
@@ -100,11 +100,20 @@ def test_a_show_with_every_interpolation_comes_back_whole(
         )
         parameter = registry["lights/key/intensity"]
         track = json.dumps(tracks[0]).encode()
+        unknown = json.dumps({f"x{number}": 1 for number in range(100)}).encode()
         assert await there.track(track, parameter, "seconds") == one.tracks[0]
         with pytest.raises(ShowError, match="no JSON"):
             await there.show(b"[", registry)
         with pytest.raises(ShowError, match="body names"):
             await there.track(b'{"parameter": "x", "keyframes": []}', parameter, "seconds")
+        edits = (
+            b'[{"edit": "put_track", "track": %b}, {"edit": "change_show", "changes": {"title": "T"}}]'
+            % track
+        )
+        assert await there.edits(edits) == await here.edits(edits)
+        with pytest.raises(ShowError, match="no such field") as caught:
+            await there.edits(b'[{"edit": "change_show", "changes": {%b}}]' % unknown[1:-1])
+        assert (len(caught.value.others), caught.value.more) == (19, 80)
 
     in_process(stage, monkeypatch, scenario)
 
@@ -114,9 +123,11 @@ def test_long_files_go_to_a_process_and_short_ones_do_not(
 ) -> None:
     class Pool:
         asked = 0
+        owners: ClassVar[list[object]] = []
 
-        async def run(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        async def run(self, function: Callable[..., Any], *arguments: Any, owner: object) -> Any:
             self.asked += 1
+            self.owners.append(owner)
             return function(*arguments)
 
     async def scenario() -> None:
@@ -126,8 +137,9 @@ def test_long_files_go_to_a_process_and_short_ones_do_not(
         assert pool.asked == 0
         long = large_show(3000)
         assert len(long) > LONG_BYTES
-        await reader.show(long, stage.registry())
+        await reader.show(long, stage.registry(), owner="a session")
         assert pool.asked == 1
+        assert pool.owners == ["a session"]
         path = tmp_path / "score"
         path.write_bytes(b"\x1f\x8b" + bytes(LONG_BYTES // 20))
         with pytest.raises(ScoreError):

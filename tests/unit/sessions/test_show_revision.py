@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from reina.curves import Keyframe
 from reina.sessions import show_revision
-from reina.sessions.show_revision import ShowRevision, changed_paths
+from reina.sessions.show_revision import REFERENCE_BYTES, STEP_BYTES, ShowRevision, changed_paths
 from reina.sessions.show_text import NO_TRACK_ETAG, ShowText
 from reina.show import Show, Track
 from reina.stage import stage_registry
@@ -116,7 +116,8 @@ def test_the_history_is_bounded_by_steps_and_by_what_it_holds(monkeypatch: pytes
     for number in range(300):
         kept = edited(kept, Show((track(LIGHT, float(number)),)))
     assert kept.state.undo == kept.history.longest == 200
-    monkeypatch.setattr(show_revision, "MAX_KEYFRAMES_KEPT", 250)
+    hundred = len(ShowText.of(Show((track(LIGHT, *[1.0] * 100),))).tracks[LIGHT].text)
+    monkeypatch.setattr(show_revision, "MAX_BYTES_KEPT", int(2.5 * hundred))
     kept = ShowRevision.begin(Show())
     for number in range(10):
         kept = edited(kept, Show((track(LIGHT, *[float(number)] * 100),)))
@@ -130,19 +131,38 @@ def test_the_history_is_bounded_by_steps_and_by_what_it_holds(monkeypatch: pytes
 
 
 def test_a_large_track_that_is_edited_key_by_key_keeps_its_past(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(show_revision, "MAX_KEYFRAMES_KEPT", 500)
     kept = ShowRevision.begin(Show((track(LIGHT, *[1.0] * 1000),)))
+    whole = len(kept.text.tracks[LIGHT].text)
+    monkeypatch.setattr(show_revision, "MAX_BYTES_KEPT", whole)
     for number in range(100):
         own = kept.show.track(LIGHT)
         changed = (Keyframe(0.0, float(number), "k0"), *own.keyframes[1:])
         kept = edited(kept, Show((replace(own, keyframes=changed),)))
-    # A step weighs 1 for the keyframe, 1 for itself, and the references to 1,000.
-    assert kept.state.undo == 500 // (2 + 1000 // 64)
+    # A step weighs its keyframe's text, itself, and the references to 1,000.
+    assert kept.state.undo == whole // (whole // 1000 + STEP_BYTES + 1000 * REFERENCE_BYTES)
+    assert kept.state.undo > 40, "where a whole copy a step would leave one"
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [{"tracks": [{"parameter": "no/such", "x": "1" * 1000}]}, {"tracks": [], "description": "1" * 1000}],
+    ids=["an unknown track", "a description"],
+)
+def test_what_is_no_keyframe_weighs_its_text_too(
+    monkeypatch: pytest.MonkeyPatch, fields: dict[str, Any]
+) -> None:
+    monkeypatch.setattr(show_revision, "MAX_BYTES_KEPT", 5000)
+    kept = ShowRevision.begin(Show())
+    for number in range(20):
+        document = json.loads(json.dumps({"version": 1, **fields}).replace("1111", f"{number:04}"))
+        kept = edited(kept, Show.from_document(document, REGISTRY))
+    assert kept.revision == 20
+    assert kept.state.undo == 4
 
 
 def test_what_was_taken_back_weighs_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(show_revision, "MAX_KEYFRAMES_KEPT", 250)
     kept = ShowRevision.begin(Show((track(LIGHT, *[0.0] * 100),)))
+    monkeypatch.setattr(show_revision, "MAX_BYTES_KEPT", int(2.5 * len(kept.text.tracks[LIGHT].text)))
     for number in (1.0, 2.0):
         kept = edited(kept, Show((track(LIGHT, *[number] * 100),)))
     for _ in range(2):

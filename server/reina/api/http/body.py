@@ -5,12 +5,13 @@ from __future__ import annotations
 import asyncio
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from fastapi import Request
 from fastapi.routing import APIRoute
 from starlette.routing import compile_path
 
+from reina.api.http import paths
 from reina.api.http.access import admit
 from reina.api.http.problems import ProblemError
 from reina.api.http.upload_limits import FILE_LIMITS, MAX_BYTES, MEGABYTE
@@ -36,19 +37,25 @@ class BodyLimit:
     most_bytes: int
     name: str = "body"
 
+    @property
+    def shown(self) -> str:
+        """So large, for people."""
+        most = self.most_bytes
+        return f"{most / MEGABYTE:g} MB" if most >= MEGABYTE else f"{most / 1000:g} kB"
+
 
 SMALL = BodyLimit(16_000)
 """Commands, changes of single fields, what the laboratory is asked."""
 SHOW = BodyLimit(FILE_LIMITS["show"], "show")
 CLIP = BodyLimit(20 * MEGABYTE, "clip")
-TRACK = BodyLimit(10 * MEGABYTE, "track")
+TRACK = BodyLimit(MEGABYTE, "track")
 BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/sessions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/song/analysis"): BodyLimit(FILE_LIMITS["song"], "sound"),
     ("POST", "/transcriptions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/show"): SHOW,
     ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
-    ("PUT", "/sessions/{session_id}/show/tracks/{path:path}"): TRACK,
+    ("PUT", paths.TRACK): TRACK,
     ("POST", "/sessions/{session_id}/show/curves"): TRACK,
     ("POST", "/files/role"): BodyLimit(MEGABYTE, "file"),
     ("POST", "/sessions/{session_id}/stances"): CLIP,
@@ -57,6 +64,8 @@ BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
 }
 """By method and address; every other body is `SMALL`."""
 _PATTERNS = [(method, compile_path(path)[0], limit) for (method, path), limit in BODY_LIMITS.items()]
+MOST_FIELDS = 100
+"""No body that is read field by field has so many."""
 AT_ONCE = 64_000
 """Bytes of JSON that are parsed without a thread, within a millisecond."""
 
@@ -76,8 +85,8 @@ class BoundedRoute(APIRoute):
         async def bounded(request: Request) -> Response:
             await admit(request, self.dependant)
             checked = BoundedRequest(request, _limit_of(request))
-            if self.body_field is not None:
-                await checked.body()
+            if self.body_field is not None and len(await checked.body()) > AT_ONCE:
+                await checked.check_fields()
             return await handle(checked)
 
         return bounded
@@ -91,8 +100,21 @@ def _limit_of(request: Request) -> BodyLimit:
     )
 
 
+def _route_of(request: Request) -> str:
+    """What is asked, with names in the place of what varies."""
+    path: str = request.scope["path"]
+    for name, value in request.path_params.items():
+        path = path.replace(f"/{value}", f"/{{{name}}}", 1)
+    return path
+
+
 class BoundedRequest(Request):
-    """A request whose body is held to a bound while it is read, and parsed on a thread where it is long."""
+    """A request whose body is held to a bound while it is read, and parsed on a thread where it is long.
+
+    Args:
+        request: As it came.
+        limit: How large its body may be.
+    """
 
     def __init__(self, request: Request, limit: BodyLimit) -> None:
         super().__init__(request.scope, request.receive)
@@ -121,15 +143,24 @@ class BoundedRequest(Request):
             self._json = read_json(body) if len(body) <= AT_ONCE else await asyncio.to_thread(read_json, body)
         return self._json
 
+    async def check_fields(self) -> None:
+        """Refuse a long body with more fields than any request has, each of which would be told on its own.
+
+        Raises:
+            ProblemError: 422.
+        """
+        try:
+            document = await self.json()
+        except (ValueError, RecursionError):
+            return  # It is told where it is read.
+        if isinstance(document, dict) and (count := len(cast("dict[str, Any]", document))) > MOST_FIELDS:
+            detail = f"the body has {count} fields; no request has more than {MOST_FIELDS}"
+            raise ProblemError(422, "request-invalid", "The request does not fit", detail)
+
     def _too_large(self) -> ProblemError:
-        most, name = self._limit.most_bytes, self._limit.name
-        shown = f"{most / MEGABYTE:g} MB" if most >= MEGABYTE else f"{most / 1000:g} kB"
-        return ProblemError(
-            413,
-            f"{name}-too-large",
-            "Content Too Large",
-            f"this {name} is larger than {shown}, the most here",
-        )
+        name, asked = self._limit.name, f"{self.method} {_route_of(self)}"
+        detail = f"this {name} is larger than {self._limit.shown}, the most that {asked} takes"
+        return ProblemError(413, f"{name}-too-large", "Content Too Large", detail)
 
 
 def read_json(data: bytes) -> Any:

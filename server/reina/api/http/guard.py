@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from reina.api.settings import Settings
 
 READING = frozenset({"GET", "HEAD", "OPTIONS"})
+NO_HOST = frozenset("@/?#\\ \t")
+"""What stands in no Host header (RFC 9110, 7.2): a user's name, say, behind which another host would hide."""
 DEFAULT_PORTS = {"http": 80, "https": 443, "ws": 80, "wss": 443}
 
 
@@ -37,7 +39,8 @@ class Guard:
 
     def _objection(self, scope: Scope) -> ProblemError | None:
         headers = {name: value.decode("latin-1") for name, value in scope["headers"]}
-        host = _split(f"//{headers.get(b'host', '')}", scope["scheme"])
+        named = headers.get(b"host", "")
+        host = None if NO_HOST & set(named) else _split(f"//{named}", scope["scheme"])
         if host is None or host[0] not in self._hosts:
             return ProblemError(
                 421,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.routing import Match
 
 from reina.errors import InputError
@@ -28,7 +29,11 @@ if TYPE_CHECKING:
 
 MEDIA_TYPE = "application/problem+json"
 MAX_FAULTS = 20
-"""So many are told of one request; whoever mends those hears of the rest."""
+"""So many are told of one request, and how many more there are."""
+LONGEST_DETAIL = 2000
+"""Characters of what was wrong; what was sent is repeated in part at most."""
+LONGEST_LOCATION = 100
+LONGEST_FAULT = 300
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 """What an address may answer to of itself."""
 
@@ -63,16 +68,12 @@ class ProblemError(Exception):
     ) -> None:
         super().__init__(detail)
         self.status = status
-        faults = [
-            Fault(detail=_sendable(fault.detail), location=_sendable(fault.location or "") or None)
-            for fault in errors[:MAX_FAULTS]
-        ]
         self.problem = Problem(
             type=f"urn:reina:problem:{kind}",
             title=title,
             status=status,
-            detail=_sendable(detail),
-            errors=faults,
+            detail=_sendable(detail, LONGEST_DETAIL),
+            errors=_told(errors),
         )
         self.headers = dict(headers or {})
 
@@ -83,9 +84,35 @@ class ProblemError(Exception):
         )
 
 
-def _sendable(text: str) -> str:
-    """What came in, repeated without half a character (a lone surrogate), which UTF-8 cannot hold."""
-    return text.encode("utf-8", "backslashreplace").decode()
+def _sendable(text: str, longest: int) -> str:
+    """What came in, repeated in part, and without half a character (a lone surrogate), which is no UTF-8."""
+    told = text[:longest].encode("utf-8", "backslashreplace").decode()
+    return told if len(told) <= longest and len(text) <= longest else f"{told[: longest - 1]}…"
+
+
+def _told(faults: Sequence[Fault]) -> list[Fault]:
+    """The first of several faults."""
+    return [
+        Fault(
+            detail=_sendable(fault.detail, LONGEST_FAULT),
+            location=_sendable(fault.location or "", LONGEST_LOCATION) or None,
+        )
+        for fault in faults[:MAX_FAULTS]
+    ]
+
+
+def _in_words(faults: Sequence[Fault], count: int) -> str:
+    """Several faults in one line, and how many more there are."""
+    told: list[str] = []
+    room = LONGEST_DETAIL - len(f"; and {count} more")
+    for fault in _told(faults):
+        words = f"{fault.location}: {fault.detail}" if fault.location else fault.detail
+        room -= len(words) + 2
+        if told and room < 0:
+            break
+        told.append(words)
+    more = count - len(told)
+    return "; ".join([*told, f"and {more} more"] if more > 0 else told)
 
 
 INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
@@ -113,7 +140,9 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=what, location=place) for place, what in error.problems]
     if isinstance(error, ShowError) and error.others:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
-    return ProblemError(status, kind, title, str(error), errors=faults)
+    more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
+    detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
+    return ProblemError(status, kind, title, detail, errors=faults)
 
 
 def _location(parts: Sequence[str | int]) -> str:
@@ -124,11 +153,10 @@ def _location(parts: Sequence[str | int]) -> str:
 def problem_of_validation(error: RequestValidationError | ValidationError) -> ProblemError:
     """The problem of fields that do not fit."""
     found: Sequence[Mapping[str, Any]] = error.errors()
-    faults = [Fault(detail=str(fault["msg"]), location=_location(fault["loc"])) for fault in found]
-    told = [f"{fault.location}: {fault.detail}" for fault in faults[:MAX_FAULTS]]
-    if len(faults) > MAX_FAULTS:
-        told.append(f"and {len(faults) - MAX_FAULTS} more")
-    detail = "; ".join(told)
+    faults = [
+        Fault(detail=str(fault["msg"]), location=_location(fault["loc"])) for fault in found[:MAX_FAULTS]
+    ]
+    detail = _in_words(faults, len(found))
     return ProblemError(422, "request-invalid", "The request does not fit", detail, errors=faults)
 
 
@@ -171,6 +199,9 @@ def install(app: FastAPI) -> None:
                 return problem_of_input(error).response()
             case RequestValidationError():
                 return problem_of_validation(error).response()
+            case ClientDisconnect():
+                # Nobody hears it: the body broke off with the connection.
+                return ProblemError(400, "broken-off", "Bad Request", "the body breaks off").response()
             case HTTPException(status_code=405):
                 return _not_answered(request)
             case HTTPException():
@@ -183,6 +214,6 @@ def install(app: FastAPI) -> None:
         detail = "the server made a mistake and has noted it; the request may be tried again"
         return ProblemError(500, "internal", "Internal Server Error", detail).response()
 
-    for kind in (ProblemError, InputError, RequestValidationError, HTTPException):
+    for kind in (ProblemError, InputError, RequestValidationError, ClientDisconnect, HTTPException):
         app.add_exception_handler(kind, refused)
     app.add_exception_handler(Exception, failed)

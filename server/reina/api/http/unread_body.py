@@ -6,6 +6,8 @@ import asyncio
 import contextlib
 from typing import TYPE_CHECKING
 
+from reina.api.http.problems import ProblemError
+
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -46,7 +48,8 @@ class UnreadBody:
                 message = {**message, "headers": [*message.get("headers", ()), (b"connection", b"close")]}
             if closing and message["type"] == "http.response.body" and not message.get("more_body", False):
                 await send({**message, "more_body": True})
-                with contextlib.suppress(TimeoutError):
+                # No rest is waited for when the server ends.
+                with contextlib.suppress(TimeoutError, ProblemError):
                     async with asyncio.timeout(READ_ON_S):
                         taken = 0
                         while left and taken <= READ_ON:

@@ -1,9 +1,8 @@
 """The laboratory's third table: motion clips, shipped or uploaded."""
 
 import asyncio
-import base64
 from collections.abc import AsyncIterator
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated
@@ -14,12 +13,13 @@ from fastapi.responses import PlainTextResponse, Response, StreamingResponse
 from reina.api.http.access import ServerSettings
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
-from reina.api.lab.work import compute
-from reina.lab import clip_points
+from reina.api.lab.long_work import parsed_text, plain_clip
+from reina.api.lab.work import OWNER, compute, compute_long
 from reina.protocol.lab import LabClip, LabClipList, ParsedClip
 from reina.protocol.links import rig_href
 from reina.protocol.resources import Fault
 from reina.skeleton import BvhError, MotionClip, PositionMeaning, bvh_head, bvh_rows, read_bvh
+from reina.system.turns import Turns
 
 router = APIRouter(route_class=BoundedRoute)
 
@@ -57,8 +57,10 @@ async def list_clips(request: Request, settings: ServerSettings) -> LabClipList:
 async def read_clip(request: Request, positions: Positions = "replace") -> Response:
     """Read a BVH file: its joints, and where everything is in the world; long clips are thinned."""
     data = await request.body()
-    # Megabytes: written as JSON in the thread too, where no viewer waits for it.
-    text = await compute(request, lambda: _parsed(read_clip_file(data, positions)).model_dump_json())
+    try:
+        text = await compute_long(request, len(data), parsed_text, data, positions)
+    except BvhError as error:
+        raise unreadable_clip(error) from error
     return Response(text, media_type="application/json")
 
 
@@ -70,7 +72,10 @@ async def rewrite_clip(request: Request, positions: Positions = "replace") -> St
     add the two as for those that do not.
     """
     data = await request.body()
-    clip = await compute(request, lambda: read_clip_file(data, positions).without_still_positions())
+    try:
+        clip = await compute_long(request, len(data), plain_clip, data, positions)
+    except BvhError as error:
+        raise unreadable_clip(error) from error
     return StreamingResponse(
         _written(clip, request.app.state.computing),
         media_type="text/plain; charset=utf-8",
@@ -78,65 +83,21 @@ async def rewrite_clip(request: Request, positions: Positions = "replace") -> St
     )
 
 
-async def _written(clip: MotionClip, computing: asyncio.Semaphore) -> AsyncIterator[str]:
+async def _written(clip: MotionClip, computing: Turns) -> AsyncIterator[str]:
     """A file's text in pieces, which is several times what was sent where its numbers are short."""
     yield bvh_head(clip, len(clip))
     rows = max(1, VALUES_A_PIECE // max(1, clip.values.shape[1]))
     for begin in range(0, len(clip), rows):
         piece = replace(clip, values=clip.values[begin : begin + rows])
-        async with computing:
+        async with computing.of(OWNER):
             text = await asyncio.to_thread(bvh_rows, piece)
         yield text
 
 
-def read_clip_file(data: bytes, positions: PositionMeaning) -> MotionClip:
-    """The clip in an uploaded BVH file.
-
-    Raises:
-        ProblemError: 422, it cannot be read.
-    """
-    try:
-        return read_bvh(data, positions=positions)
-    except BvhError as error:
-        fault = Fault(detail=error.detail, location=error.location)
-        raise ProblemError(
-            422, "clip-unreadable", "The BVH file cannot be read", str(error), errors=[fault]
-        ) from error
-
-
-def _parsed(clip: MotionClip) -> ParsedClip:
-    points = clip_points(clip)
-    positions = points.positions.astype("<f4")
-    return ParsedClip.model_validate(
-        {
-            "joints": [
-                {
-                    "name": name,
-                    "parent": None if parent < 0 else parent,
-                    "offset": offset,
-                    "channels": channels,
-                }
-                for name, parent, offset, channels in zip(
-                    clip.names,
-                    clip.parents.tolist(),
-                    clip.offsets.tolist(),
-                    map(list, clip.channels),
-                    strict=True,
-                )
-            ],
-            "frames": len(clip),
-            "frame_time_s": clip.frame_time_s,
-            "duration_s": len(clip) * clip.frame_time_s,
-            "warnings": [asdict(warning) for warning in clip.warnings],
-            "points": list(points.names),
-            "point_parents": points.parents.tolist(),
-            "frame_step": points.frame_step,
-            "sampled_frames": len(positions),
-            "minimum": positions.min(axis=(0, 1)).tolist(),
-            "maximum": positions.max(axis=(0, 1)).tolist(),
-            "positions": base64.b64encode(positions.tobytes()).decode("ascii"),
-        }
-    )
+def unreadable_clip(error: BvhError) -> ProblemError:
+    """The problem of a BVH file that cannot be read."""
+    fault = Fault(detail=error.detail, location=error.location)
+    return ProblemError(422, "clip-unreadable", "The BVH file cannot be read", str(error), errors=[fault])
 
 
 @lru_cache(maxsize=64)

@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from reina.errors import InputError
 from reina.system.parcel import receive, send
+from reina.system.turns import Turns
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Hashable, Sequence
     from typing import BinaryIO
 
 T = TypeVar("T")
@@ -54,23 +55,26 @@ class WorkerPool:
         self._shared = tuple(shared)
         self._program = tuple(program)
         self._timeout_s = timeout_s
+        self._turns = Turns(most_at_once)
         self._threads = ThreadPoolExecutor(most_at_once, thread_name_prefix="worker")
         self._idle: queue.LifoQueue[_Worker] = queue.LifoQueue()
         self._alive: set[_Worker] = set()
         self._closed = threading.Event()
 
-    async def run(self, function: Callable[..., T], *arguments: object) -> T:
+    async def run(self, function: Callable[..., T], *arguments: object, owner: Hashable = None) -> T:
         """Do a piece of work.
 
         Args:
             function: A function of a module; it runs in another process.
             arguments: Its arguments; they and what it returns can be pickled.
+            owner: For whom it is, a session say; work that waits is done owner by owner.
 
         Raises:
             InputError: What `function` raises, or it took too long, or its process ended.
         """
         loop = asyncio.get_running_loop()
-        return cast("T", await loop.run_in_executor(self._threads, self._work, function, arguments))
+        async with self._turns.of(owner):
+            return cast("T", await loop.run_in_executor(self._threads, self._work, function, arguments))
 
     async def aclose(self) -> None:
         """Stop the processes, whatever they do."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 from typing import cast as typed
 
@@ -13,14 +14,16 @@ from reina.music import from_second_zero, read_score
 from reina.music.midi import write_midi
 from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
 from reina.sessions.production import Production, read_show
+from reina.sessions.score_text import packed_score
 from reina.sessions.workers.pool import WorkerPool
 from reina.show import Show, ShowError
+from reina.show.edits import read_edits
 from reina.show.show_reader import read_track
 from reina.show.show_writer import keyframe_text
 from reina.system.json_text import read_json
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Hashable
     from pathlib import Path
 
     from reina.curves import Parameter, ParameterRegistry
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
     from reina.music import SongTimes
     from reina.sessions.stage import Stage
     from reina.show import Track
+    from reina.show.edits import Edit
     from reina.show.time_map import TimeUnit
     from reina.skeleton import HumanPose
 
@@ -37,6 +41,8 @@ LONG_BYTES = 64_000
 """A longer file is read in a process; what takes a thread some tenths of a second is not worth one."""
 MIDI_BYTES = 16
 """A note that is written weighs about as much as so many bytes that are read."""
+LONG_NOTES = 10_000
+"""The text of a score of so many notes is written where it is read, and kept."""
 PACKED = 30
 """A compressed score counts as so many times its size, about what JSON shrinks by."""
 
@@ -62,6 +68,7 @@ class Reader:
         alignment: SongTimes | None = None,
         stances: Mapping[str, HumanPose] | None = None,
         transposition: int = 0,
+        owner: Hashable = None,
     ) -> Production:
         """Read a score and plan how a cast plays it, with the show that is written for it.
 
@@ -72,53 +79,89 @@ class Reader:
             alignment: Where it is heard in the song.
             stances: Poses that its players can stand in, by name.
             transposition: Semitones by which all is played higher than it is written.
+            owner: For whom; see `WorkerPool.run`.
 
         Raises:
             InputError: It cannot be read, or not be played so.
         """
         size = await asyncio.to_thread(_weight, path)
         heard = alignment, stances, transposition
-        return await self._read(size, read_and_plan, self._stage, path, filename, cast, *heard)
+        return await self._read(size, read_and_plan, self._stage, path, filename, cast, *heard, owner=owner)
 
-    async def show(self, data: bytes, registry: ParameterRegistry) -> Show:
+    async def show(self, data: bytes, registry: ParameterRegistry, *, owner: Hashable = None) -> Show:
         """Read a show from JSON text.
 
         Args:
             data: The show.
             registry: What it can move.
+            owner: For whom; see `WorkerPool.run`.
 
         Raises:
             ShowError: It is no show.
         """
-        return await self._read(len(data), read_written_show, data, registry)
+        return await self._read(len(data), read_written_show, data, registry, owner=owner)
 
-    async def track(self, data: bytes, parameter: Parameter, unit: TimeUnit) -> Track:
+    async def track(
+        self, data: bytes, parameter: Parameter, unit: TimeUnit, *, owner: Hashable = None
+    ) -> Track:
         """Read a track from JSON text.
 
         Args:
             data: The track; it may leave out its parameter.
             parameter: What it moves.
             unit: The unit of its times where it names none.
+            owner: For whom; see `WorkerPool.run`.
 
         Raises:
             ShowError: It is no track of the parameter.
         """
-        return await self._read(len(data), read_written_track, data, parameter, unit)
+        return await self._read(len(data), read_written_track, data, parameter, unit, owner=owner)
 
-    async def midi(self, production: Production) -> bytes:
+    async def preview(
+        self, track: Mapping[str, Any], size: int, parameter: Parameter, unit: TimeUnit, *, owner: Hashable
+    ) -> Track:
+        """Read a track that need not be one yet.
+
+        Args:
+            track: JSON.
+            size: How long it was as text, bytes.
+            parameter: What it moves.
+            unit: The unit of its times where it names none.
+            owner: For whom; see `WorkerPool.run`.
+
+        Raises:
+            ShowError: It is no track of the parameter.
+        """
+        return await self._read(size, read_track, track, parameter, unit, owner=owner)
+
+    async def edits(self, data: bytes, *, owner: Hashable = None) -> list[Edit]:
+        """Read a list of edits from JSON text.
+
+        Args:
+            data: The list.
+            owner: For whom; see `WorkerPool.run`.
+
+        Raises:
+            ShowError: It is none.
+        """
+        return await self._read(len(data), read_written_edits, data, owner=owner)
+
+    async def midi(self, production: Production, *, owner: Hashable = None) -> bytes:
         """Write the score of a production as its players play it, as a MIDI file."""
         played = [performer.played for performer in production.performers]
         score = await asyncio.to_thread(lambda: from_second_zero(score_as_played(production.score, played)))
-        return await self._read(MIDI_BYTES * len(score.notes), write_midi, score)
+        return await self._read(MIDI_BYTES * len(score.notes), write_midi, score, owner=owner)
 
     async def aclose(self) -> None:
         """Stop the processes."""
         await self._pool.aclose()
 
-    async def _read(self, size: int, function: Callable[..., T], *arguments: object) -> T:
+    async def _read(
+        self, size: int, function: Callable[..., T], *arguments: object, owner: Hashable = None
+    ) -> T:
         if size <= LONG_BYTES:
             return await asyncio.to_thread(function, *arguments)
-        return await self._pool.run(function, *arguments)
+        return await self._pool.run(function, *arguments, owner=owner)
 
 
 def shared_of(stage: Stage) -> tuple[object, ...]:
@@ -145,9 +188,12 @@ def read_and_plan(
 ) -> Production:
     """What `Reader.production` does."""
     score = read_score(path.read_bytes(), filename=filename, sequence=cast.sequence)
-    return Production.plan(
+    production = Production.plan(
         stage, score, cast=cast, alignment=alignment, stances=stances, transposition=transposition
     )
+    if len(score.notes) < LONG_NOTES:
+        return production
+    return replace(production, packed_score=packed_score(production))
 
 
 def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:
@@ -176,6 +222,15 @@ def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Tra
     track = read_track({"parameter": parameter.path, **fields}, parameter, unit)
     _write(track)
     return track
+
+
+def read_written_edits(data: bytes) -> list[Edit]:
+    """What `Reader.edits` does."""
+    try:
+        document: object = read_json(data)
+    except ValueError as error:
+        raise ShowError(f"the edits are no JSON: {error}") from error
+    return read_edits(document)
 
 
 def _write(track: object) -> None:

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Times = NDArray[np.float64]
+LEAST_TRUSTED_S = 0.05
+"""Where the recording takes less between two places that a person has put, the score says how it goes between
+them, and twice that only what was found does."""
 SAME_S = 1e-6
 """Times nearer than this are the same."""
 
@@ -195,9 +198,10 @@ class Alignment:
 
     @property
     def moves(self) -> bool:
-        """Whether anything moves the score: it was found, or a person has put something right."""
+        """Whether anything moves the score: it was found elsewhere, or a person has put something right."""
         by_hand = bool(self.anchors) or self.offset_s != 0 or self.played_higher != 0
-        return self.is_same_music or by_hand
+        as_written = not self.gaps and all(point.score_s == point.song_s for point in self.points)
+        return by_hand or (self.is_same_music and not as_written)
 
     @property
     def played_higher(self) -> int:
@@ -239,7 +243,7 @@ def corrected(points: Sequence[MapPoint], anchors: Sequence[Anchor]) -> tuple[Ti
     """What was found, warped so that it goes through what a person has said.
 
     Every anchor is where it was put. From one to the next the found map is stretched evenly in the
-    recording's time, so that its tempo keeps its shape; where it does not move at all, as in what was thought
+    recording's time, so that its tempo keeps its shape; where it hardly moves, as in what was thought
     to be left out, it goes in a straight line. Before the first anchor and after the last, all is moved as
     that anchor was.
 
@@ -265,10 +269,11 @@ def corrected(points: Sequence[MapPoint], anchors: Sequence[Anchor]) -> tuple[Ti
             break
         inside = (found_score > place + SAME_S) & (found_score < places[index + 1] - SAME_S)
         moved = at_places[index + 1] - at_places[index]
-        if moved > SAME_S:
-            share = (found_song[inside] - at_places[index]) / moved
-        else:
-            share = (found_score[inside] - place) / (places[index + 1] - place)
+        share = (found_score[inside] - place) / (places[index + 1] - place)
+        # Of hardly any time in the recording nothing can be told of how it goes between the two.
+        trusted = min(max(moved / LEAST_TRUSTED_S - 1, 0.0), 1.0)
+        if trusted:
+            share += trusted * ((found_song[inside] - at_places[index]) / moved - share)
         score_s.append(found_score[inside])
         song_s.append(put[index] + np.clip(share, 0, 1) * (put[index + 1] - put[index]))
     score_s.append(found_score[after])
@@ -281,8 +286,10 @@ def _interpolated(at: NDArray[Any] | Sequence[float] | float, known: Times, valu
     wanted = np.asarray(at, dtype=np.float64)
     index = np.clip(np.searchsorted(known, wanted, side="right") - 1, 0, len(known) - 2)
     length = known[index + 1] - known[index]
-    share = np.where(length > 0, (wanted - known[index]) / np.where(length > 0, length, 1), 1.0)
-    result = values[index] + np.clip(share, 0, 1) * (values[index + 1] - values[index])
+    # Held within its piece first: beyond one of hardly any length the share would be beyond all numbers.
+    within = np.clip(wanted - known[index], 0, length)
+    share = np.where(length > 0, within / np.where(length > 0, length, 1), 1.0)
+    result = values[index] + share * (values[index + 1] - values[index])
     result = result + np.minimum(wanted - known[0], 0) + np.maximum(wanted - known[-1], 0)
     return result if wanted.ndim else float(result)
 

@@ -1,6 +1,7 @@
 """The map between a score's time and a recording's, and what a person puts right in it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -185,3 +186,11 @@ def test_what_is_no_document_is_refused_with_its_place(text: bytes, location: st
     with pytest.raises(AlignmentError, match=says) as refused:
         read_alignment(text)
     assert refused.value.location == location
+
+
+def test_what_is_in_time_already_moves_nothing_until_a_person_does():
+    points = (MapPoint(0.0, 0.0, 1.0), MapPoint(4.0, 4.0, 1.0))
+    in_time = Alignment(points, score_duration_s=9.0, song_duration_s=4.0)
+    assert not in_time.moves
+    assert replace(in_time, offset_s=0.5).moves
+    assert replace(in_time, points=(points[0], MapPoint(4.0, 3.9, 1.0))).moves
