@@ -29,7 +29,6 @@ from drummer_targets import (
     load_stage,
     record,
     scores,
-    tips_in_hands,
 )
 from machine import heading, verdict
 from other_solvers import OTHERS, TOLERANCE_M, Measured, by_ikpy, by_mink, by_pink, finger_of
@@ -52,6 +51,8 @@ from reina.skeleton import load_hold, load_rig
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
+
+    from drummer_targets import Call
 
     from reina.kinematics.tool_arms import ToolPose
     from reina.kinematics.two_bone import LimbPose
@@ -140,9 +141,12 @@ def solve_arms(shoulders: FloatArray, pose: ToolPose) -> LimbPose:
     return ARMS.solve(shoulders, pose.wrists, pose.hinges)
 
 
-def residual(pose: ToolPose, limbs: LimbPose, tips: FloatArray) -> FloatArray:
+def residual(call: Call, pose: ToolPose, limbs: LimbPose) -> FloatArray:
     """How far the tips are from their places, as the solved arms have them, metres, ``(F, 2)``."""
-    return np.linalg.norm(limbs.ends + rotate(pose.hands, tips_in_hands()) - tips, axis=-1)
+    _, tips, _, _, held, *_ = call.arguments
+    axes = call.subject.in_basis(np.broadcast_to(np.eye(3)[:, None], (3, 2, 3)))
+    in_hands = -np.einsum("ikj,fkj->fki", axes, held)
+    return np.linalg.norm(limbs.ends + rotate(pose.hands, in_hands) - tips, axis=-1)
 
 
 def beyond(pose: ToolPose, limbs: LimbPose, shoulders: FloatArray) -> float:
@@ -185,7 +189,7 @@ def own_rows(recorded: list[Recorded], repetitions: int) -> float:
             return pose, solve_arms(places[block], pose)
 
         found = [solve(block) for block in range(len(calls))]
-        errors = [residual(*one, call.arguments[1]) for one, call in zip(found, calls, strict=True)]
+        errors = [residual(call, *one) for one, call in zip(found, calls, strict=True)]
         bent = max(beyond(*one, place) for one, place in zip(found, places, strict=True))
         took = best_us(solve, len(calls), repetitions).mean() / FRAMES / 2
         return Measured(np.concatenate(errors).ravel(), float(took)), f"{bent:.1f}°"
