@@ -379,7 +379,7 @@ def test_each_stick_lies_in_its_hand(drummed: Drummed, side: str) -> None:
     for note in drummed.notes:
         if not note["fingering"] or struck(note)["hand"] != side:
             continue
-        last = int(np.searchsorted(frames.song_time_s, note["onset_s"] + 1e-6)) - 1
+        last = np.flatnonzero(frames.song_time_s <= note["onset_s"] + 1e-6)[-1]
         # A cross-stick is held otherwise, its shaft at the fingers.
         off = held[last] if struck(note)["zone"] != "rim" else min(held[last], near[last])
         assert off <= HELD_M, f"{note['onset_s']:.3f} s: {struck(note)}, {1000 * off:.1f} mm"

@@ -375,7 +375,8 @@ def _smooth(rows: FloatArray, reach: int) -> FloatArray:
     """Rows ``(F, S)``, each as those within so many of it are in the mean."""
     window = np.hanning(2 * reach + 3)[1:-1]
     padded = np.pad(rows, ((reach, reach), (0, 0)), mode="edge")
-    return np.stack([np.convolve(one, window / window.sum(), mode="valid") for one in padded.T], axis=1)
+    smooth: list[FloatArray] = [np.convolve(one, window / window.sum(), mode="valid") for one in padded.T]
+    return np.stack(smooth, axis=1)
 
 
 def _mixed(one: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:
