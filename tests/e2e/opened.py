@@ -61,11 +61,12 @@ class Opened:
         self.page.goto(f"{self._address}{path}{'&' if '?' in path else '?'}tier=low", wait_until=wait_until)
 
     def until_at_rest(self, transport: dict[str, Any]) -> int:
-        """Wait until the frame of a paused clock's state is drawn, unblended; returns its index."""
+        """Wait until the frame of a paused clock's state, or of a later one, is drawn; returns its index."""
         index = int(transport["song_time_s"] * FPS + 1e-6)
         self.until(
-            "([index, epoch]) => window.reina.drawnIndex === index && window.reina.drawnEpoch === epoch",
-            [index, transport["epoch"] % 256],
+            "([index, epoch]) => window.reina.drawnIndex === index && window.reina.epoch >= epoch"
+            " && window.reina.drawnEpoch === window.reina.epoch % 256",
+            [index, transport["epoch"]],
         )
         return index
 

@@ -7,10 +7,7 @@ const GONE = 410;
 
 /** The sound that was asked for is another one now; its state says where that is. */
 export class AnotherSoundError extends Error {
-  constructor() {
-    super("the sound is another now");
-    this.name = "AnotherSoundError";
-  }
+  override readonly name = "AnotherSoundError";
 }
 
 /** How far the server is with a song, asked for until its segments can be had or the whole is there. */

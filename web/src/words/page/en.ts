@@ -47,6 +47,7 @@ export const page = words("page", {
   piecesNotLoaded: "The list of pieces could not be loaded. Reload the page.",
   paperNotLoaded: "The part on paper could not be loaded. Reload the page.",
   filmNotLoaded: "The film's panel could not be loaded. Reload the page.",
+  pieceNotLoaded: "The piece's panel could not be loaded. Reload the page.",
   viewsNotLoaded: "The views could not be loaded. Reload the page.",
   practiceNotLoaded: "The practice panel could not be loaded. Reload the page.",
   showNotLoaded: "The show's editor could not be loaded. Reload the page.",
