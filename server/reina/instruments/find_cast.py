@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from reina.instruments.casting import INSTRUMENT, MAX_PLAYERS, PLAYER, Cast, Casting
 from reina.instruments.drums.drum_kit import DRUMS as DRUM_KIT
-from reina.instruments.drums.drum_kit import struck_notes
+from reina.instruments.drums.drum_kit import spread_parts, struck_notes
 from reina.instruments.instrument import Instrument
 from reina.instruments.part_names import desk_of_name
 from reina.instruments.part_roles import Kind, PartNotes, family_part, role_of
@@ -25,7 +25,8 @@ def find_cast(
 
     Every part for a trumpet, cornet or flugelhorn that is a line of its own gets a player, the best first,
     `most` at most; of a score with one such part, or none, one trumpeter plays the part that suits best. A
-    part of drums gets a drummer, who comes last; drums alone have one alone.
+    part of drums gets a drummer, who comes last; drums alone have one alone. A kit that is spread over
+    several parts is one drummer's.
 
     Args:
         score: The score.
@@ -40,7 +41,7 @@ def find_cast(
     if drums is not None:
         if all(part.is_drums or not len(score.note_indices(part.index)) for part in score.parts):
             player = (players.get(DRUMS) or (PLAYER,))[0]
-            return Cast((Casting(part=drums, instrument=DRUMS, player=player),), sequence, auto=True)
+            return Cast((_drummer(score, drums, player),), sequence, auto=True)
         most -= 1
     chosen: list[int] = []
     joined: dict[int, list[int]] = {}
@@ -70,7 +71,7 @@ def find_cast(
     if drums is not None:
         seen = [casting.player for casting in castings]
         player = min(players.get(DRUMS) or (PLAYER,), key=seen.count)
-        castings.append(Casting(part=drums, instrument=DRUMS, player=player))
+        castings.append(_drummer(score, drums, player))
     return Cast(tuple(castings), sequence, auto=True)
 
 
@@ -81,6 +82,11 @@ def _drums_part(score: Score, instruments: Mapping[str, Instrument]) -> int | No
         return None
     best = drums.rank_parts(score)[0].part
     return best if score.parts[best].is_drums and struck_notes(score, best) else None
+
+
+def _drummer(score: Score, part: int, player: str) -> Casting:
+    joined_parts = spread_parts(score, part)
+    return Casting(part=part, instrument=DRUMS, player=player, joined_parts=joined_parts)
 
 
 def _in_order(score: Score, parts: Sequence[int]) -> list[int]:

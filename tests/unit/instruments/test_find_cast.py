@@ -180,3 +180,24 @@ def test_a_drummer_plays_a_part_for_drums() -> None:
     score = score_of(HIGH, [(0.0, 0.1, 38)], names=["Trumpet", "Drums"], drums=1)
     drummer = Cast((Casting(part=1, instrument="drums"),))
     assert casting_reasons(score, drummer, INSTRUMENTS) == (("a part for drums",),)
+
+
+@pytest.mark.parametrize(
+    ("others", "joined"),
+    [
+        ([[36, 36, 49], [42, 42, 42, 46]], (0, 1)),
+        # Snare 2 beside a snare is another drummer's; so is what is mostly hand percussion.
+        ([[36, 38], [42, 42]], (1,)),
+        ([[36, 56], [56, 60, 61, 62]], (0,)),
+    ],
+    ids=["a kit in three parts", "two drummers", "a percussionist"],
+)
+def test_a_kit_that_is_spread_over_parts_is_one_drummers(
+    others: list[list[int]], joined: tuple[int, ...]
+) -> None:
+    keys = [*others, [38] * 6]
+    score = score_of(*(melody(part) for part in keys), names=["Drums A", "Drums B", "Snare"])
+    score = replace(score, parts=tuple(replace(part, is_drums=True) for part in score.parts))
+    players = dict.fromkeys(INSTRUMENTS, ("trumpeter", "soloist"))
+    (drummer,) = find_cast(score, INSTRUMENTS, players).castings
+    assert (drummer.part, drummer.joined_parts) == (2, joined)

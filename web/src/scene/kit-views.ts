@@ -43,7 +43,7 @@ const AT_KIT: Readonly<Record<string, readonly FramedView[]>> = {
   ],
   three_quarter: DRUMMER,
   face: [{ position: [-0.2, 1.43, 1.62], target: [0, 1.24, 0.13], fov: 0.28 }],
-  player: [{ position: [0, 1.32, 0.16], target: [-0.05, 0.7, 0.66], fov: 1 }],
+  player: [{ position: [0, 1.32, 0.16], target: [-0.05, 0.68, 0.6], fov: 1.2 }],
 };
 
 /** How near to a camera's line of sight somebody stands in the way, and how high people are, metres. */

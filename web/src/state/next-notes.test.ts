@@ -27,6 +27,25 @@ describe("placeIn", () => {
     expect(placeIn([{ onset_s: 0.1, duration_s: 0.2 }], 0.3)).toEqual({ first: 1, sounds: false });
   });
 
+  it.each([
+    [0, 0, true],
+    [0.2, 0, true],
+    [0.45, 2, false],
+    [0.5, 2, true],
+    [1, 3, true],
+    [1.8, 5, false],
+    [3, 5, false],
+  ])("at %f s of a drummer's part is stroke number %i, sounding: %s", (songTime, first, sounds) => {
+    const strokes = [
+      { onset_s: 0, duration_s: 0.1 },
+      { onset_s: 0, duration_s: 0.4 },
+      { onset_s: 0.5, duration_s: 4 },
+      { onset_s: 1, duration_s: 0.1 },
+      { onset_s: 1, duration_s: 0.1 },
+    ];
+    expect(placeIn(strokes, songTime)).toEqual({ first, sounds });
+  });
+
   it("is nowhere among no notes", () => {
     expect(placeIn([], 4)).toEqual({ first: 0, sounds: false });
   });

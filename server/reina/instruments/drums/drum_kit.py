@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
@@ -136,9 +137,31 @@ class Drums(Instrument):
 
 def struck_notes(score: Score, part: int) -> int:
     """How many notes of a part are struck on the kit."""
+    return sum(_strokes(score, part).values())
+
+
+def spread_parts(score: Score, part: int) -> tuple[int, ...]:
+    """The other parts of the kit that a part is one of, ascending.
+
+    A kit is often written out as a part for the bass drum, one for the snare, one for the cymbals. Each
+    has keys that no other has, most of its notes on them: hand percussion has a player of its own.
+    """
+    taken = set(_strokes(score, part))
+    others = {each.index: _strokes(score, each.index) for each in score.parts if each.is_drums}
+    spread: list[int] = []
+    for other in sorted(others.keys() - {part}, key=lambda other: (-others[other].total(), other)):
+        strokes = others[other]
+        if taken.isdisjoint(strokes) and 2 * strokes.total() > len(score.note_indices(other)):
+            spread.append(other)
+            taken |= strokes.keys()
+    return tuple(sorted(spread))
+
+
+def _strokes(score: Score, part: int) -> Counter[int]:
+    """How often each key of a part is struck on the kit."""
     keys: list[int] = score.notes.sounding_pitch[score.note_indices(part)].tolist()
     kit = drum_map(kit_of(score, part, set(keys)))
-    return sum(key in kit and bool(kit[key].piece) for key in keys)
+    return Counter(key for key in keys if key in kit and kit[key].piece)
 
 
 def _line(score: Score, indices: IntArray) -> Line:
