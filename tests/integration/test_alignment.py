@@ -157,6 +157,39 @@ def test_what_cannot_be_is_refused_with_its_place(
     assert aligned.client.get(f"{aligned.path}/alignment").json() == before
 
 
+def test_a_map_of_every_beat_of_a_long_piece_and_every_tap_on_it_can_be_put(client: httpx.Client) -> None:
+    made = upload(client, scale(16), song=("s.wav", song(6.0)))
+    state(made)
+    beats = 10_000
+    points = [
+        {"score_s": round(n * 4 / beats, 4), "song_s": round(n * 5 / beats, 4), "confidence": 0.123456789}
+        for n in range(beats)
+    ]
+    long = {"points": points, "score_duration_s": 4.0, "song_duration_s": 6.0}
+    put = made.change("PUT", "/alignment", json=long)
+    assert put.status_code == 200, put.text[:300]
+    kept = put.json()["alignment"]
+    assert len(kept["points"]) == beats
+    taps = [{"score_s": n / 500, "song_s": n / 400} for n in range(2000)]
+    tapped = made.change("PUT", "/alignment", json={"anchors": taps})
+    assert tapped.status_code == 200, tapped.text[:300]
+    again = made.change("PUT", "/alignment", json=kept)
+    assert again.json()["alignment"] == kept, "what the server gave can be put back"
+    made.change("DELETE")
+
+
+def test_a_long_alignment_of_very_many_faults_tells_the_first(aligned: Owned) -> None:
+    for body in (
+        {"points": [{}] * 100_000, "score_duration_s": 4.0, "song_duration_s": 6.0},
+        {"anchors": [{}] * 9000},
+        {"anchors": [{f"x{n}": 1 for n in range(20_000)}]},
+    ):
+        refused = aligned.change("PUT", "/alignment", json=body)
+        assert refused.status_code == 422
+        assert len(refused.content) < 2000
+        assert len(refused.json()["errors"]) <= 2
+
+
 def test_other_music_stays_at_zero_and_may_be_moved_by_hand(client: httpx.Client) -> None:
     made = upload(client, scale(16), song=("s.wav", song(6.0)))
     told = state(made)

@@ -74,8 +74,10 @@ def test_uploads_that_break_off_leave_no_traceback(logged: tuple[Running, Path],
         (bytes([0xFF, 0x80, 0, 0, 0, 0]), 1002),
         (bytes([0x80, 0x80, 0, 0, 0, 0]), 1002),
         (bytes([TEXT, 0x01, 0x41]), 1002),
+        (bytes([TEXT, 0x81, 0, 0, 0, 0, 0xFF]) * 20 + bytes([TEXT, 0x82, 0, 0, 0, 0, 0x7B, 0x7D]), 1007),
+        (bytes([TEXT, 0x81, 0, 0, 0, 0, 0xFF, 0x88, 0x82, 0, 0, 0, 0, 0x03, 0xE8]), 1000),
     ],
-    ids=["no UTF-8", "a surrogate", "no frame", "continues nothing", "not masked"],
+    ids=["no UTF-8", "a surrogate", "no frame", "continues nothing", "not masked", "many", "and a close"],
 )
 def test_websockets_with_what_is_none_are_closed_without_a_traceback(
     logged: tuple[Running, Path], frame: bytes, code: int

@@ -41,7 +41,7 @@ JSON = {"Content-Type": "application/json"}
         ("POST", "/transport", "16 kB", "/transport"),
         ("PATCH", "", "16 kB", "/sessions/{session_id} takes"),
         ("PUT", "/cast", "16 kB", "/cast"),
-        ("PUT", "/alignment", "16 kB", "/alignment"),
+        ("PUT", "/alignment", "1 MB", "/alignment"),
         ("POST", "/show/tracks/camera/fov/keyframes", "16 kB", "/keyframes"),
         ("PATCH", "/show/tracks/camera/fov/keyframes/k1", "16 kB", "/keyframes/{key}"),
         ("PUT", "/show/tracks/camera/fov", "1 MB", "/show/tracks/{path}"),

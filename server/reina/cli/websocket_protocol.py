@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from websockets.protocol import State
 
 NO_TEXT = 1007
 """RFC 6455, 7.4.1: data that is not what its type says."""
@@ -13,10 +14,15 @@ class TextProtocol(WebSocketsSansIOProtocol):
 
     def send_receive_event_to_app(self) -> None:
         """Pass a whole message on, if it is one."""
-        if self.curr_msg_data_type == "text" and not _is_utf8(b"".join(self.frames)):
+        if self.transport.is_closing():
+            # It came in one piece with what ended its sender.
             self.frames = []
-            self.conn.send_close(NO_TEXT)
-            self.handle_parser_exception()
+        elif self.curr_msg_data_type == "text" and not _is_utf8(b"".join(self.frames)):
+            self.frames = []
+            if self.conn.state is State.OPEN:
+                self.conn.send_close(NO_TEXT)
+                self.handle_parser_exception()
+            # Else one end has closed already, and nothing is said after that.
         else:
             super().send_receive_event_to_app()
 

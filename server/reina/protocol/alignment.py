@@ -2,12 +2,13 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, FailFast, Field
 
 from reina.protocol.model import RequestModel, WireModel
 
 MAX_POINTS = 100_000
 MAX_ANCHORS = 10_000
+# Lists fail fast: of many thousands of entries with faults the first is told, and no memory goes to the rest.
 
 Seconds = Annotated[float, Field(allow_inf_nan=False, ge=-1e6, le=1e6)]
 Length = Annotated[float, Field(allow_inf_nan=False, gt=0, le=1e6)]
@@ -46,16 +47,16 @@ class AlignmentDocument(_Model):
     """Where each place of a score is heard in a recording, as `Alignment`."""
 
     version: Literal[1] = 1
-    points: Annotated[list[PointDocument], Field(max_length=MAX_POINTS)]
+    points: Annotated[list[PointDocument], FailFast(), Field(max_length=MAX_POINTS)]
     score_duration_s: Length
     song_duration_s: Length
-    gaps: Annotated[list[GapDocument], Field(max_length=MAX_POINTS)] = []
+    gaps: Annotated[list[GapDocument], FailFast(), Field(max_length=MAX_POINTS)] = []
     is_same_music: bool = True
     transposition: Annotated[int, Field(ge=-6, le=6)] = 0
     tuning_cents: Annotated[float, Field(ge=-50, le=50)] = 0.0
     count_in: Annotated[int, Field(ge=0)] = 0
     sounds_after: bool = False
-    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = []
+    anchors: Annotated[list[AnchorDocument], FailFast(), Field(max_length=MAX_ANCHORS)] = []
     offset_s: Seconds = 0.0
     follows_key: bool = False
 
@@ -113,7 +114,7 @@ class Alignment(AlignmentState):
 class AlignmentCorrections(RequestModel):
     """What a person puts right in an alignment."""
 
-    anchors: Annotated[list[AnchorDocument], Field(max_length=MAX_ANCHORS)] = Field(
+    anchors: Annotated[list[AnchorDocument], FailFast(), Field(max_length=MAX_ANCHORS)] = Field(
         default_factory=list[AnchorDocument]
     )
     """Places of the score that are put where they are heard; what was found goes through them."""

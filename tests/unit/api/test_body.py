@@ -131,6 +131,14 @@ def test_json_that_is_long_is_parsed_on_a_thread(monkeypatch: pytest.MonkeyPatch
     assert SMALL.most_bytes <= AT_ONCE, "what is small is parsed where it is"
 
 
+def test_fields_of_what_stands_within_a_long_body_are_counted_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(body, "AT_ONCE", 100)
+    many = {f"x{n}": 1 for n in range(body.MOST_FIELDS + 1)}
+    assert Sender(json.dumps({"a": [{"b": many}]}).encode()).send("POST", "/json") == 422
+    few = Sender(json.dumps({"a": [dict(list(many.items())[1:])] * 3}).encode())
+    assert few.send("POST", "/json") == 200
+
+
 def test_every_route_that_takes_a_body_has_a_bound_and_every_bound_a_route() -> None:
     writing = {
         (method, context.path.removeprefix(API)): context.original_route

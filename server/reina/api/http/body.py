@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from fastapi import Request
 from fastapi.routing import APIRoute
@@ -49,9 +49,13 @@ SMALL = BodyLimit(16_000)
 SHOW = BodyLimit(FILE_LIMITS["show"], "show")
 CLIP = BodyLimit(20 * MEGABYTE, "clip")
 TRACK = BodyLimit(MEGABYTE, "track")
+ALIGNMENT = BodyLimit(MEGABYTE, "alignment")
+"""A map has a point for each beat, some 65 bytes: two hours of music. What a page puts back by undo or from a
+file is as long as what it was given."""
 BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
     ("POST", "/sessions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/song/analysis"): BodyLimit(FILE_LIMITS["song"], "sound"),
+    ("PUT", "/sessions/{session_id}/alignment"): ALIGNMENT,
     ("POST", "/transcriptions"): BodyLimit(MAX_BYTES, "upload"),
     ("PUT", "/sessions/{session_id}/show"): SHOW,
     ("POST", "/sessions/{session_id}/show/edits"): BodyLimit(4 * MEGABYTE, "edits"),
@@ -65,7 +69,7 @@ BODY_LIMITS: dict[tuple[str, str], BodyLimit] = {
 """By method and address; every other body is `SMALL`."""
 _PATTERNS = [(method, compile_path(path)[0], limit) for (method, path), limit in BODY_LIMITS.items()]
 MOST_FIELDS = 100
-"""No body that is read field by field has so many."""
+"""No body that is read field by field has so many, nor has any object in it."""
 AT_ONCE = 64_000
 """Bytes of JSON that are parsed without a thread, within a millisecond."""
 
@@ -119,6 +123,7 @@ class BoundedRequest(Request):
     def __init__(self, request: Request, limit: BodyLimit) -> None:
         super().__init__(request.scope, request.receive)
         self._limit = limit
+        self._fields = 0
 
     async def stream(self) -> AsyncGenerator[bytes, None]:
         """The body in pieces.
@@ -140,21 +145,26 @@ class BoundedRequest(Request):
         """The body as JSON."""
         if not hasattr(self, "_json"):
             body = await self.body()
-            self._json = read_json(body) if len(body) <= AT_ONCE else await asyncio.to_thread(read_json, body)
+            short = len(body) <= AT_ONCE
+            self._json, self._fields = read_json(body) if short else await asyncio.to_thread(read_json, body)
         return self._json
 
     async def check_fields(self) -> None:
         """Refuse a long body with more fields than any request has, each of which would be told on its own.
 
+        What stands within it counts too: one entry of a list may hold as many as a body.
+
         Raises:
             ProblemError: 422.
         """
         try:
-            document = await self.json()
+            await self.json()
         except (ValueError, RecursionError):
             return  # It is told where it is read.
-        if isinstance(document, dict) and (count := len(cast("dict[str, Any]", document))) > MOST_FIELDS:
-            detail = f"the body has {count} fields; no request has more than {MOST_FIELDS}"
+        if self._fields > MOST_FIELDS:
+            detail = (
+                f"the body has {self._fields} fields in one object; no request has more than {MOST_FIELDS}"
+            )
             raise ProblemError(422, "request-invalid", "The request does not fit", detail)
 
     def _too_large(self) -> ProblemError:
@@ -163,14 +173,24 @@ class BoundedRequest(Request):
         return ProblemError(413, f"{name}-too-large", "Content Too Large", detail)
 
 
-def read_json(data: bytes) -> Any:
+def read_json(data: bytes) -> tuple[Any, int]:
     """Parse JSON so that other threads have their turns.
 
     The parser is one call, which holds the interpreter's lock until it returns unless it calls something in
-    Python: here a function at every object, which gives it back as it is.
+    Python: here a function at every object, which counts its fields.
+
+    Returns:
+        What it holds, and how many fields the object in it has that has most.
 
     Raises:
         ValueError: It is no JSON.
         RecursionError: It is nested too deeply.
     """
-    return json.loads(data, object_hook=lambda value: value)
+    most = 0
+
+    def counted(fields: dict[str, Any]) -> dict[str, Any]:
+        nonlocal most
+        most = max(most, len(fields))
+        return fields
+
+    return json.loads(data, object_hook=counted), most
