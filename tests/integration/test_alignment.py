@@ -179,11 +179,13 @@ def test_a_map_of_every_beat_of_a_long_piece_and_every_tap_on_it_can_be_put(clie
 
 
 def test_a_long_alignment_of_very_many_faults_tells_the_first(aligned: Owned) -> None:
-    for body in (
-        {"points": [{}] * 100_000, "score_duration_s": 4.0, "song_duration_s": 6.0},
-        {"anchors": [{}] * 9000},
+    nothing: dict[str, int] = {}
+    bodies: list[dict[str, Any]] = [
+        {"points": [nothing] * 100_000, "score_duration_s": 4.0, "song_duration_s": 6.0},
+        {"anchors": [nothing] * 9000},
         {"anchors": [{f"x{n}": 1 for n in range(20_000)}]},
-    ):
+    ]
+    for body in bodies:
         refused = aligned.change("PUT", "/alignment", json=body)
         assert refused.status_code == 422
         assert len(refused.content) < 2000

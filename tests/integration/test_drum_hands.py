@@ -78,7 +78,9 @@ def struck(drummed: Drummed, beats: tuple[float, ...]) -> list[tuple[float, str]
         note = next(
             note
             for note in drummed.notes
-            if abs(note["onset_s"] - at) < 1e-3 and (note["fingering"] or {}).get("piece") == "snare"
+            if abs(note["onset_s"] - at) < 1e-3
+            and note["fingering"] is not None
+            and note["fingering"]["piece"] == "snare"
         )
         assert note["fingering"]["zone"] == "rim"
         found.append((note["onset_s"], note["fingering"]["hand"]))

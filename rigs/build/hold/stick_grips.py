@@ -91,7 +91,7 @@ class GripKey:
     fulcrum: Array
     direction: Array
     point: Array
-    pose: Pose = field(default_factory=dict)
+    pose: Pose = field(default_factory=dict[str, Array])
     turn: Array = field(default_factory=lambda: np.eye(3))
     """The stick's rotation in the hand's frame (3, 3)."""
     faces: tuple[Array, Array] | None = None
@@ -224,16 +224,14 @@ class HandGrips:
 
         pose.update(self.thumb.local_rotations(_best(residuals, THUMB_STARTS)))
         keys: list[GripKey] = []
-        turns = np.linspace(ACROSS_RAD, ACROSS_RAD - np.pi, 13)
-        for share, turn in zip(np.linspace(0.25, 0.7, len(turns)), turns, strict=True):
+        for step in range(13):
+            share, turn = 0.25 + 0.45 * step / 12, ACROSS_RAD - np.pi * step / 12
             level = np.array([np.cos(turn), 0.0, np.sin(turn)])
             direction = level - normal * (level @ normal)
             direction = direction / np.linalg.norm(direction) * m
             # It slides meanwhile to where the hand holds it near its tip.
-            slid = np.clip((share - 0.25) / 0.45, 0.0, 1.0) * (TIP_M - OVER_TIP_M)
-            keys.append(
-                GripKey(float(share), FLIP_M * m - slid * direction, direction, np.zeros(3), dict(pose))
-            )
+            slid = step / 12 * (TIP_M - OVER_TIP_M)
+            keys.append(GripKey(share, FLIP_M * m - slid * direction, direction, np.zeros(3), dict(pose)))
         return keys
 
     def on_edge(self, share: float, jaws: float) -> GripKey:

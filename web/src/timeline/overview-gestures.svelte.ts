@@ -14,10 +14,17 @@ export interface OverviewPress {
   readonly alt: boolean;
 }
 
+interface HeldLoop {
+  readonly kind: "loop";
+  readonly drag: LoopDrag;
+  readonly begin: OverviewPress;
+  moved: boolean;
+  /** What it would be; null until the pointer draws it. */
+  drawn: LoopSpan | null;
+}
+
 type Held =
-  | { readonly kind: "seek"; readonly begin: OverviewPress; moved: boolean }
-  | { readonly kind: "loop"; readonly drag: LoopDrag; readonly begin: OverviewPress; moved: boolean }
-  | { readonly kind: "scroll" };
+  { readonly kind: "seek"; readonly begin: OverviewPress; moved: boolean } | HeldLoop | { readonly kind: "scroll" };
 
 /** Seeks sent while the pointer drags, at most one in so many milliseconds. */
 const DRAG_PAUSE_MS = 120;
@@ -74,8 +81,7 @@ export class OverviewGestures {
     this.#longPress = setTimeout(() => {
       buzz();
       this.sought = null;
-      this.#begin(press, "new");
-      this.loop = this.grid.bar(this.#timeAt(press.x));
+      this.#draw(this.#begin(press, "new"), this.grid.bar(this.#timeAt(press.x)));
     }, LONG_PRESS_MS);
   }
 
@@ -107,7 +113,7 @@ export class OverviewGestures {
     clearTimeout(this.#longPress);
     this.#moveOn(press.x);
     if (held.kind === "seek") this.#seek(press.x, false);
-    else this.loop = held.drag.at(this.#timeAt(press.x), press.alt);
+    else this.#draw(held, held.drag.at(this.#timeAt(press.x), press.alt));
   }
 
   /** @param tapped what a press does that has not moved; without it, go there. */
@@ -121,12 +127,14 @@ export class OverviewGestures {
     if (held.kind === "seek") {
       if (this.sought !== null) await view.seek(this.sought);
       this.sought = null;
-    } else if (this.loop !== null) {
-      const { loop } = this;
-      await view.setLoop(loop);
-      if (this.loop === loop) this.loop = null;
-    } else if (tapped !== undefined) tapped();
-    else await view.seek(this.#timeAt(press.x));
+    } else if (held.drawn !== null) {
+      // It stays in sight until the server has it.
+      await view.setLoop(held.drawn);
+      if (this.loop === held.drawn) this.loop = null;
+    } else if (tapped !== undefined) {
+      this.loop = null;
+      tapped();
+    } else await view.seek(this.#timeAt(press.x));
   }
 
   /** Let go and change nothing; returns whether there was anything. */
@@ -144,15 +152,17 @@ export class OverviewGestures {
     this.cancel();
   }
 
-  #begin(press: OverviewPress, part: LoopPart): void {
+  #begin(press: OverviewPress, part: LoopPart): HeldLoop {
     const { loop } = this.#view().transport;
-    const there = loop === null ? null : { start: loop.start_s, end: loop.end_s };
-    this.#held = {
-      kind: "loop",
-      drag: new LoopDrag(this.grid, part, this.#timeAt(press.x), part === "new" ? null : there),
-      begin: press,
-      moved: false,
-    };
+    const there = this.loop ?? (loop === null ? null : { start: loop.start_s, end: loop.end_s });
+    const drag = new LoopDrag(this.grid, part, this.#timeAt(press.x), part === "new" ? null : there);
+    const held: HeldLoop = { kind: "loop", drag, begin: press, moved: false, drawn: null };
+    this.#held = held;
+    return held;
+  }
+
+  #draw(held: HeldLoop, loop: LoopSpan): void {
+    this.loop = held.drawn = loop;
   }
 
   #seek(x: number, now: boolean): void {

@@ -283,19 +283,22 @@ export class LaneGestures {
   #beginLoop(press: Press, part: LoopPart): Gesture | null {
     const { view, loopGrid, loop, window } = this.#editor;
     if (!view.canControl) return null;
-    const drag = new LoopDrag(loopGrid, part, window.timeAt(press.x), part === "new" ? null : loop);
+    const drag = new LoopDrag(loopGrid, part, window.timeAt(press.x), part === "new" ? null : (this.loop ?? loop));
     return { kind: "loop", drag, begin: press, moved: false };
   }
 
   /** What was drawn becomes the loop; a click ends the loop that it meets, and goes there elsewhere. */
-  async #placeLoop({ drag }: Gesture & { kind: "loop" }, press: Press): Promise<void> {
+  async #placeLoop({ drag, moved }: Gesture & { kind: "loop" }, press: Press): Promise<void> {
     const { view, window } = this.#editor;
     const { loop } = this;
-    if (loop !== null) {
+    // What was drawn before stays in sight until the server has it, and is no answer to a click.
+    if (moved && loop !== null) {
       await view.setLoop(loop);
       if (this.loop === loop) this.loop = null;
-    } else if (drag.part === "whole") await view.setLoop(null);
-    else await view.seek(Math.max(window.timeAt(press.x), 0));
+    } else if (drag.part === "whole") {
+      this.loop = null;
+      await view.setLoop(null);
+    } else await view.seek(Math.max(window.timeAt(press.x), 0));
   }
 
   #beginKeys(press: Press, hit: Hit & { kind: "key" }): Gesture | null {
