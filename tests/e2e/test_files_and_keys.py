@@ -137,7 +137,10 @@ def test_one_notice_at_a_time_beside_the_player_until_its_cause_is_past(visit: V
     # What could not be done is said until the server answers again.
     page.route("**/transport", lambda route: route.abort())
     for key in ("Home", "l", "End"):
-        page.keyboard.press(key)
+        # What is asked while the one before is on its way is dropped with it.
+        with page.expect_event("requestfailed"):
+            page.keyboard.press(key)
+        opened.until("!window.reina.asking")
     notices.get_by_text("The server does not answer").wait_for()
     assert notices.count() == 1
     box, (width, height) = notices.bounding_box(), WIDE

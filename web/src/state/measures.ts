@@ -22,6 +22,8 @@ export interface PageMeasures {
   readonly songTime: number;
   readonly epoch: number;
   readonly playing: boolean;
+  /** The clock has been asked for something that is not answered yet. */
+  readonly asking: boolean;
   readonly sound: string;
   /** How loud what leaves the page is, 0…1, and how many seconds of sound are decoded. */
   readonly soundLevel: number;
@@ -94,6 +96,9 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     },
     get playing() {
       return view()?.playing ?? false;
+    },
+    get asking() {
+      return view()?.asking ?? false;
     },
     get sound() {
       return view()?.sound ?? "silent";

@@ -305,6 +305,11 @@ export class SessionView {
     return this.#commands.asked.songTime ?? this.#songTimeAt(performance.now() / 1000);
   }
 
+  /** Whether the clock has been asked for something that is not answered yet. */
+  get asking(): boolean {
+    return this.#commands.waits;
+  }
+
   /** The rate that it plays at, or will. */
   get rate(): number {
     return this.#commands.asked.rate ?? this.transport.rate;

@@ -26,6 +26,11 @@ export class TransportQueue {
     return this.#asked;
   }
 
+  /** Whether the server has not answered to all of it yet. */
+  get waits(): boolean {
+    return this.#working !== null;
+  }
+
   /** Ask for a command; done once all that was asked for is answered. */
   add(command: TransportCommand): Promise<void> {
     this.#asked = { ...this.#asked, ...effectOf(command) };
