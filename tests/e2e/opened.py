@@ -32,7 +32,7 @@ OVERFLOWING = """() => [...document.querySelectorAll("html, .pane, .pane button,
   .map((element) => element.outerHTML.slice(0, 120))"""
 
 STATE = """() => [document.querySelector(".notices")?.innerText, window.reina?.drawn,
-  document.activeElement?.outerHTML.slice(0, 120)]"""
+  window.reina?.playing, window.reina?.sound, document.activeElement?.outerHTML.slice(0, 120)]"""
 STILL = """() => document.getAnimations().every(
   (each) => each.playState !== "running" || each.effect?.getComputedTiming().endTime === Infinity)"""
 
@@ -139,7 +139,7 @@ class Opened:
         if self.page.is_closed():
             return f"{self.page.url}: closed; errors {self.errors}"
         figures = self.page.evaluate(STATE)
-        return f"{self.page.url}: notices, drawn, focus {figures}; errors {self.errors}"
+        return f"{self.page.url}: notices, drawn, playing, sound, focus {figures}; errors {self.errors}"
 
     def press_until(self, button: Locator, sign: Locator) -> None:
         """Tap a button; once more, as a person would, where the first tap came while the page changed."""

@@ -328,6 +328,8 @@ export class SessionView {
   }
 
   async toggle(): Promise<void> {
+    // Also where it pauses: the browser asks for a click or a key, whatever that is for.
+    void this.unlockSound();
     if (this.starting) this.starting = false;
     else await ((this.#commands.asked.playing ?? this.playing) ? this.pause() : this.play());
   }
