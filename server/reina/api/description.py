@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from fastapi.responses import Response
@@ -28,6 +30,23 @@ IF_NONE_MATCH: dict[str, Any] = {
 
 
 OPENAPI = "/openapi.json"
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a POST makes: the answer's field that names it, and the path parameter that takes the name."""
+
+    field: str
+    parameter: str
+    status: str = "201"
+
+
+MAKERS = {
+    "/api/v1/sessions": Made("id", "session_id"),
+    "/api/v1/sessions/{session_id}/stances": Made("name", "name"),
+    "/api/v1/sessions/{session_id}/show/tracks/{path}/keyframes": Made("key", "key"),
+    "/api/v1/transcriptions": Made("id", "transcription_id", "202"),
+}
 
 
 def describe(app: FastAPI) -> None:
@@ -62,9 +81,30 @@ def describe(app: FastAPI) -> None:
                 if method == "get":
                     _add_if_none_match(operation)
                 _describe_conditions(operation, problem)
+        _describe_links(document["paths"])
         return document
 
     app.openapi = openapi
+
+
+def _describe_links(paths: dict[str, Any]) -> None:
+    """Say what is made where, and which calls take its name then (OpenAPI's links)."""
+    for maker, made in MAKERS.items():
+        links: dict[str, Any] = {}
+        for path, operations in paths.items():
+            if not path.startswith(f"{maker}/{{{made.parameter}}}"):
+                continue
+            given = {name: f"$request.path.{name}" for name in _names(maker)}
+            for operation in operations.values():
+                links[operation["operationId"]] = {
+                    "operationId": operation["operationId"],
+                    "parameters": {**given, made.parameter: f"$response.body#/{made.field}"},
+                }
+        paths[maker]["post"]["responses"][made.status]["links"] = links
+
+
+def _names(path: str) -> list[str]:
+    return re.findall(r"{(\w+)", path)
 
 
 def _show_schemas() -> dict[str, Any]:
