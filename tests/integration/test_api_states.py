@@ -10,7 +10,7 @@ from tests.integration.server import serve
 if TYPE_CHECKING:
     from pathlib import Path
 
-CALLS = 200
+CALLS = 120
 
 
 def test_calls_in_any_order_are_answered_as_described(tmp_path: Path) -> None:
