@@ -72,6 +72,9 @@ async def create_session(request: Request, response: Response, store: Store) -> 
     async with store.staging() as folder:
         upload = await receive_upload(request, folder)
         session, token = await store.create(_draft(folder, upload, request))
+    if await request.is_disconnected():
+        # Whoever sent it has given it up, and nobody else can come to know it.
+        await store.delete(session)
     response.headers["Location"] = session_links(session.id).self
     resource = await asyncio.to_thread(session.resource)
     return resources.CreatedSession(**dict(resource), control_token=token)

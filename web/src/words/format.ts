@@ -30,3 +30,10 @@ export function milliseconds(value: number): string {
     signDisplay: "exceptZero",
   }).format(value);
 }
+
+/** How large something is, as megabytes: `0.4 MB`, `31 MB`. */
+export function megabytes(bytes: number): string {
+  const megabytes = bytes / 1e6;
+  const digits = megabytes < 9.95 ? 1 : 0;
+  return number(megabytes, { style: "unit", unit: "megabyte", maximumFractionDigits: digits });
+}

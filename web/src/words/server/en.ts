@@ -57,6 +57,8 @@ export const named = words("server", {
   problem_show_unusable: "The show cannot be used",
   problem_input_unusable: "The input cannot be used",
   problem_request_invalid: "The request does not fit",
+  problem_server_ends: "The server is being stopped",
+  problem_transcription_busy: "The server is listening to other recordings",
   problem_unknown_keyframe: "There is no such track or keyframe",
   problem_key_taken: "There is such a keyframe already",
   problem_unknown_parameter: "There is no such parameter",
