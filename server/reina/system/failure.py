@@ -56,13 +56,13 @@ def failure_of(error: BaseException) -> Failure:
     if isinstance(error, ProcessFailure):
         return error.failure
     steps = traceback.extract_tb(error.__traceback__)[-MOST_FRAMES:]
-    frames = tuple(f"{_shown(step.filename)}:{step.lineno} {step.name}" for step in steps)
+    frames = tuple(f"{shown_file(step.filename)}:{step.lineno} {step.name}" for step in steps)
     cause = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     told = None if cause is None else f"{type(cause).__name__}: {_line(str(cause))}".removesuffix(": ")
     return Failure(type(error).__name__, _line(str(error)), frames, told)
 
 
-def _shown(filename: str) -> str:
+def shown_file(filename: str) -> str:
     """A module's path below where it was imported from, the longest such folder."""
     roots = [root for root in _ROOTS if filename.startswith(root)]
     return filename.removeprefix(max(roots, key=len)) if roots else Path(filename).name

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
-PERIOD_S = 60.0
+EVERY_S = 60.0
 MOST_KINDS = 1000
 """So many kinds are remembered; of more, those that were told the longest ago are forgotten."""
 
@@ -28,13 +29,13 @@ class Seldom:
     May be used by several threads.
 
     Args:
+        every_s: Of one kind nothing is told for so long after it was told.
         now: Seconds; never goes back.
-        period_s: Of one kind nothing is told for so long after it was told.
     """
 
-    def __init__(self, now: Callable[[], float], *, period_s: float = PERIOD_S) -> None:
+    def __init__(self, every_s: float = EVERY_S, now: Callable[[], float] = time.monotonic) -> None:
         self._now = now
-        self._period_s = period_s
+        self._every_s = every_s
         self._told: OrderedDict[Hashable, _Told] = OrderedDict()
         self._lock = threading.Lock()
 
@@ -48,7 +49,7 @@ class Seldom:
         with self._lock:
             now = self._now()
             told = self._told.get(kind)
-            if told is not None and now < told.at + self._period_s:
+            if told is not None and now < told.at + self._every_s:
                 told.since += 1
                 return None
             self._told[kind] = _Told(now)
@@ -56,11 +57,3 @@ class Seldom:
             while len(self._told) > MOST_KINDS:
                 self._told.popitem(last=False)
             return told.since if told else 0
-
-    def untold(self) -> list[tuple[Hashable, int]]:
-        """The kinds that have happened since they were told, and how often; they count as told then."""
-        with self._lock:
-            since = [(kind, told.since) for kind, told in self._told.items() if told.since]
-            for told in self._told.values():
-                told.since = 0
-            return since

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 import structlog
 
 from reina.errors import InputError
-from reina.system.failure import Failure, failure_of
+from reina.system.failure import MOST_FRAMES, Failure, failure_of, shown_file
 from reina.system.json_text import json_text
 from reina.system.log_rate import Seldom
 
@@ -34,6 +34,8 @@ LEVELS = ("debug", "info", "warning", "error")
 LONGEST_TEXT = 500
 """Characters of an event and of each of its fields."""
 HASH_DIGITS = 8
+EACH = {"_each": True}
+"""The field of events that are all written, however often they happen."""
 PLAIN_FIELDS = frozenset({"timestamp", "level", "logger", "request_id", "session", "frames", "error_type"})
 """Fields that Reina itself makes: nothing in them comes from outside but a request's id, which is checked."""
 
@@ -136,7 +138,7 @@ class _OnceAMinute(logging.Filter):
 
     def __init__(self, now: Callable[[], float]) -> None:
         super().__init__()
-        self._seldom = Seldom(now)
+        self._seldom = Seldom(now=now)
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Whether a record is written; how many like it were not is noted in it."""
@@ -145,6 +147,8 @@ class _OnceAMinute(logging.Filter):
             return False
         message: object = record.msg
         fields = cast("dict[str, Any]", message) if isinstance(message, dict) else {}
+        if fields.keys() & EACH.keys():
+            return True
         failure = failure_of(error) if error is not None else None
         kind = (
             record.name,
@@ -199,7 +203,8 @@ def _time(created_s: float) -> str:
 
 def _failed(_logger: object, _method: str, event: EventDict) -> EventDict:
     """Tell an exception by fields, and no traceback that somebody has written out."""
-    event.pop("stack_info", None)
+    for name in ("stack_info", *EACH):
+        event.pop(name, None)
     error = _exception(event.pop("exc_info", None))
     failure = failure_of(error) if error is not None else None
     if _WRITTEN_TRACEBACK in str(event["event"]):
@@ -218,7 +223,10 @@ def _read_traceback(text: str) -> tuple[str, Failure]:
     before, _, written = text.partition(_WRITTEN_TRACEBACK)
     last = written.strip().splitlines()[-1] if written.strip() else ""
     kind, _, message = last.partition(": ")
-    frames = tuple(f"{file}:{line} {name}" for file, line, name in _WRITTEN_FRAME.findall(written)[-12:])
+    frames = tuple(
+        f"{shown_file(file)}:{line} {name}"
+        for file, line, name in _WRITTEN_FRAME.findall(written)[-MOST_FRAMES:]
+    )
     return before.strip().rstrip(":"), Failure(kind.strip(), message, frames)
 
 
