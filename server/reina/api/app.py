@@ -107,6 +107,7 @@ def create_app(
     )
     app.state.settings = chosen
     app.state.ending = Ending()
+    app.state.readiness = None
     app.state.now = now
     for module in (
         sessions,

@@ -12,7 +12,15 @@ from reina.api.http.problems import ProblemError
 from reina.api.http.work import in_turn
 from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
-from reina.protocol.resources import Fault, Health, LightMood, LightMoodList, Problem, ShowParameterList
+from reina.protocol.resources import (
+    Fault,
+    Health,
+    LightMood,
+    LightMoodList,
+    Problem,
+    ShowParameterList,
+    Unready,
+)
 from reina.stage import LIGHT_MOODS, MOOD_REST
 
 if TYPE_CHECKING:
@@ -85,8 +93,9 @@ async def get_readiness(request: Request, response: Response) -> Health:
 
 def _health(request: Request) -> Health:
     now: Callable[[], float] = request.app.state.now
-    readiness: Readiness = request.app.state.readiness
-    missing = readiness.missing()
+    readiness: Readiness | None = request.app.state.readiness
+    starting = Unready(reason="starting", detail="the server has not started yet")
+    missing = [starting] if readiness is None else readiness.missing()
     return Health(
         status="not-ready" if missing else "ok",
         ready=not missing,

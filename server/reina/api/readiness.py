@@ -9,11 +9,10 @@ import tempfile
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Literal
 
-import structlog
-
 from reina.errors import InputError
 from reina.protocol.resources import Unready
 from reina.sound.font import MissingSoundfontError, find_soundfont
+from reina.system.logs import logger
 from reina.system.metrics import READY
 
 if TYPE_CHECKING:
@@ -36,7 +35,7 @@ STARTING_S = 20.0
 LEAST_ROOM_BYTES = 100_000_000
 """With less room in the data directory than a song takes, uploads are about to fail."""
 
-_log: structlog.stdlib.BoundLogger = structlog.get_logger(__name__)
+_log = logger(__name__)
 
 
 class Readiness:

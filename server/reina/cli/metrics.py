@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import structlog
 from prometheus_client import start_http_server
 
 import reina.system.process_metrics  # noqa: F401 - registers what is told of processes
 from reina.cli.listening import explained
+from reina.system.logs import logger
 from reina.system.metrics import REGISTRY
 
 METRICS_HOST = "127.0.0.1"
 
-_log: structlog.stdlib.BoundLogger = structlog.get_logger(__name__)
+_log = logger(__name__)
 
 
 def serve_metrics(host: str, port: int | None) -> None:

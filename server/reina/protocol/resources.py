@@ -689,7 +689,15 @@ class Unready(WireModel):
     """One thing without which the server is not ready."""
 
     reason: Literal[
-        "data-directory", "data-full", "database", "workers", "soundfont", "page", "event-loop", "ending"
+        "starting",
+        "data-directory",
+        "data-full",
+        "database",
+        "workers",
+        "soundfont",
+        "page",
+        "event-loop",
+        "ending",
     ]
     detail: str
 

@@ -51,6 +51,19 @@ _WRITTEN_FRAME = re.compile(r'File "([^"]+)", line (\d+), in (\S+)')
 _WRITTEN_TRACEBACK = "Traceback (most recent call last)"
 
 
+structlog.configure(
+    processors=[structlog.stdlib.ProcessorFormatter.wrap_for_formatter],
+    wrapper_class=structlog.stdlib.BoundLogger,
+    logger_factory=structlog.stdlib.LoggerFactory(),
+)
+
+
+def logger(name: str) -> structlog.stdlib.BoundLogger:
+    """A logger of events with fields, by the name of its module."""
+    made: structlog.stdlib.BoundLogger = structlog.get_logger(name)
+    return made
+
+
 def shown_session(session_id: str) -> str:
     """What a log says of a session: who has its id may watch it, who has this may not.
 
@@ -95,12 +108,6 @@ def configure(
     to = stream or sys.stderr
     chosen = _one_of(FORM_VARIABLE, form, FORMS, "text" if to.isatty() else "json")
     lowest = _one_of(LEVEL_VARIABLE, level, LEVELS, "info")
-    structlog.configure(
-        processors=[structlog.stdlib.ProcessorFormatter.wrap_for_formatter],
-        wrapper_class=structlog.stdlib.BoundLogger,
-        logger_factory=structlog.stdlib.LoggerFactory(),
-        cache_logger_on_first_use=False,
-    )
     handler = logging.StreamHandler(to)
     handler.addFilter(_OnceAMinute(now))
     render: Any = _json if chosen == "json" else structlog.dev.ConsoleRenderer(colors=to.isatty())

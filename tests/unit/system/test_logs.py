@@ -54,7 +54,6 @@ def configured(**options: Any) -> Iterator[Log]:
         root.handlers, sys.excepthook, threading.excepthook = before[0], before[2], before[3]
         root.setLevel(before[1])
         logging.captureWarnings(capture=False)
-        structlog.reset_defaults()
 
 
 def fail(error: Exception) -> None:

@@ -13,7 +13,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from reina.api.http.problems import METHODS, ProblemError
 from reina.api.http.request_id import request_id
 from reina.protocol.links import API
-from reina.system.logs import EACH, shown_session
+from reina.system.logs import EACH, logger, shown_session
 from reina.system.metrics import REQUEST_SECONDS, REQUESTS, tally
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ _KNOWN_METHODS = frozenset({*METHODS, "HEAD", "OPTIONS"})
 NO_ROUTE, OTHER_METHOD = "none", "other"
 _NOTES = "reina.notes"
 
-_log: structlog.stdlib.BoundLogger = structlog.get_logger(__name__)
+_log = logger(__name__)
 
 
 class Observed:
