@@ -18,7 +18,7 @@ from tests.integration.server import PATIENCE_S, Running, serve, upload
 from tests.integration.watching import watch
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
     from pathlib import Path
 
 PLAIN_ID = re.compile(r"[A-Za-z0-9._-]{8,36}")
@@ -61,7 +61,7 @@ class Observed:
 
 
 @contextlib.contextmanager
-def observed(folder: Path, *arguments: str) -> Iterator[Observed]:
+def observed(folder: Path, *arguments: str) -> Generator[Observed]:
     log = folder / "log"
     with serve(folder / "data", "--metrics-port", "0", "--log-requests", *arguments, log=log) as running:
         yield Observed(running, log)
@@ -129,7 +129,7 @@ def test_no_secret_is_in_the_log(seen: Observed, asking: httpx.Client) -> None:
     broken = asking.post("/api/v1/sessions", files={"score": (f"{SECRET}.mid", SECRET.encode())})
     assert broken.status_code == 422
     wrong = {"Authorization": f"Bearer {SECRET}"}
-    for method, path, options in (
+    requests: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("GET", f"/api/v1/sessions/{SECRET}", {}),
         ("GET", f"/api/v1/sessions?token={SECRET}&after={SECRET}", {}),
         ("GET", f"/{SECRET}?control_token={SECRET}", {}),
@@ -145,7 +145,8 @@ def test_no_secret_is_in_the_log(seen: Observed, asking: httpx.Client) -> None:
             {"headers": {"X-Request-ID": SECRET, "User-Agent": SECRET, "Cookie": SECRET}},
         ),
         ("DELETE", session.path, {"headers": session.headers}),
-    ):
+    )
+    for method, path, options in requests:
         assert asking.request(method, path, **options).status_code < 500
     seen.request(asking.get("/api/v1/health").headers["X-Request-ID"])
     said = seen.log.read_text()

@@ -24,7 +24,7 @@ from tests.servers.proxies import PACKAGES, Proxy, proxy
 from reina.protocol import SUBPROTOCOL
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator
     from pathlib import Path
 
 KINDS = sorted(PACKAGES)
@@ -35,7 +35,7 @@ def tls(to: Proxy) -> ssl.SSLContext:
 
 
 @contextlib.contextmanager
-def echo() -> Iterator[int]:
+def echo() -> Generator[int]:
     """Something in Reina's place that tells which headers came to it."""
 
     class Handler(http.server.BaseHTTPRequestHandler):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import shutil
-from collections import namedtuple
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
+from unittest.mock import Mock
 
 import pytest
 
@@ -20,7 +20,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-Usage = namedtuple("Usage", "total used free")
+
+class Usage(NamedTuple):
+    """As `shutil.disk_usage` tells it."""
+
+    total: int
+    used: int
+    free: int
 
 
 @dataclass
@@ -90,7 +96,8 @@ def test_a_data_directory_that_is_gone(server: Server) -> None:
 
 
 def test_a_full_disk(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: Usage(10**9, 10**9, LEAST_ROOM_BYTES - 1))
+    usage = Usage(10**9, 10**9, LEAST_ROOM_BYTES - 1)
+    monkeypatch.setattr(shutil, "disk_usage", Mock(return_value=usage))
     assert server.reasons() == ["data-full"]
 
 

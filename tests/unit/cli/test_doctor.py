@@ -12,9 +12,9 @@ import sqlite3
 import stat
 import sys
 import threading
-from collections import namedtuple
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
+from unittest.mock import Mock
 
 import pytest
 
@@ -25,11 +25,19 @@ from reina.cli.listening import listen
 from reina.sessions.storage.archive import DATABASE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Generator, Iterable
 
     from reina.cli.doctor.finding import Finding
 
-Usage = namedtuple("Usage", "total used free")
+
+class Usage(NamedTuple):
+    """As `shutil.disk_usage` tells it."""
+
+    total: int
+    used: int
+    free: int
+
+
 RIGS = Path(__file__).parents[3] / "rigs"
 
 
@@ -63,7 +71,7 @@ def settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Settings:
 
 
 @contextlib.contextmanager
-def answering(body: bytes) -> Iterator[int]:
+def answering(body: bytes) -> Generator[int]:
     """Something that speaks HTTP."""
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -154,7 +162,8 @@ def test_a_data_directory_that_others_may_read(settings: Settings) -> None:
 
 @pytest.mark.parametrize(("free", "status"), [(10**6, "fail"), (10**9, "warn"), (10**11, "ok")])
 def test_room(settings: Settings, monkeypatch: pytest.MonkeyPatch, free: int, status: str) -> None:
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: Usage(free, 0, free))
+    usage = Usage(free, 0, free)
+    monkeypatch.setattr(shutil, "disk_usage", Mock(return_value=usage))
     assert by_name(data.data_checks(settings.data_dir))["room"].status == status
 
 
@@ -194,7 +203,7 @@ def make_database(settings: Settings, revision: str | None) -> Path:
 def test_the_revision_of_a_database(
     settings: Settings, monkeypatch: pytest.MonkeyPatch, revision: str | None, status: str, detail: str
 ) -> None:
-    monkeypatch.setattr(database, "_revisions", lambda: (frozenset({"0001", "0002"}), "0002"))
+    monkeypatch.setattr(database, "known_revisions", lambda: (frozenset({"0001", "0002"}), "0002"))
     before = make_database(settings, revision).read_bytes()
     found = database.database_finding(settings.data_dir, "")
     assert found.status == status
@@ -224,10 +233,10 @@ def test_a_database_server_that_is_away_or_none(settings: Settings) -> None:
 
 
 def test_what_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = parts._packages(["numpy>=2", "not-there-at-all>=1", 'onnxruntime>=1; extra == "x"'])
+    found = parts.packages_finding(["numpy>=2", "not-there-at-all>=1", 'onnxruntime>=1; extra == "x"'])
     assert (found.status, found.detail) == ("fail", "not-there-at-all missing")
     monkeypatch.setattr(sys, "version_info", (3, 10, 1))
-    assert parts._python().status == "fail"
+    assert parts.python_finding().status == "fail"
 
 
 def test_parts_that_are_missing(settings: Settings, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

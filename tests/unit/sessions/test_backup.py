@@ -20,7 +20,7 @@ from reina.sessions.storage.backup import back_up
 from reina.sessions.storage.restore import restore
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator
     from pathlib import Path
 
 
@@ -35,7 +35,7 @@ class DataDirectory:
             database.execute("CREATE TABLE sessions (id INTEGER PRIMARY KEY, file TEXT, text TEXT)")
 
     @contextlib.contextmanager
-    def database(self) -> Iterator[sqlite3.Connection]:
+    def database(self) -> Generator[sqlite3.Connection]:
         with contextlib.closing(sqlite3.connect(self.folder / DATABASE)) as database, database:
             yield database
 
@@ -188,7 +188,13 @@ def test_links_and_other_versions_are_refused(tmp_path: Path) -> None:
         archive.addfile(info)
     with pytest.raises(ArchiveError, match="does not belong"):
         restore(io.BytesIO(to.getvalue()), tmp_path / "back")
-    other = {"format": "reina-backup", "version": 2, "reina": "9", "created_at": "x", "files": {}}
+    other: dict[str, object] = {
+        "format": "reina-backup",
+        "version": 2,
+        "reina": "9",
+        "created_at": "x",
+        "files": {},
+    }
     to = io.BytesIO()
     with tarfile.open(fileobj=to, mode="w") as archive:
         text = json.dumps(other).encode()

@@ -23,7 +23,7 @@ from reina.system.failure import ProcessFailure, failure_of
 from reina.system.tokens import new_token
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
 
 
 class Log:
@@ -43,7 +43,7 @@ class Log:
 
 
 @contextlib.contextmanager
-def configured(**options: Any) -> Iterator[Log]:
+def configured(**options: Any) -> Generator[Log]:
     root = logging.getLogger()
     before = root.handlers, root.level, sys.excepthook, threading.excepthook
     log = Log()
@@ -103,6 +103,7 @@ def test_an_unexpected_error_is_one_event_with_its_frames(log: Log) -> None:
 
 
 def test_a_traceback_that_somebody_has_written_out_is_told_by_its_frames(log: Log) -> None:
+    written = ""
     try:
         fail(KeyError("x"))
     except KeyError:
@@ -211,6 +212,7 @@ def test_what_failed_in_another_process_is_told_as_it_was_there(log: Log) -> Non
     def deep() -> None:
         raise ValueError("there")
 
+    sent = b""
     try:
         deep()
     except ValueError as error:

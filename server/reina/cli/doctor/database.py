@@ -72,7 +72,7 @@ def _damage(connection: Connection) -> str | None:
 
 
 def _of_version(shown: str, revision: str | None) -> Finding:
-    known, newest = _revisions()
+    known, newest = known_revisions()
     if revision is None:
         return warn("database", f"{shown} has no tables yet", MIGRATED_AT_START)
     if newest is None or revision == newest:
@@ -83,13 +83,13 @@ def _of_version(shown: str, revision: str | None) -> Finding:
     return fail("database", detail, f"install that version, or {RESTORE}")
 
 
-def _revisions() -> tuple[frozenset[str], str | None]:
+def known_revisions() -> tuple[frozenset[str], str | None]:
     """The revisions that this version knows, and the newest; none where it has no tables of its own."""
     config = Config()
     config.set_main_option("script_location", SCRIPTS)
     try:
         scripts = ScriptDirectory.from_config(config)
-        known = frozenset(script.revision for script in scripts.walk_revisions())
+        known = frozenset(script.revision for script in scripts.walkknown_revisions())
         return known, scripts.get_current_head()
     except (CommandError, ImportError):
         return frozenset(), None

@@ -27,8 +27,8 @@ _NAME = re.compile(r"[A-Za-z0-9._-]+")
 
 def parts_checks(settings: Settings) -> Iterator[Finding]:
     """Everything that is installed, built or found."""
-    yield _python()
-    yield _packages(importlib.metadata.requires("reina") or [])
+    yield python_finding()
+    yield packages_finding(importlib.metadata.requires("reina") or [])
     yield _page(settings)
     yield _rigs(settings)
     yield _soundfont(settings)
@@ -36,14 +36,15 @@ def parts_checks(settings: Settings) -> Iterator[Finding]:
     yield ok("bus", "none is configured: one server has all sessions")
 
 
-def _python() -> Finding:
+def python_finding() -> Finding:
+    """Whether this Python is new enough."""
     version = ".".join(map(str, sys.version_info[:3]))
     if sys.version_info[:2] < OLDEST_PYTHON:
         return fail("Python", version, "Reina needs Python 3.11 or newer")
     return ok("Python", version)
 
 
-def _packages(requirements: list[str]) -> Finding:
+def packages_finding(requirements: list[str]) -> Finding:
     """Whether what Reina cannot do without is installed.
 
     Args:
