@@ -36,10 +36,12 @@ from reina.api.http import problems
 from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
+from reina.api.http.observed import Observed, RouteNoted
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
 from reina.api.lab.work import lab_pool
+from reina.api.observation import Observation
 from reina.api.settings import Settings
 from reina.protocol.links import API
 from reina.sessions.stage import Stage
@@ -91,7 +93,11 @@ def create_app(
         app.state.computing = Turns()
         app.state.lab_pool = lab_pool()
         app.state.transcriptions = Transcriptions()
+        observed = Observation(chosen, store, now=now, ending=app.state.ending)
+        app.state.readiness = observed.readiness
+        await observed.start()
         yield
+        await observed.aclose()
         await app.state.transcriptions.aclose()
         await app.state.lab_pool.aclose()
         await store.aclose()
@@ -101,6 +107,7 @@ def create_app(
     )
     app.state.settings = chosen
     app.state.ending = Ending()
+    app.state.readiness = None
     app.state.now = now
     for module in (
         sessions,
@@ -128,9 +135,11 @@ def create_app(
     app.include_router(page.router)
     problems.install(app)
     describe(app)
+    app.add_middleware(RouteNoted)
     app.add_middleware(Compression)
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
     app.add_middleware(UnreadBody)
     app.add_middleware(UntilTheEnd, ending=app.state.ending)
+    app.add_middleware(Observed, log_requests=chosen.log_requests)
     return app

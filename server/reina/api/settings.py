@@ -44,6 +44,8 @@ class Settings:
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
         lab: Whether the laboratory is there.
+        page: Whether the page is to be there.
+        log_requests: Whether each request is a line in the log.
     """
 
     data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", "data"))
@@ -54,6 +56,8 @@ class Settings:
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
     lab: bool = True
+    page: bool = True
+    log_requests: bool = False
 
 
 def require_page(settings: Settings) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import asyncio
 import contextlib
 import gc
-import logging
 import os
 import signal
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,9 +20,11 @@ from reina.api.app import create_app
 from reina.api.settings import Settings, require_page, require_writable
 from reina.cli.http_protocol import ProblemProtocol
 from reina.cli.listening import are_loopback, listen
+from reina.cli.metrics import METRICS_HOST, serve_metrics
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.stage import Stage
+from reina.system.logs import configure
 
 if TYPE_CHECKING:
     import socket
@@ -32,6 +35,8 @@ if TYPE_CHECKING:
 HOST = "127.0.0.1"
 PORT = 8000
 EVERY_ADDRESS = frozenset({"0.0.0.0", "::"})  # noqa: S104 - told apart, not bound to
+LOOKING_S = 0.1
+"""How often it is looked whether a second signal has come."""
 CLOSING_S = 3
 """How long streams and downloads that are under way may take to end."""
 LARGEST_MESSAGE = 64 * 1024
@@ -78,6 +83,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="answer at /lab and under /api/v1/lab (only where it listens on this machine's own address)",
     )
     parser.add_argument(
+        "--metrics-port",
+        type=int,
+        default=environment.get("REINA_METRICS_PORT"),
+        metavar="PORT",
+        help="answer to Prometheus there, at /metrics; not at all by default",
+    )
+    parser.add_argument(
+        "--metrics-host",
+        default=environment.get("REINA_METRICS_HOST", METRICS_HOST),
+        metavar="HOST",
+        help=f"address to answer to Prometheus on ({METRICS_HOST}); whoever reaches it reads all metrics",
+    )
+    parser.add_argument(
+        "--log-requests",
+        action=argparse.BooleanOptionalAction,
+        default=_switch(environment.get("REINA_LOG_REQUESTS", "")) or False,
+        help="write a line into the log for each request (--no-log-requests)",
+    )
+    parser.add_argument(
+        "--drain",
+        type=float,
+        default=environment.get("REINA_DRAIN_S", "0"),
+        metavar="SECONDS",
+        help="go on answering for so long after SIGTERM, while /api/v1/health/ready says 503 (0)",
+    )
+    parser.add_argument(
         "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
     )
 
@@ -93,20 +124,19 @@ def run(arguments: argparse.Namespace) -> int:
     What keeps the server from starting is told in a line on standard error, with status 1.
     """
     try:
+        configure()
         settings = _settings(arguments)
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
+        serve_metrics(arguments.metrics_host, arguments.metrics_port)
         settings = replace(settings, lab=are_loopback(sockets) if arguments.lab is None else arguments.lab)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
     share_interpreter()
-    logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
-    # A viewer that goes in the middle of some frames is no news.
-    logging.getLogger("asyncio").setLevel(logging.ERROR)
     app = create_app(settings, stage=stage)
     server = Server(
         uvicorn.Config(
@@ -123,6 +153,7 @@ def run(arguments: argparse.Namespace) -> int:
             server_header=False,
         ),
         app.state.ending,
+        drain_s=arguments.drain,
     )
     server.run(sockets)
     return 0 if server.started else 1
@@ -149,6 +180,8 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         settings,
         allowed_hosts=frozenset(hosts),
         allowed_origins=frozenset(arguments.allow_origin),
+        page=not arguments.no_page,
+        log_requests=arguments.log_requests,
     )
 
 
@@ -168,10 +201,12 @@ class Server(uvicorn.Server):
     Args:
         config: How it serves.
         ending: Hears when it ends.
+        drain_s: How long it still answers after a signal, while it says that it is not ready, seconds.
     """
 
-    def __init__(self, config: uvicorn.Config, ending: Ending) -> None:
+    def __init__(self, config: uvicorn.Config, ending: Ending, *, drain_s: float = 0.0) -> None:
         super().__init__(config)
+        self._drain_s = drain_s
         self._ending = ending
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
@@ -184,8 +219,16 @@ class Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Tell whoever still sends or waits, and end."""
+        await self._drain()
         self._ending.begin()
         await super().shutdown(sockets)
+
+    async def _drain(self) -> None:
+        """Answer on, not ready, so that a load balancer sends nobody any more; a second SIGINT ends it."""
+        self._ending.announced = True
+        until = time.monotonic() + self._drain_s
+        while time.monotonic() < until and not self.force_exit:  # noqa: ASYNC110 - uvicorn's own flag
+            await asyncio.sleep(min(LOOKING_S, self._drain_s))
 
     @contextlib.contextmanager
     def capture_signals(self) -> Generator[None]:

@@ -41,6 +41,8 @@ class Problem(WireModel):
     detail: str
     errors: list[Fault] = Field(default_factory=list[Fault])
     """Each fault, where there are several; else empty."""
+    instance: str | None = None
+    """`urn:reina:request:` and the id of the request, which the server's log has too."""
 
 
 class Warned(WireModel):
@@ -683,12 +685,31 @@ class ExampleList(WireModel):
     examples: list[Example]
 
 
+class Unready(WireModel):
+    """One thing without which the server is not ready."""
+
+    reason: Literal[
+        "starting",
+        "data-directory",
+        "data-full",
+        "database",
+        "workers",
+        "soundfont",
+        "page",
+        "event-loop",
+        "ending",
+    ]
+    detail: str
+
+
 class Health(WireModel):
     """Liveness and readiness."""
 
     status: str
-    """`ok` once it can play."""
+    """`ok` while it can play, else `not-ready`."""
     ready: bool
+    not_ready: list[Unready] = Field(default_factory=list[Unready])
+    """What keeps it from being ready."""
     version: str
     streams: list[str]
     """The subprotocols that it speaks."""

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.protocol import FrameFlag, encode_block, join, stamp
+from reina.system.metrics import EVALUATION
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -78,7 +79,8 @@ class EncodedFrames:
         with self._evaluating:
             frames = self._kept_block(number)
             if frames is None:
-                frames = encode_block(self.manifest, self._performance.evaluate(number))
+                with EVALUATION.time():
+                    frames = encode_block(self.manifest, self._performance.evaluate(number))
                 frames.flags.writeable = False
                 self._blocks[number] = frames
                 while len(self._blocks) > self._kept:

@@ -9,6 +9,9 @@ from bisect import bisect_left, insort
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from reina.system.failure import failure_of
+from reina.system.logs import shown_session
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
     from pathlib import Path
@@ -84,7 +87,9 @@ class SessionIndex:
                     entry = Entry.of(read(folder.name), modified_ns)
             except (OSError, ValueError) as error:
                 # Damaged from outside; the others are still to be found.
-                _log.warning("session %s cannot be read: %s", folder.name, error)
+                _log.warning(
+                    "session %s cannot be read: %s", shown_session(folder.name), failure_of(error).kind
+                )
                 continue
             self._entries[entry.id] = entry
         self._listed = sorted(entry.place for entry in self._entries.values() if entry.public)

@@ -95,7 +95,7 @@ class RenderedSong:
             self.path = await self.request.wait()
         except (SoundError, InputError) as error:
             self.error = str(error)
-            _log.warning("no song for the score %r: %s", score.title, error)
+            _log.warning("no song for a score: %s", error)
         except asyncio.CancelledError:
             if self.request:
                 self.request.cancel()
@@ -103,7 +103,7 @@ class RenderedSong:
         except Exception as error:
             # Whoever waits for the song is to hear that there will be none, whatever went wrong.
             self.error = "the server made a mistake while it planned the sound, and has noted it"
-            _log.error("no song for the score %r: %r", score.title, error)
+            _log.error("no song for a score", exc_info=error)
         ready()
 
 

@@ -148,6 +148,11 @@ class SessionStore:
         """How many sessions are in memory."""
         return len(self._sessions)
 
+    @property
+    def viewers(self) -> int:
+        """How many streams are open."""
+        return sum(len(session.audience) for session in list(self._sessions.values()))
+
     @asynccontextmanager
     async def staging(self) -> AsyncGenerator[Path]:
         """A new folder for a draft's files; what is not made a session of is removed at the end."""

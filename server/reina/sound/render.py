@@ -30,7 +30,7 @@ from reina.sound.passages import BLOCK, Passage, cut_into_passages, write_passag
 from reina.sound.recording.peaks import peaks_path, write_peaks
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.segments import OVERLAP, SEGMENT, cut_into_segments
-from reina.system.own_process import follow_parent, read_from_parent, yield_to_server
+from reina.system.own_process import complain_in_a_line, follow_parent, read_from_parent, yield_to_server
 
 GAINS = (1.0, 1 / 4, 1 / 16, 1 / 64)
 """How loud a passage is rendered: the first at which it does not reach full scale, where the synthesizer
@@ -169,6 +169,7 @@ def main() -> int:
     """Read the plan and render it."""
     soundfont, folder = Path(sys.argv[1]), Path(sys.argv[2])
     note_count, control_count = int(sys.argv[3]), int(sys.argv[4])
+    complain_in_a_line()
     yield_to_server()
     plan = SoundPlan(
         notes=np.frombuffer(read_from_parent(note_count * NOTE_DTYPE.itemsize), dtype=NOTE_DTYPE),

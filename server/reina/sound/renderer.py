@@ -30,6 +30,7 @@ from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.recording.peaks import Peaks
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.segments import SEGMENT, Segments, cut_into_segments
+from reina.system.metrics import in_queue
 
 __all__ = [
     "MissingSoundfontError",
@@ -46,7 +47,7 @@ ones."""
 RENDERING_ID_LENGTH = 16
 TIMEOUT_S = 900.0
 STDERR_TOLD = 400
-"""How many characters of a crashed renderer's complaint are passed on, from its end."""
+"""How many characters at the end of a crashed renderer's complaint its last line is looked for in."""
 
 log = logging.getLogger(__name__)
 
@@ -244,7 +245,7 @@ class SongRenderer:
             before = rendering.task if rendering else None
             rendering = self._renderings[path] = _Rendering(segments)
             rendering.task = asyncio.create_task(
-                self._render(rendering, plan, heard, soundfont, path, before)
+                self._render_in_turn(rendering, plan, heard, soundfont, path, before)
             )
             self._tasks.add(rendering.task)
             rendering.task.add_done_callback(functools.partial(self._ended, path, rendering))
@@ -300,6 +301,18 @@ class SongRenderer:
             del self._renderings[path]
         if not task.cancelled() and (error := task.exception()) is not None:
             log.error("rendering %s failed: %s", path.parent.name, error)
+
+    async def _render_in_turn(
+        self,
+        rendering: _Rendering,
+        plan: SoundPlan,
+        heard: NDArray[np.bool_],
+        soundfont: Path,
+        path: Path,
+        before: asyncio.Task[None] | None,
+    ) -> None:
+        with in_queue("renderings"):
+            await self._render(rendering, plan, heard, soundfont, path, before)
 
     async def _render(
         self,
@@ -360,7 +373,9 @@ class SongRenderer:
         if error is not None:
             raise SoundError(f"the score could not be rendered: {error}")
         if status != 0:
-            raise SoundError(f"the renderer ended with status {status}: {complaint[-STDERR_TOLD:].strip()}")
+            lines = complaint[-STDERR_TOLD:].strip().splitlines()
+            log.warning("the renderer ended with status %d: %s", status, lines[-1] if lines else "")
+            raise SoundError(f"the renderer ended with status {status}; the server has noted why")
 
 
 def _plan(

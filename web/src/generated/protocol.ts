@@ -571,9 +571,11 @@ export interface LightMoodList {
 
 /** Liveness and readiness. */
 export interface Health {
-  /** ok once it can play. */
+  /** ok while it can play, else not-ready. */
   status: string
   ready: boolean
+  /** What keeps it from being ready. */
+  not_ready: Unready[]
   version: string
   /** The subprotocols that it speaks. */
   streams: string[]
@@ -588,6 +590,8 @@ export interface Problem {
   detail: string
   /** Each fault, where there are several; else empty. */
   errors: Fault[]
+  /** urn:reina:request: and the id of the request, which the server's log has too. */
+  instance: string | null
 }
 
 /** A viewer measures the offset between its clock and the server's. */
@@ -1325,6 +1329,12 @@ export interface UnplayedPart {
   part: number
   part_name: string
   reason: string
+}
+
+/** One thing without which the server is not ready. */
+export interface Unready {
+  reason: "starting" | "data-directory" | "data-full" | "database" | "workers" | "soundfont" | "page" | "event-loop" | "ending"
+  detail: string
 }
 
 /** How valved brass plays a note. */

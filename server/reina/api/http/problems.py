@@ -11,6 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.routing import Match
 
+from reina.api.http.request_id import instance
 from reina.errors import InputError
 from reina.instruments import CastError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
@@ -19,6 +20,7 @@ from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.sound.transcription.posteriors import NoRuntimeError
+from reina.system.metrics import limit_hit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -27,6 +29,10 @@ if TYPE_CHECKING:
     from pydantic import ValidationError
     from starlette.routing import BaseRoute
 
+KINDS = "urn:reina:problem:"
+"""What the types of all problems begin with."""
+LIMITS = frozenset({408, 413, 429, 431, 503, 507})
+"""The statuses of who is refused because there is, or would be, too much of something."""
 MEDIA_TYPE = "application/problem+json"
 MAX_FAULTS = 20
 """So many are told of one request, and how many more there are."""
@@ -69,7 +75,7 @@ class ProblemError(Exception):
         super().__init__(detail)
         self.status = status
         self.problem = Problem(
-            type=f"urn:reina:problem:{kind}",
+            type=f"{KINDS}{kind}",
             title=title,
             status=status,
             detail=_sendable(detail, LONGEST_DETAIL),
@@ -79,8 +85,12 @@ class ProblemError(Exception):
 
     def response(self) -> Response:
         """The problem as a response."""
+        if self.status in LIMITS:
+            limit_hit(self.problem.type.removeprefix(KINDS))
+        told = self.problem.model_copy(update={"instance": instance()})
+        left_out = {"instance"} if told.instance is None else None
         return Response(
-            self.problem.model_dump_json(), self.status, headers=self.headers, media_type=MEDIA_TYPE
+            told.model_dump_json(exclude=left_out), self.status, headers=self.headers, media_type=MEDIA_TYPE
         )
 
 
@@ -189,7 +199,7 @@ def _not_answered(request: Request) -> Response:
 
 
 def install(app: FastAPI) -> None:
-    """Make the application answer every error so."""
+    """Make the application answer every error so; what nobody expected is answered by `Observed`."""
 
     async def refused(request: Request, error: Exception) -> Response:
         match error:
@@ -209,11 +219,5 @@ def install(app: FastAPI) -> None:
             case _:
                 raise error
 
-    async def failed(_: Request, __: Exception) -> Response:
-        # The error itself is logged by the server, to which it is raised on.
-        detail = "the server made a mistake and has noted it; the request may be tried again"
-        return ProblemError(500, "internal", "Internal Server Error", detail).response()
-
     for kind in (ProblemError, InputError, RequestValidationError, ClientDisconnect, HTTPException):
         app.add_exception_handler(kind, refused)
-    app.add_exception_handler(Exception, failed)

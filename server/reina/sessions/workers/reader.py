@@ -152,6 +152,11 @@ class Reader:
         score = await asyncio.to_thread(lambda: from_second_zero(score_as_played(production.score, played)))
         return await self._read(MIDI_BYTES * len(score.notes), write_midi, score, owner=owner)
 
+    @property
+    def workers(self) -> WorkerPool:
+        """The processes that read."""
+        return self._pool
+
     async def aclose(self) -> None:
         """Stop the processes."""
         await self._pool.aclose()

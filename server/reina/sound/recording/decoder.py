@@ -14,6 +14,7 @@ from reina.errors import InputError
 from reina.music import ScoreWarning
 from reina.sound.recording.peaks import Peaks, peaks_path, read_peaks
 from reina.sound.recording.probe import AudioInfo, Conversion
+from reina.system.metrics import in_queue
 
 PROGRAM = (sys.executable, "-m", "reina.sound.recording.worker")
 TIMEOUT_S = 300.0
@@ -56,8 +57,9 @@ class SongDecoder:
         Raises:
             InputError: It cannot be used, takes too long to decode, or makes the decoder crash.
         """
-        async with self._turns:
-            message = await self._run(song, conversion)
+        with in_queue("recordings"):
+            async with self._turns:
+                message = await self._run(song, conversion)
         if "error" in message:
             raise InputError(message["error"])
         warnings = tuple(ScoreWarning(**warning) for warning in message.pop("warnings"))

@@ -19,7 +19,7 @@ from pathlib import Path
 from reina.errors import InputError
 from reina.sound.recording.peaks import write_peaks
 from reina.sound.recording.probe import Conversion, probe_recording
-from reina.system.own_process import bound_memory, end_with_parent, yield_to_server
+from reina.system.own_process import bound_memory, complain_in_a_line, end_with_parent, yield_to_server
 
 MAX_MEMORY_BYTES = 1_500_000_000
 """Address space, most of it libraries; a decoder that wants more fails."""
@@ -29,6 +29,7 @@ def main() -> int:
     """Probe, and tell."""
     song, peaks_file = Path(sys.argv[1]), Path(sys.argv[2])
     conversion = Conversion(Path(sys.argv[3]), "--forced" in sys.argv[4:]) if len(sys.argv) > 3 else None
+    complain_in_a_line()
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
     threading.Thread(target=end_with_parent, daemon=True).start()
