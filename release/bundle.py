@@ -38,11 +38,12 @@ class BundleHook(BuildHookInterface[Any]):
             for path in (*self._page(), *self._soundfont()):
                 files[str(path)] = path.relative_to(self.root).as_posix()
             return
-        for what, paths in {
+        bundles: dict[Bundle, list[Path]] = {
             "page": self._page(),
             "rigs": self._rigs(),
             "examples": self._examples(),
-        }.items():
+        }
+        for what, paths in bundles.items():
             for path in paths:
                 files[str(path)] = f"reina/{BUNDLED}/{what}/{path.relative_to(self._source(what)).as_posix()}"
         soundfont, licence = self._soundfont()

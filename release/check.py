@@ -2,8 +2,8 @@
 
     python release/check.py dist [--tag v0.1.0]
 
-Looks at the wheel's files, at what wheel and source distribution say of themselves, at their sizes and, where a
-tag is named, at whether it names their version and the changelog has it. Prints what is wrong, with status 1.
+Looks at the wheel's files, at what wheel and source distribution say of themselves, at their sizes and, where
+a tag is named, at whether it names their version and the changelog has it. Prints what is wrong.
 """
 
 from __future__ import annotations

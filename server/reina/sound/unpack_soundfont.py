@@ -188,7 +188,7 @@ def _decoded(samples: Table, smpl: bytes) -> bytes:
             raise ValueError("a sample is not packed as Ogg Vorbis")
         packed = io.BytesIO(smpl[int(sample["start"]) : int(sample["end"])])
         # As numbers from -1 to 1, since Vorbis overshoots and libsndfile's own integers would wrap around.
-        wave = soundfile.read(packed, dtype="float32", always_2d=True)[0][:, 0]
+        wave = soundfile.read(packed, always_2d=True)[0][:, 0]
         whole = np.clip(np.rint(wave * FULL_SCALE), -FULL_SCALE, FULL_SCALE).astype("<i2")
         waves.append(whole.tobytes() + b"\0\0" * SILENCE_AFTER)
         sample["start"], sample["end"] = at, at + len(wave)

@@ -159,7 +159,11 @@ def data_dir(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty data folder, beside the one packed soundfont that there is."""
     packed = tmp_path / "packed.sf3"
     packed.write_bytes(packed_soundfont())
-    monkeypatch.setattr(provided, "bundled", lambda _: packed)
+
+    def the_packed_one(_: str) -> Path:
+        return packed
+
+    monkeypatch.setattr(provided, "bundled", the_packed_one)
     monkeypatch.setattr(sound_font, "default_data_dir", lambda: tmp_path / "usual")
     (tmp_path / "data").mkdir()
     return tmp_path / "data"
