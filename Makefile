@@ -24,7 +24,7 @@ serve: setup ## Start Reina and print its address
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
 
-test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
+test: setup .venv/.dev .venv/.browser .venv/.compose ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
@@ -55,7 +55,7 @@ bench: setup .venv/.bench tests/benchmarks/theatre/node_modules/.stamp ## Measur
 wheel: .venv/.serve web/dist/index.html ## Build the wheel and the source distribution into dist/
 	rm -rf dist
 	$(BIN)/python -m hatchling build -d dist
-	$(BIN)/python release/check.py dist
+	$(BIN)/python release/check.py dist $(if $(TAG),--tag $(TAG))
 
 lock: ## Pin the Python dependencies anew (needs uv)
 	sh requirements/lock.sh
@@ -98,6 +98,10 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 
 .venv/.browser: .venv/.dev
 	$(BIN)/python tests/e2e/find_browser.py --install
+	@touch $@
+
+.venv/.compose: .venv/.dev tests/servers/compose.py
+	$(BIN)/python tests/servers/compose.py --install
 	@touch $@
 
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)
