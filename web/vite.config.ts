@@ -31,6 +31,8 @@ export default defineConfig(({ mode }) => ({
   build: {
     target: "es2023",
     chunkSizeWarningLimit: 1200,
+    // What the page is delivered with asks for its licences to be delivered too.
+    license: { fileName: mode === "lab" ? "licences-lab.md" : "licences.md" },
     // The lab, at /lab, is built by itself (`--mode lab`): the player's page loads nothing of it, nor shares with it.
     ...(mode === "lab" ? { emptyOutDir: false, copyPublicDir: false, rolldownOptions: { input: "lab.html" } } : {}),
   },

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -119,3 +120,14 @@ def upload(client: httpx.Client, score: bytes, name: str = "score.mid", **form: 
     answer = client.post("/api/v1/sessions", files=files, data=form)
     assert answer.status_code == 201, answer.text
     return Owned(client, answer.json())
+
+
+def rendered(client: httpx.Client, href: str) -> httpx.Response:
+    """A song, once it is made."""
+    deadline = time.monotonic() + 60
+    while (answer := client.get(href)).status_code == 202:
+        assert answer.json()["status"] == "rendering"
+        assert 0.0 <= answer.json()["progress"] < 1.0
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    return answer

@@ -6,11 +6,15 @@ import os
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.sessions.store import SONG_CACHE_BYTES
+from reina.system.resources import bundled, default_data_dir
 
-REPOSITORY = Path(__file__).parents[3]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
@@ -26,13 +30,14 @@ def _song_cache_bytes() -> int:
     return int(given) * MEGABYTE
 
 
-def _folder(variable: str, default: str) -> Path:
-    return Path(os.environ.get(variable) or REPOSITORY / default)
+def _folder(variable: str, default: Callable[[], Path]) -> Path:
+    named = os.environ.get(variable)
+    return Path(named) if named else default()
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Everything that a server is started with; each has a default that works in the repository.
+    """Everything that a server is started with; each has a default that works in a checkout and installed.
 
     Attributes:
         data_dir: Sessions and rendered songs.
@@ -48,10 +53,10 @@ class Settings:
         log_requests: Whether each request is a line in the log.
     """
 
-    data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", "data"))
-    rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", "rigs"))
-    examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", "examples"))
-    page_dir: Path = field(default_factory=lambda: _folder("REINA_PAGE", "web/dist"))
+    data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", default_data_dir))
+    rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", lambda: bundled("rigs")))
+    examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", lambda: bundled("examples")))
+    page_dir: Path = field(default_factory=lambda: _folder("REINA_PAGE", lambda: bundled("page")))
     song_cache_bytes: int = field(default_factory=_song_cache_bytes)
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()

@@ -24,7 +24,10 @@ from reina.cli.metrics import METRICS_HOST, serve_metrics
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.stage import Stage
+from reina.sound.font import SoundError
+from reina.sound.provide_soundfont import provide_soundfont
 from reina.system.logs import configure
+from reina.system.resources import default_data_dir
 
 if TYPE_CHECKING:
     import socket
@@ -61,7 +64,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=environment.get("REINA_PORT", str(PORT)),
         help=f"port to listen on; 0 picks a free one ({PORT})",
     )
-    parser.add_argument("--data-dir", type=Path, default=None, help="where sessions are kept (data)")
+    parser.add_argument(
+        "--data-dir",
+        type=Path,
+        default=None,
+        help=f"where sessions are kept ({str(default_data_dir()).replace('%', '%%')})",
+    )
     parser.add_argument(
         "--allow-host",
         action="append",
@@ -129,6 +137,7 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
+        _provide_soundfont(settings)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
         serve_metrics(arguments.metrics_host, arguments.metrics_port)
@@ -183,6 +192,18 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         page=not arguments.no_page,
         log_requests=arguments.log_requests,
     )
+
+
+def _provide_soundfont(settings: Settings) -> None:
+    """See that scores can be heard; a server that cannot have them heard starts, and says so."""
+    try:
+        provide_soundfont(settings.data_dir, tell=_tell)
+    except SoundError as error:
+        _tell(f"pieces without a recording will have no sound: {error}")
+
+
+def _tell(line: str) -> None:
+    print(f"reina serve: {line}", file=sys.stderr, flush=True)
 
 
 def _stage(settings: Settings) -> Stage:
