@@ -36,6 +36,7 @@ from reina.api.http import problems
 from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
+from reina.api.http.proxies import BehindProxies, TrustedProxies
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
@@ -73,6 +74,9 @@ def create_app(
         settings: Where files are and whom it answers; defaults that work in the repository.
         stage: Who plays on what; read from the settings' rigs at the start when None.
         now: Server time, seconds; never goes back, and runs as the event loop's clock does.
+
+    Raises:
+        InputError: A setting cannot be.
     """
     chosen = settings or Settings()
 
@@ -133,4 +137,5 @@ def create_app(
     app.add_middleware(Retrieval)
     app.add_middleware(UnreadBody)
     app.add_middleware(UntilTheEnd, ending=app.state.ending)
+    app.add_middleware(BehindProxies, proxies=TrustedProxies.named(chosen.trusted_proxies))
     return app

@@ -43,6 +43,7 @@ class Settings:
         allowed_hosts: Host names that the server answers to, without ports.
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
+        trusted_proxies: Addresses and networks of proxies that are believed who asks.
         lab: Whether the laboratory is there.
     """
 
@@ -53,6 +54,7 @@ class Settings:
     song_cache_bytes: int = field(default_factory=_song_cache_bytes)
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
+    trusted_proxies: tuple[str, ...] = ()
     lab: bool = True
 
 

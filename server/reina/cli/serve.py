@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import asyncio
 import contextlib
+import errno
 import gc
 import logging
 import os
@@ -11,17 +13,23 @@ import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import uvicorn
 
 from reina.api.app import create_app
+from reina.api.http.proxies import TrustedProxies
 from reina.api.settings import Settings, require_page, require_writable
+from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
+from reina.cli.connections import Connections
+from reina.cli.environment import switch
 from reina.cli.http_protocol import ProblemProtocol
-from reina.cli.listening import are_loopback, listen
+from reina.cli.listening import BACKLOG, are_loopback, listen
+from reina.cli.server_config import Config
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.stage import Stage
+from reina.system.seldom import SeldomFilter
 
 if TYPE_CHECKING:
     import socket
@@ -39,6 +47,7 @@ LARGEST_MESSAGE = 64 * 1024
 SWITCH_S = 0.0005
 """How long a thread that computes may keep the event loop waiting at a time; Python's own choice is ten times
 it, and the loop waits anew after every frame that it sends."""
+NO_FILES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 SELDOM = 1000
 """Collections of the middle generation for one of all objects, in which everything stands still."""
 
@@ -72,19 +81,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="an origin whose pages may write and watch, beside the server's own; may be repeated",
     )
     parser.add_argument(
+        "--trusted-proxy",
+        action="append",
+        default=environment.get("REINA_TRUSTED_PROXY", "").split(),
+        metavar="ADDRESS",
+        help="a proxy's address or network (10.0.0.0/8) that is believed who asks; may be repeated",
+    )
+    parser.add_argument(
         "--lab",
         action=argparse.BooleanOptionalAction,
-        default=_switch(environment.get("REINA_LAB", "")),
+        default=None,
         help="answer at /lab and under /api/v1/lab (only where it listens on this machine's own address)",
     )
     parser.add_argument(
         "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
     )
-
-
-def _switch(text: str) -> bool | None:
-    """A switch in the environment: 1 or 0; else it is as by default."""
-    return {"1": True, "0": False}.get(text.strip())
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -94,12 +105,16 @@ def run(arguments: argparse.Namespace) -> int:
     """
     try:
         settings = _settings(arguments)
+        lab = switch("REINA_LAB") if arguments.lab is None else arguments.lab
+        proxies = TrustedProxies.named(settings.trusted_proxies)
+        connections = Connections(ConnectionLimits.of_environment(raise_file_limit()), proxies)
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
-        settings = replace(settings, lab=are_loopback(sockets) if arguments.lab is None else arguments.lab)
+        settings = replace(settings, lab=are_loopback(sockets) if lab is None else lab)
+        app = create_app(settings, stage=stage)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
@@ -107,10 +122,12 @@ def run(arguments: argparse.Namespace) -> int:
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
-    app = create_app(settings, stage=stage)
+    # Strangers can bring about as many as they like.
+    logging.getLogger("uvicorn.error").addFilter(SeldomFilter())
     server = Server(
-        uvicorn.Config(
+        Config(
             app,
+            connections,
             http=ProblemProtocol,
             ws=TextProtocol,
             # Deflate saves 3 % of the frames' bytes at ten times the cost.
@@ -123,6 +140,7 @@ def run(arguments: argparse.Namespace) -> int:
             server_header=False,
         ),
         app.state.ending,
+        connections,
     )
     server.run(sockets)
     return 0 if server.started else 1
@@ -149,6 +167,7 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         settings,
         allowed_hosts=frozenset(hosts),
         allowed_origins=frozenset(arguments.allow_origin),
+        trusted_proxies=tuple(arguments.trusted_proxy),
     )
 
 
@@ -168,19 +187,38 @@ class Server(uvicorn.Server):
     Args:
         config: How it serves.
         ending: Hears when it ends.
+        connections: All connections.
     """
 
-    def __init__(self, config: uvicorn.Config, ending: Ending) -> None:
+    def __init__(self, config: uvicorn.Config, ending: Ending, connections: Connections) -> None:
         super().__init__(config)
         self._ending = ending
+        self._connections = connections
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Listen, then say where."""
+        asyncio.get_running_loop().set_exception_handler(self._failed)
         await super().startup(sockets)
+        for listening in sockets or []:
+            # How many may wait to be taken in, however few are taken in at once.
+            listening.listen(BACKLOG)
         for listening in self.servers[:1]:
             host, port = listening.sockets[0].getsockname()[:2]
             shown = "localhost" if host in EVERY_ADDRESS else host
             print(f"http://[{shown}]:{port}" if ":" in shown else f"http://{shown}:{port}", flush=True)
+
+    async def on_tick(self, counter: int) -> bool:
+        """See to the connections that keep us waiting, ten times a second a tenth of them."""
+        self._connections.sweep(asyncio.get_running_loop().time())
+        return await super().on_tick(counter)
+
+    def _failed(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """What fails outside of any task; where files run out, one connection makes room for the next."""
+        error = context.get("exception")
+        if isinstance(error, OSError) and error.errno in NO_FILES:
+            self._connections.make_room()
+        else:
+            loop.default_exception_handler(context)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Tell whoever still sends or waits, and end."""
