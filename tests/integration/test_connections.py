@@ -285,6 +285,71 @@ def test_where_no_file_is_left_connections_make_room(tmp_path: Path) -> None:
     assert len(said) <= 3, said
 
 
+def test_an_address_is_believed_of_trusted_proxies_alone(tmp_path: Path) -> None:
+    rates = {"REINA_RATES": "frames=2"}
+    told = {"X-Forwarded-For": "198.51.100.9, 203.0.113.9"}
+    other = {"X-Forwarded-For": "198.51.100.9, 203.0.113.10"}
+    made_up = {"X-Forwarded-For": "127.0.0.1, 203.0.113.9"}
+    with (
+        serve(tmp_path / "data", "--no-page", "--trusted-proxy", "127.0.0.0/8", settings=rates) as server,
+        session_on(server) as session,
+    ):
+        span = f"{session.path}/frames?start_s=0&end_s=0.1"
+
+        def status(headers: dict[str, str]) -> int:
+            return session.client.get(span, headers=headers).status_code
+
+        assert [status(told) for _ in range(3)] == [200, 200, 429]
+        assert status(made_up) == 429
+        assert status(other) == 200
+        refused = session.client.get(span, headers=told)
+        assert 0 < int(refused.headers["Retry-After"]) <= 60
+        assert refused.json()["type"] == "urn:reina:problem:too-often"
+        # A page that came by TLS may write by TLS.
+        rename = {"Origin": "https://localhost", "Host": "localhost"} | session.headers
+        change = {"title": "Another"}
+        plain = session.client.patch(session.path, json=change, headers=rename)
+        assert plain.status_code == 403
+        by_tls = session.client.patch(
+            session.path, json=change, headers=rename | {"X-Forwarded-Proto": "https"}
+        )
+        assert by_tls.status_code == 200
+    with serve(tmp_path / "data", "--no-page", settings=rates) as server, session_on(server) as session:
+        span = f"{session.path}/frames?start_s=0&end_s=0.1"
+        # Who says so himself is not believed: he asks from this machine, where nothing is counted.
+        assert [session.client.get(span, headers=told).status_code for _ in range(4)] == [200] * 4
+        forged = {"Origin": "https://localhost", "Host": "localhost", "X-Forwarded-Proto": "https"}
+        assert (
+            session.client.patch(
+                session.path, json={"title": "x"}, headers=forged | session.headers
+            ).status_code
+            == 403
+        )
+
+
+def test_one_address_has_so_many_connections(tmp_path: Path) -> None:
+    settings = LONG | {"REINA_MOST_CONNECTIONS_AN_ADDRESS": 5}
+    with (
+        serve(tmp_path / "data", "--no-page", "--trusted-proxy", "127.0.0.1", settings=settings) as server,
+        session_on(server) as session,
+        ExitStack() as stack,
+    ):
+        told = b"X-Forwarded-For: 203.0.113.9\r\n\r\n"
+        for _ in range(5):
+            viewer = stack.enter_context(connect(server))
+            viewer.sendall(handshake(session.id)[:-2] + told)
+            assert b" 101 " in viewer.recv(13)
+        late = stack.enter_context(connect(server))
+        late.sendall(HEAD + told)
+        [said] = answers([late])
+        assert said.startswith(b"HTTP/1.1 503 ")
+        assert b"retry-after: " in said.lower()
+        assert b"urn:reina:problem:too-many-connections" in said
+        other = stack.enter_context(connect(server))
+        other.sendall(HEAD + told.replace(b".9", b".10"))
+        assert b" 200 " in other.recv(13)
+
+
 def _cpu_s(server: Running) -> float:
     with open(f"/proc/{server.process.pid}/stat") as file:  # noqa: PTH123
         fields = file.read().rpartition(")")[2].split()

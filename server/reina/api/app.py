@@ -37,6 +37,7 @@ from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
 from reina.api.http.proxies import BehindProxies, TrustedProxies
+from reina.api.http.rates import BoundedRates, Rates
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
@@ -133,6 +134,7 @@ def create_app(
     problems.install(app)
     describe(app)
     app.add_middleware(Compression)
+    app.add_middleware(BoundedRates, rates=Rates.named(chosen.rates), now=now)
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
     app.add_middleware(UnreadBody)

@@ -44,6 +44,7 @@ class Settings:
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
         trusted_proxies: Addresses and networks of proxies that are believed who asks.
+        rates: How many requests of a kind one address has in a minute, as `REINA_RATES` says it.
         lab: Whether the laboratory is there.
     """
 
@@ -55,6 +56,7 @@ class Settings:
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
     trusted_proxies: tuple[str, ...] = ()
+    rates: str = field(default_factory=lambda: os.environ.get("REINA_RATES", ""))
     lab: bool = True
 
 
