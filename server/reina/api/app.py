@@ -6,7 +6,7 @@ import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 
 import reina
 from reina.api import (
@@ -37,6 +37,7 @@ from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
 from reina.api.http.proxies import BehindProxies, TrustedProxies
+from reina.api.http.query import known_query
 from reina.api.http.rates import BoundedRates, Rates
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
@@ -129,7 +130,9 @@ def create_app(
         transcriptions,
         stream,
     ):
-        app.include_router(module.router, prefix=API, responses=problems.RESPONSES)
+        app.include_router(
+            module.router, prefix=API, responses=problems.RESPONSES, dependencies=[Depends(known_query)]
+        )
     app.include_router(page.router)
     problems.install(app)
     describe(app)
