@@ -211,11 +211,7 @@ def install(app: FastAPI) -> None:
                 return ProblemError(400, "broken-off", "Bad Request", "the body breaks off").response()
             case HTTPException(status_code=405):
                 return _not_answered(request)
-            case HTTPException(status_code=404) if (request.method, request.scope["path"]) == (
-                "OPTIONS",
-                "*",
-            ):
-                # The server as a whole (RFC 9110, 9.3.7).
+            case HTTPException(status_code=404) if _asks_the_server(request):
                 return Response(status_code=204, headers={"Allow": ", ".join(sorted({*METHODS, *READING}))})
             case HTTPException():
                 return _problem_of_status(error).response()
