@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import asyncio
 import contextlib
-import errno
 import gc
 import logging
 import os
@@ -19,6 +18,7 @@ import uvicorn
 
 from reina.api.app import create_app
 from reina.api.http.proxies import TrustedProxies
+from reina.api.http.rates import Rates
 from reina.api.settings import Settings, require_page, require_writable
 from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
 from reina.cli.connections import Connections
@@ -47,7 +47,8 @@ LARGEST_MESSAGE = 64 * 1024
 SWITCH_S = 0.0005
 """How long a thread that computes may keep the event loop waiting at a time; Python's own choice is ten times
 it, and the loop waits anew after every frame that it sends."""
-NO_FILES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
+NO_FILES = "socket.accept() out of system resource"
+"""How asyncio tells that no file is left for who comes; it tries again a second later."""
 SELDOM = 1000
 """Collections of the middle generation for one of all objects, in which everything stands still."""
 
@@ -107,6 +108,8 @@ def run(arguments: argparse.Namespace) -> int:
         settings = _settings(arguments)
         lab = switch("REINA_LAB") if arguments.lab is None else arguments.lab
         proxies = TrustedProxies.named(settings.trusted_proxies)
+        # What is wrong is told before anything listens.
+        Rates.named(settings.rates)
         connections = Connections(ConnectionLimits.of_environment(raise_file_limit()), proxies)
         if not arguments.no_page:
             require_page(settings)
@@ -114,7 +117,6 @@ def run(arguments: argparse.Namespace) -> int:
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
         settings = replace(settings, lab=are_loopback(sockets) if lab is None else lab)
-        app = create_app(settings, stage=stage)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
@@ -122,6 +124,7 @@ def run(arguments: argparse.Namespace) -> int:
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
+    app = create_app(settings, stage=stage)
     # Strangers can bring about as many as they like.
     logging.getLogger("uvicorn.error").addFilter(SeldomFilter())
     server = Server(
@@ -214,8 +217,7 @@ class Server(uvicorn.Server):
 
     def _failed(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
         """What fails outside of any task; where files run out, one connection makes room for the next."""
-        error = context.get("exception")
-        if isinstance(error, OSError) and error.errno in NO_FILES:
+        if context["message"] == NO_FILES:
             self._connections.make_room()
         else:
             loop.default_exception_handler(context)
