@@ -21,7 +21,7 @@ from tests.integration.server import PATIENCE_S, Owned, Running, serve, upload
 from tests.integration.watching import watch
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator, Iterator
     from pathlib import Path
 
 HEAD = b"GET /api/v1/health HTTP/1.1\r\nHost: localhost\r\n"
@@ -47,7 +47,7 @@ def connect(server: Running, *, receives: int | None = None) -> socket.socket:
 
 
 @contextmanager
-def connections(server: Running, count: int, begun: bytes = b"") -> Iterator[list[socket.socket]]:
+def connections(server: Running, count: int, begun: bytes = b"") -> Generator[list[socket.socket]]:
     """So many, each of which has sent what is given."""
     with ExitStack() as stack:
         opened = [stack.enter_context(connect(server)) for _ in range(count)]
@@ -103,7 +103,7 @@ def staged(tmp_path: Path) -> list[str]:
 
 
 @contextmanager
-def session_on(server: Running) -> Iterator[Owned]:
+def session_on(server: Running) -> Generator[Owned]:
     """A session, and a client that keeps no connection."""
     with httpx.Client(
         base_url=server.address, timeout=PATIENCE_S, limits=httpx.Limits(max_keepalive_connections=0)

@@ -155,7 +155,8 @@ class ProblemProtocol(H11Protocol):
     @property
     def _is_busy(self) -> bool:
         """Whether a request is being answered."""
-        return self.cycle is not None and not self.cycle.response_complete
+        # There is none before the first, which uvicorn's types do not say.
+        return bool(self.cycle) and not self.cycle.response_complete
 
     def _note(self) -> None:
         """Take note of what is waited for now."""
