@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from reina.cli.environment import seconds, whole_number
 
 MOST = 4096
-"""Connections in all, where the file limit allows so many: 20 kB each while they are silent."""
+"""Connections in all, where the file limit allows so many: 6 kB each while they are silent."""
 MOST_AN_ADDRESS = 512
 """Of one address: a classroom behind one has six a browser and one that watches."""
 HEADER_S = 10.0
