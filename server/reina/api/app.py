@@ -6,7 +6,7 @@ import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 
 import reina
 from reina.api import (
@@ -37,6 +37,9 @@ from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
 from reina.api.http.observed import Observed, RouteNoted
+from reina.api.http.proxies import BehindProxies, TrustedProxies
+from reina.api.http.query import known_query
+from reina.api.http.rates import BoundedRates, Rates
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
@@ -75,6 +78,9 @@ def create_app(
         settings: Where files are and whom it answers; defaults that work in the repository.
         stage: Who plays on what; read from the settings' rigs at the start when None.
         now: Server time, seconds; never goes back, and runs as the event loop's clock does.
+
+    Raises:
+        InputError: A setting cannot be.
     """
     chosen = settings or Settings()
 
@@ -131,15 +137,19 @@ def create_app(
         transcriptions,
         stream,
     ):
-        app.include_router(module.router, prefix=API, responses=problems.RESPONSES)
+        app.include_router(
+            module.router, prefix=API, responses=problems.RESPONSES, dependencies=[Depends(known_query)]
+        )
     app.include_router(page.router)
     problems.install(app)
     describe(app)
     app.add_middleware(RouteNoted)
     app.add_middleware(Compression)
+    app.add_middleware(BoundedRates, rates=Rates.named(chosen.rates), now=now)
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
     app.add_middleware(UnreadBody)
     app.add_middleware(UntilTheEnd, ending=app.state.ending)
     app.add_middleware(Observed, log_requests=chosen.log_requests)
+    app.add_middleware(BehindProxies, proxies=TrustedProxies.named(chosen.trusted_proxies))
     return app

@@ -2,9 +2,9 @@
 
 import asyncio
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 
 import reina
 from reina.api.http.access import Store, Watched
@@ -74,7 +74,12 @@ async def list_moods() -> LightMoodList:
 
 
 @router.get("/health")
-async def get_health(request: Request) -> Health:
+async def get_health(
+    request: Request,
+    probe: Annotated[  # noqa: ARG001 - nothing follows from it
+        str | None, Query(max_length=100, description="Anything: it makes another address of each request.")
+    ] = None,
+) -> Health:
     """Answers while the server lives, and says whether it is ready; see `/health/ready`."""
     return _health(request)
 

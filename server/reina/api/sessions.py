@@ -14,6 +14,7 @@ from reina.api.cast import cast_of_fields, refuse_twice
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
+from reina.api.http.proxies import client_address
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
 from reina.api.http.work import in_turn
 from reina.api.upload import Upload, receive_upload
@@ -102,7 +103,7 @@ def _draft(folder: Path, upload: Upload, request: Request) -> Draft:
         public=fields.public,
         cast=cast_of_fields(fields),
         in_time=fields.in_time,
-        sender=request.client.host if request.client else "",
+        sender=client_address(request.scope),
     )
 
 

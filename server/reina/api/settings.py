@@ -48,6 +48,8 @@ class Settings:
         allowed_hosts: Host names that the server answers to, without ports.
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
+        trusted_proxies: Addresses and networks of proxies that are believed who asks.
+        rates: How many requests of a kind one address has in a minute, as `REINA_RATES` says it.
         lab: Whether the laboratory is there.
         page: Whether the page is to be there.
         log_requests: Whether each request is a line in the log.
@@ -60,6 +62,8 @@ class Settings:
     song_cache_bytes: int = field(default_factory=_song_cache_bytes)
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
+    trusted_proxies: tuple[str, ...] = ()
+    rates: str = field(default_factory=lambda: os.environ.get("REINA_RATES", ""))
     lab: bool = True
     page: bool = True
     log_requests: bool = False

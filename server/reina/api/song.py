@@ -30,6 +30,9 @@ NOSNIFF = {"X-Content-Type-Options": "nosniff"}
 HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
 
 
+TOLD_APART = "Tells the renderings apart; what is sent is always the song of what is played now."
+
+
 def _hearing(
     session: Watched,
     stem: Annotated[
@@ -68,9 +71,19 @@ def _hearing(
 Heard = Annotated[Hearing, Depends(_hearing)]
 
 
+def _rendering(
+    sequence: Annotated[int | None, Query(description=TOLD_APART)] = None,
+    part: Annotated[list[int] | None, Query(description=TOLD_APART)] = None,
+    transposition: Annotated[list[int] | None, Query(description=TOLD_APART)] = None,
+    joined_parts: Annotated[list[str] | None, Query(description=TOLD_APART)] = None,
+) -> None:
+    """What the links of rendered songs say, so that each has an address of its own."""
+
+
 @router.get(
     "/sessions/{session_id}/song",
     response_class=FileResponse,
+    dependencies=[Depends(_rendering)],
     responses={
         200: {"content": {"audio/*": {}}, "description": "The song; ranges may be asked for, but of a WAV."},
         202: {"model": SongState, "description": "It is still being made."},

@@ -69,6 +69,9 @@ async def stream(
         offered = ", ".join(socket.scope["subprotocols"]) or "none"
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
+    elif unknown := set(socket.query_params) - {"frames_per_message"}:
+        detail = f"the stream may be asked for frames_per_message, not for {', '.join(sorted(unknown))[:100]}"
+        problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     elif size is None:
         detail = f"frames_per_message is 1 to {MAX_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)

@@ -12,15 +12,21 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import uvicorn
 
 from reina.api.app import create_app
+from reina.api.http.proxies import TrustedProxies
+from reina.api.http.rates import Rates
 from reina.api.settings import Settings, require_page, require_writable
+from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
+from reina.cli.connections import Connections
+from reina.cli.environment import switch
 from reina.cli.http_protocol import ProblemProtocol
-from reina.cli.listening import are_loopback, listen
+from reina.cli.listening import BACKLOG, are_loopback, listen
 from reina.cli.metrics import METRICS_HOST, serve_metrics
+from reina.cli.server_config import Config
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.stage import Stage
@@ -47,6 +53,8 @@ LARGEST_MESSAGE = 64 * 1024
 SWITCH_S = 0.0005
 """How long a thread that computes may keep the event loop waiting at a time; Python's own choice is ten times
 it, and the loop waits anew after every frame that it sends."""
+NO_FILES = "socket.accept() out of system resource"
+"""How asyncio tells that no file is left for who comes; it tries again a second later."""
 SELDOM = 1000
 """Collections of the middle generation for one of all objects, in which everything stands still."""
 
@@ -85,9 +93,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="an origin whose pages may write and watch, beside the server's own; may be repeated",
     )
     parser.add_argument(
+        "--trusted-proxy",
+        action="append",
+        default=environment.get("REINA_TRUSTED_PROXY", "").split(),
+        metavar="ADDRESS",
+        help="a proxy's address or network (10.0.0.0/8) that is believed who asks; may be repeated",
+    )
+    parser.add_argument(
         "--lab",
         action=argparse.BooleanOptionalAction,
-        default=_switch(environment.get("REINA_LAB", "")),
+        default=None,
         help="answer at /lab and under /api/v1/lab (only where it listens on this machine's own address)",
     )
     parser.add_argument(
@@ -106,7 +121,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--log-requests",
         action=argparse.BooleanOptionalAction,
-        default=_switch(environment.get("REINA_LOG_REQUESTS", "")) or False,
+        default=switch("REINA_LOG_REQUESTS") or False,
         help="write a line into the log for each request (--no-log-requests)",
     )
     parser.add_argument(
@@ -121,11 +136,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _switch(text: str) -> bool | None:
-    """A switch in the environment: 1 or 0; else it is as by default."""
-    return {"1": True, "0": False}.get(text.strip())
-
-
 def run(arguments: argparse.Namespace) -> int:
     """Serve until SIGINT or SIGTERM; returns the exit status.
 
@@ -134,6 +144,11 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         configure()
         settings = _settings(arguments)
+        lab = switch("REINA_LAB") if arguments.lab is None else arguments.lab
+        proxies = TrustedProxies.named(settings.trusted_proxies)
+        # What is wrong is told before anything listens.
+        Rates.named(settings.rates)
+        connections = Connections(ConnectionLimits.of_environment(raise_file_limit()), proxies)
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
@@ -141,15 +156,16 @@ def run(arguments: argparse.Namespace) -> int:
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
         serve_metrics(arguments.metrics_host, arguments.metrics_port)
-        settings = replace(settings, lab=are_loopback(sockets) if arguments.lab is None else arguments.lab)
+        settings = replace(settings, lab=are_loopback(sockets) if lab is None else lab)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
     share_interpreter()
     app = create_app(settings, stage=stage)
     server = Server(
-        uvicorn.Config(
+        Config(
             app,
+            connections,
             http=ProblemProtocol,
             ws=TextProtocol,
             # Deflate saves 3 % of the frames' bytes at ten times the cost.
@@ -162,6 +178,7 @@ def run(arguments: argparse.Namespace) -> int:
             server_header=False,
         ),
         app.state.ending,
+        connections,
         drain_s=arguments.drain,
     )
     server.run(sockets)
@@ -191,6 +208,7 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         allowed_origins=frozenset(arguments.allow_origin),
         page=not arguments.no_page,
         log_requests=arguments.log_requests,
+        trusted_proxies=tuple(arguments.trusted_proxy),
     )
 
 
@@ -222,21 +240,46 @@ class Server(uvicorn.Server):
     Args:
         config: How it serves.
         ending: Hears when it ends.
+        connections: All connections.
         drain_s: How long it still answers after a signal, while it says that it is not ready, seconds.
     """
 
-    def __init__(self, config: uvicorn.Config, ending: Ending, *, drain_s: float = 0.0) -> None:
+    def __init__(
+        self,
+        config: uvicorn.Config,
+        ending: Ending,
+        connections: Connections,
+        *,
+        drain_s: float = 0.0,
+    ) -> None:
         super().__init__(config)
         self._drain_s = drain_s
         self._ending = ending
+        self._connections = connections
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Listen, then say where."""
+        asyncio.get_running_loop().set_exception_handler(self._failed)
         await super().startup(sockets)
+        for listening in sockets or []:
+            # How many may wait to be taken in, however few are taken in at once.
+            listening.listen(BACKLOG)
         for listening in self.servers[:1]:
             host, port = listening.sockets[0].getsockname()[:2]
             shown = "localhost" if host in EVERY_ADDRESS else host
             print(f"http://[{shown}]:{port}" if ":" in shown else f"http://{shown}:{port}", flush=True)
+
+    async def on_tick(self, counter: int) -> bool:
+        """See to the connections that keep us waiting, ten times a second a tenth of them."""
+        self._connections.sweep(asyncio.get_running_loop().time())
+        return await super().on_tick(counter)
+
+    def _failed(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """What fails outside of any task; where files run out, one connection makes room for the next."""
+        if context["message"] == NO_FILES:
+            self._connections.make_room()
+        else:
+            loop.default_exception_handler(context)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Tell whoever still sends or waits, and end."""

@@ -42,6 +42,8 @@ LONGEST_LOCATION = 100
 LONGEST_FAULT = 300
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 """What an address may answer to of itself."""
+READING = ("HEAD", "OPTIONS")
+"""What it answers to besides."""
 
 
 RESPONSES: dict[int | str, dict[str, Any]] = {
@@ -198,6 +200,11 @@ def _not_answered(request: Request) -> Response:
     return _problem_of_status(HTTPException(405, headers=allow)).response()
 
 
+def _asks_the_server(request: Request) -> bool:
+    """Whether it is the server as a whole that is asked what it answers to (RFC 9110, 9.3.7)."""
+    return request.method == "OPTIONS" and request.scope["path"] == "*"
+
+
 def install(app: FastAPI) -> None:
     """Make the application answer every error so; what nobody expected is answered by `Observed`."""
 
@@ -214,6 +221,8 @@ def install(app: FastAPI) -> None:
                 return ProblemError(400, "broken-off", "Bad Request", "the body breaks off").response()
             case HTTPException(status_code=405):
                 return _not_answered(request)
+            case HTTPException(status_code=404) if _asks_the_server(request):
+                return Response(status_code=204, headers={"Allow": ", ".join(sorted({*METHODS, *READING}))})
             case HTTPException():
                 return _problem_of_status(error).response()
             case _:
