@@ -3,7 +3,7 @@
 # The page, and the soundfont that scores are rendered with.
 FROM node:22-slim AS page
 WORKDIR /app/web
-COPY web/package.json web/package-lock.json ./
+COPY web/package.json web/package-lock.json web/.npmrc ./
 RUN npm ci --no-fund --no-audit --loglevel=error
 COPY web/ ./
 RUN npm run build && node scripts/make-soundfont.mjs /app/data/soundfont.sf2

@@ -10,6 +10,7 @@ COMMANDS = {
     "inspect": ("reina.cli.inspect", "say what is in a score and how it is fingered"),
     "align": ("reina.cli.align", "say where a score is heard in a recording"),
     "transcribe": ("reina.cli.transcribe", "find the notes of a recording of one line"),
+    "password": ("reina.cli.password", "make a line for the file that says who may upload"),
     "film": ("reina.cli.film", "make a film of a score, without a window"),
 }
 """Each command's module, which is imported when it is asked for, and what it does."""

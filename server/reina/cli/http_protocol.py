@@ -9,10 +9,12 @@ from http import HTTPStatus
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from reina.api.http.headers import PROTECTING
 from reina.api.http.problems import ProblemError
 
 WEBSOCKET_VERSION = b"13"
 KEY_BYTES = 16
+PROTECTING_RAW = [(name.lower().encode(), value.encode()) for name, value in PROTECTING.items()]
 
 
 class ProblemProtocol(H11Protocol):
@@ -45,7 +47,7 @@ class ProblemProtocol(H11Protocol):
     def _refuse(self, problem: ProblemError) -> None:
         response = problem.response()
         status = HTTPStatus(problem.status)
-        headers = [*response.raw_headers, (b"connection", b"close")]
+        headers = [*response.raw_headers, *PROTECTING_RAW, (b"connection", b"close")]
         for event in (
             h11.Response(status_code=status, headers=headers, reason=status.phrase.encode()),
             h11.Data(data=bytes(response.body)),

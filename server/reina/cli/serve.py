@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import uvicorn
 
 from reina.api.app import create_app
-from reina.api.settings import Settings, require_page, require_writable
+from reina.api.settings import Settings, require_page, require_sign_in, require_writable
 from reina.cli.http_protocol import ProblemProtocol
 from reina.cli.listening import are_loopback, listen
 from reina.cli.websocket_protocol import TextProtocol
@@ -97,6 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
+        require_sign_in(settings)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
         settings = replace(settings, lab=are_loopback(sockets) if arguments.lab is None else arguments.lab)
@@ -121,6 +122,8 @@ def run(arguments: argparse.Namespace) -> int:
             log_level="warning",
             access_log=False,
             server_header=False,
+            # Whose headers mean anything is for the settings to say: uvicorn would believe this machine's.
+            proxy_headers=False,
         ),
         app.state.ending,
     )
