@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Mapping
     from pathlib import Path
 
     import httpx
@@ -49,13 +49,19 @@ class Running:
 
 @contextmanager
 def serve(
-    data_dir: Path, *arguments: str, source: Path | None = None, log: Path | None = None
+    data_dir: Path,
+    *arguments: str,
+    source: Path | None = None,
+    log: Path | None = None,
+    environment: Mapping[str, str] | None = None,
 ) -> Generator[Running]:
     """Start a server on a free port, from another work tree if one is named, and end it.
 
-    What it logs goes into a file where one is named.
+    What it logs goes into a file where one is named; `environment` is beside this process's own.
     """
-    environment = os.environ | ({"PYTHONPATH": str(source / "server")} if source else {})
+    surroundings = os.environ | dict(environment or {})
+    if source is not None:
+        surroundings["PYTHONPATH"] = str(source / "server")
     command = [sys.executable, "-c", "import sys; from reina.cli import main; sys.exit(main())"]
     with open(log, "w") if log else nullcontext() as said:  # noqa: PTH123
         process = subprocess.Popen(
@@ -63,7 +69,7 @@ def serve(
             stdout=subprocess.PIPE,
             stderr=said,
             text=True,
-            env=environment,
+            env=surroundings,
             cwd=source,
         )
     try:

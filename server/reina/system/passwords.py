@@ -46,7 +46,6 @@ def _is_cost(cost: int) -> bool:
 
 def _derived(password: str, salt: bytes, cost: int) -> bytes:
     memory = MEMORY_BYTES * max(1, cost // COST)
-    data = password.encode("utf-8", "surrogatepass")
     return hashlib.scrypt(
         password.encode("utf-8", "surrogatepass"),
         salt=salt,
