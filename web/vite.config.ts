@@ -37,10 +37,9 @@ function apiViewer(): Plugin {
     "docs/start.js": new URL("src/docs/start.js", import.meta.url),
     "docs/docs.css": new URL("src/docs/docs.css", import.meta.url),
     ...Object.fromEntries(
-      ["swagger-ui-bundle.js", "swagger-ui-bundle.js.LICENSE.txt", "swagger-ui.css", "LICENSE", "NOTICE"].map((name) => [
-        `docs/viewer/${name}`,
-        new URL(name, pathToFileURL(VIEWER)),
-      ]),
+      ["swagger-ui-bundle.js", "swagger-ui-bundle.js.LICENSE.txt", "swagger-ui.css", "LICENSE", "NOTICE"].map(
+        (name) => [`docs/viewer/${name}`, new URL(name, pathToFileURL(VIEWER))],
+      ),
     ),
   };
   return {

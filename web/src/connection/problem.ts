@@ -42,6 +42,11 @@ export class ProblemError extends Error {
     return this.status === 0;
   }
 
+  /** The server takes that from people alone who are signed in. */
+  get needsSignIn(): boolean {
+    return this.type === "urn:reina:problem:sign-in-needed";
+  }
+
   /** This page may watch the session, but not change it. */
   get isForbidden(): boolean {
     return this.status === 401 || this.status === 403;
