@@ -44,11 +44,8 @@ def test_every_answer_protects_itself(client: httpx.Client, owned: Owned) -> Non
     ]
     for answer in answers:
         for name, value in PROTECTING.items():
-            if (
-                name == "Content-Security-Policy"
-                and answer.request.url.path in PAGES
-                and answer.status_code == 200
-            ):
+            is_page = answer.request.url.path in PAGES and answer.status_code == 200
+            if is_page and name == "Content-Security-Policy":
                 continue
             assert answer.headers[name] == value, (answer.request.method, answer.request.url, name)
 
@@ -64,11 +61,9 @@ def test_pages_admit_their_own_scripts_alone(client: httpx.Client, path: str) ->
     assert len(scripts) == len(re.findall(r"<script>", answer.text))
     for name in ("object-src", "base-uri", "frame-src"):
         assert told[name] == ["'none'"]
-    every = " ".join(
-        source for name, sources in told.items() if name != "style-src-attr" for source in sources
-    )
-    assert "unsafe-inline" not in every
-    assert "'unsafe-eval'" not in every
+    del told["style-src-attr"]
+    every = {source for sources in told.values() for source in sources}
+    assert not every & {"'unsafe-inline'", "'unsafe-eval'", "*", "http:", "https:"}
     # 304 says the same, lest a page that was kept goes by another policy.
     again = client.get(path, headers={"If-None-Match": answer.headers["etag"]})
     assert again.status_code == 304
@@ -81,10 +76,8 @@ def test_a_policy_names_the_server_as_it_was_asked_for(client: httpx.Client) -> 
 
 
 def test_only_the_stage_alone_may_be_framed(client: httpx.Client) -> None:
-    framed = {
-        path: policy(client.get(path))["frame-ancestors"] for path in (*PAGES, "/?clean=1", "/api/v1/health")
-    }
-    assert set(map(tuple, framed.values())) == {("'none'",)}
+    for path in (*PAGES, "/?clean=1", "/api/v1/health"):
+        assert policy(client.get(path))["frame-ancestors"] == ["'none'"], path
     stage = client.get("/s/anything?clean=1")
     assert policy(stage)["frame-ancestors"] == ["*"]
     assert stage.headers["cross-origin-resource-policy"] == "cross-origin"
