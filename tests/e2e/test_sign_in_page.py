@@ -1,4 +1,4 @@
-"""A server that asks who uploads: the page asks for the password, and a person finds their pieces anywhere."""
+"""A server that asks who uploads: the page asks for the password; a person's pieces are found anywhere."""
 
 from __future__ import annotations
 
