@@ -75,7 +75,9 @@ def test_one_password_for_all(tmp_path: Path) -> None:
         # Nothing of it can be made up or changed, and signing out ends it.
         text, _, signature = kept.partition(".")
         for forged in (f"{text}.{'0' * 64}", f"{text[:-2]}AA.{signature}", text, "", ".", "a.b.c"):
-            with httpx.Client(base_url=running.address, cookies={"reina-sign-in": forged}) as other:
+            with httpx.Client(
+                base_url=running.address, timeout=30, cookies={"reina-sign-in": forged}
+            ) as other:
                 assert other.get(f"{API}/sign-in").json()["signed_in"] is False, forged
         assert client.delete(f"{API}/sign-in").status_code == 204
         assert client.get(f"{API}/sign-in").json()["signed_in"] is False
@@ -85,7 +87,7 @@ def test_one_password_for_all(tmp_path: Path) -> None:
         file.write_text(line)
         with (
             serve(tmp_path / "data", environment=environment) as running,
-            httpx.Client(base_url=running.address, cookies={"reina-sign-in": kept}) as client,
+            httpx.Client(base_url=running.address, timeout=30, cookies={"reina-sign-in": kept}) as client,
         ):
             assert client.get(f"{API}/sign-in").json()["signed_in"] is is_in
     assert (tmp_path / "data" / "signing-key").stat().st_mode & 0o077 == 0
@@ -135,7 +137,7 @@ def test_a_cookie_by_tls_is_for_tls_alone(tmp_path: Path) -> None:
     tls = {"X-Forwarded-Proto": "https"}
     with (
         serve(tmp_path / "data", environment=environment) as running,
-        httpx.Client(base_url=running.address, headers=tls) as client,
+        httpx.Client(base_url=running.address, timeout=30, headers=tls) as client,
     ):
         cookie = client.post(f"{API}/sign-in", json={"password": PASSWORD}).headers["set-cookie"]
         assert cookie.startswith("__Host-reina-sign-in=")
@@ -149,7 +151,7 @@ def test_a_persons_header_from_anybody_but_the_proxy_is_nothing(tmp_path: Path, 
     environment = {"REINA_USER_HEADER": "X-Forwarded-User", "REINA_TRUSTED_PROXY": trusted}
     with (
         serve(tmp_path, environment=environment) as running,
-        httpx.Client(base_url=running.address, headers={"X-Forwarded-User": "ada"}) as client,
+        httpx.Client(base_url=running.address, timeout=30, headers={"X-Forwarded-User": "ada"}) as client,
     ):
         told = client.get(f"{API}/sign-in").json()
         assert told == {"needed": True, "asks": "proxy", "signed_in": False, "name": None, "by": None}
