@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
-from reina.system.passwords import hash_password, is_password_hash, password_matches
+from reina.system.passwords import UNMATCHED, hash_password, is_password_hash, password_matches
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,8 +47,6 @@ class Accounts:
     def __init__(self, accounts: list[Account]) -> None:
         self._by_name = {account.name: account for account in accounts}
         self.have_names = None not in self._by_name
-        # What is tried for a name that nobody has takes as long as for one that somebody has.
-        self._nobody = hash_password("")
 
     @classmethod
     def read(cls, path: Path) -> Accounts:
@@ -97,7 +95,8 @@ class Accounts:
             password: The password.
         """
         account = self.of(name if self.have_names else None)
-        matches = password_matches(self._nobody if account is None else account.stored, password)
+        # What is tried for a name that nobody has takes as long as for one that somebody has.
+        matches = password_matches(UNMATCHED if account is None else account.stored, password)
         return account if matches else None
 
 

@@ -12,6 +12,8 @@ COST, BLOCK, LANES = 2**15, 8, 1
 """scrypt's N, r and p: 32 MB and about a tenth of a second for each password that is tried."""
 MEMORY_BYTES = 64 * 1024 * 1024
 MOST_COST = 2**17
+UNMATCHED = f"scrypt${COST}${'A' * 22}${'A' * 43}"
+"""In the form of a hash, but of no password that anybody knows: to try one against takes as long as any."""
 _HASH = re.compile(r"scrypt\$(\d{1,7})\$([A-Za-z0-9_-]{22})\$([A-Za-z0-9_-]{43})")
 
 
