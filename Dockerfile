@@ -7,7 +7,7 @@ ARG PYTHON=python:3.12.12-slim-bookworm
 # The page.
 FROM ${NODE} AS page
 WORKDIR /src/web
-COPY web/package.json web/package-lock.json ./
+COPY web/package.json web/package-lock.json web/.npmrc ./
 RUN npm ci --no-fund --no-audit --loglevel=error
 COPY web/ ./
 RUN npm run build

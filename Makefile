@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 # How many processes run the tests; each has a server and a browser of its own.
 WORKERS ?= 2
-WEB_SOURCES := $(shell find web/src web/public web/index.html web/lab.html web/vite.config.ts web/package.json web/package-lock.json -type f 2>/dev/null)
+WEB_SOURCES := $(shell find web/src web/public web/index.html web/lab.html web/vite.config.ts web/.npmrc web/package.json web/package-lock.json -type f 2>/dev/null)
 
 # Where PATH has no npm, or no Node that web/package.json names, .venv gets one and every recipe finds it there.
 ifeq ($(shell command -v npm >/dev/null && node web/scripts/node-fits.mjs 2>/dev/null && echo yes),)

@@ -75,7 +75,7 @@ def serve(
             stdout=subprocess.PIPE,
             stderr=said,
             text=True,
-            env=environment,
+            env=surroundings,
             cwd=source,
         )
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
@@ -21,6 +22,7 @@ from reina.api import (
     library,
     page,
     part,
+    people,
     rigs,
     sessions,
     show,
@@ -36,11 +38,13 @@ from reina.api.http import problems
 from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
+from reina.api.http.headers import ProtectingHeaders
 from reina.api.http.observed import Observed, RouteNoted
 from reina.api.http.proxies import BehindProxies, TrustedProxies
 from reina.api.http.query import known_query
 from reina.api.http.rates import BoundedRates, Rates
 from reina.api.http.retrieval import Retrieval
+from reina.api.http.sign_in import SignIn
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
 from reina.api.lab.work import lab_pool
@@ -62,7 +66,7 @@ WebSocket `/api/v1/sessions/{id}/stream` (docs/protocol.md says what comes), or 
 
 Whatever answers to GET answers to HEAD too, and to conditions (RFC 9110, 13): keep what was answered, and ask
 again with its `ETag`. Errors are problem details (RFC 9457). Watching needs a session's id, changing it its
-control token.
+control token, or that who made it is signed in.
 """
 
 
@@ -96,6 +100,8 @@ def create_app(
         )
         await store.prune_songs()
         app.state.store = store
+        # A password that stands in a file as it is takes a moment.
+        app.state.sign_in = await asyncio.to_thread(SignIn, chosen, now)
         app.state.computing = Turns()
         app.state.lab_pool = lab_pool()
         app.state.transcriptions = Transcriptions()
@@ -109,7 +115,13 @@ def create_app(
         await store.aclose()
 
     app = FastAPI(
-        title="Reina", version=reina.__version__, description=DESCRIPTION, lifespan=lifespan, redoc_url=None
+        title="Reina",
+        version=reina.__version__,
+        description=DESCRIPTION,
+        lifespan=lifespan,
+        # FastAPI's own page for it loads scripts from elsewhere; /docs is one of the page's files.
+        docs_url=None,
+        redoc_url=None,
     )
     app.state.settings = chosen
     app.state.ending = Ending()
@@ -135,6 +147,7 @@ def create_app(
         stances,
         catalogue,
         transcriptions,
+        people,
         stream,
     ):
         app.include_router(
@@ -150,6 +163,7 @@ def create_app(
     app.add_middleware(Retrieval)
     app.add_middleware(UnreadBody)
     app.add_middleware(UntilTheEnd, ending=app.state.ending)
+    app.add_middleware(ProtectingHeaders)
     app.add_middleware(Observed, log_requests=chosen.log_requests)
     app.add_middleware(BehindProxies, proxies=TrustedProxies.named(chosen.trusted_proxies))
     return app

@@ -48,5 +48,5 @@ async def get_score_file(session: Watched, store: Store) -> ServedFile:
     return ServedFile(
         store.score_file(session),
         media_type="application/octet-stream",
-        headers={"X-Content-Type-Options": "nosniff"},
+        headers={"Content-Disposition": "attachment"},
     )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reina.api.accounts import Accounts
 from reina.errors import InputError
 from reina.sessions.store import SONG_CACHE_BYTES
 from reina.system.resources import bundled, default_data_dir
@@ -28,6 +30,11 @@ def _song_cache_bytes() -> int:
     if not given.isdecimal():
         raise InputError(f"REINA_SONG_CACHE_MB is a whole number of megabytes, not {given!r}")
     return int(given) * MEGABYTE
+
+
+def _upload_password_file() -> Path | None:
+    named = os.environ.get("REINA_UPLOAD_PASSWORD_FILE")
+    return Path(named) if named else None
 
 
 def _folder(variable: str, default: Callable[[], Path]) -> Path:
@@ -53,6 +60,8 @@ class Settings:
         lab: Whether the laboratory is there.
         page: Whether the page is to be there.
         log_requests: Whether each request is a line in the log.
+        upload_password_file: Holds the passwords of those who may upload; None: everybody may.
+        user_header: What a trusted proxy tells in who is signed in there; empty: nothing.
     """
 
     data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", default_data_dir))
@@ -67,6 +76,8 @@ class Settings:
     lab: bool = True
     page: bool = True
     log_requests: bool = False
+    upload_password_file: Path | None = field(default_factory=_upload_password_file)
+    user_header: str = field(default_factory=lambda: os.environ.get("REINA_USER_HEADER", ""))
 
 
 def require_page(settings: Settings) -> None:
@@ -80,6 +91,24 @@ def require_page(settings: Settings) -> None:
             f"the page is not built: {settings.page_dir} has no index.html; `make setup` builds it, "
             "--no-page serves the API alone"
         )
+
+
+def require_sign_in(settings: Settings) -> None:
+    """See that what is said of signing in can be used.
+
+    Raises:
+        InputError: A person's header that nobody may send, or one that is no header.
+    """
+    header = settings.user_header
+    if header and not settings.trusted_proxies:
+        raise InputError(
+            f"REINA_USER_HEADER={header} needs REINA_TRUSTED_PROXY, the address of the proxy that sends it: "
+            "from anybody else it means nothing"
+        )
+    if header and not re.fullmatch(r"[A-Za-z0-9-]+", header):
+        raise InputError(f"REINA_USER_HEADER is the name of a header, X-Forwarded-User say, not {header!r}")
+    if settings.upload_password_file is not None:
+        Accounts.read(settings.upload_password_file)
 
 
 def require_writable(data_dir: Path) -> None:

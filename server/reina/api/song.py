@@ -26,8 +26,8 @@ PEAK_DIGITS = 4
 SEGMENT_PATIENCE_S = 1.0
 """How long a request waits for a segment that is not there yet; then it is told how far the rendering is."""
 # What was uploaded as sound is never to be taken for a page.
-NOSNIFF = {"X-Content-Type-Options": "nosniff"}
-HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
+ATTACHED = {"Content-Disposition": "attachment"}
+HEADERS = {"Cache-Control": "no-cache", **ATTACHED}
 
 
 TOLD_APART = "Tells the renderings apart; what is sent is always the song of what is played now."
@@ -164,7 +164,7 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
         if request.error is not None:
             raise _no_song(str(request.error))
         return _under_way(session, hearing)
-    return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=NOSNIFF)
+    return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=ATTACHED)
 
 
 @router.get(

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Path, Query, Request, Response
 
 from reina.api.export import attachment
-from reina.api.http.access import Store
+from reina.api.http.access import Store, Uploader
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
@@ -75,6 +75,7 @@ async def transcribe(
     response: Response,
     store: Store,
     known: Known,
+    _: Uploader,
     title: Annotated[
         str | None,
         Query(max_length=LONGEST_TITLE, description="What the score is called; else as the file."),

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from reina.api.http.headers import PROTECTING
 from reina.api.http.problems import ProblemError
 from reina.cli.connections import Outflow
 from reina.cli.server_config import connections_of
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 WEBSOCKET_VERSION = b"13"
 KEY_BYTES = 16
+PROTECTING_RAW = [(name.lower().encode(), value.encode()) for name, value in PROTECTING.items()]
 
 
 class ProblemProtocol(H11Protocol):
@@ -196,7 +198,7 @@ class ProblemProtocol(H11Protocol):
         response = problem.response()
         status = HTTPStatus(problem.status)
         headers = [entry for entry in response.raw_headers if entry[0] != b"connection"]
-        headers.append((b"connection", b"close"))
+        headers += [*PROTECTING_RAW, (b"connection", b"close")]
         for event in (
             h11.Response(status_code=status, headers=headers, reason=status.phrase.encode()),
             h11.Data(data=bytes(response.body)),

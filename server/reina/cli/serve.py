@@ -19,7 +19,7 @@ import uvicorn
 from reina.api.app import create_app
 from reina.api.http.proxies import TrustedProxies
 from reina.api.http.rates import Rates
-from reina.api.settings import Settings, require_page, require_writable
+from reina.api.settings import Settings, require_page, require_sign_in, require_writable
 from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
 from reina.cli.connections import Connections
 from reina.cli.environment import switch
@@ -152,6 +152,7 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
+        require_sign_in(settings)
         _provide_soundfont(settings)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
@@ -176,6 +177,8 @@ def run(arguments: argparse.Namespace) -> int:
             log_level="warning",
             access_log=False,
             server_header=False,
+            # Whose headers mean anything is for the settings to say: uvicorn would believe this machine's.
+            proxy_headers=False,
         ),
         app.state.ending,
         connections,

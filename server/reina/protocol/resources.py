@@ -170,6 +170,8 @@ class Session(WireModel):
     stances: list[Stance]
     """Its own, in the order of the choices of `player/stance`."""
     links: SessionLinks
+    mine: bool = False
+    """Whether who asks is signed in as the person who made it, and controls it without its token."""
 
 
 class CreatedSession(Session):
@@ -177,6 +179,33 @@ class CreatedSession(Session):
 
     control_token: str
     """What changes the session needs: `Authorization: Bearer <control_token>`."""
+
+
+class ControlToken(WireModel):
+    """A session's control token, as it is told once."""
+
+    control_token: str
+
+
+class SignIn(WireModel):
+    """Who asks, and whether the server wants to know."""
+
+    needed: bool
+    """Whether only who is signed in may upload."""
+    asks: Literal["password", "name-and-password", "proxy"] | None
+    """By what one signs in; null where nobody does. `proxy`: at the proxy before the server, not here."""
+    signed_in: bool
+    name: str | None
+    """Who it is; null where that is not known, as where all have one password."""
+    by: Literal["password", "proxy"] | None
+
+
+class Password(RequestModel):
+    """What somebody signs in by."""
+
+    name: Annotated[str, Field(min_length=1, max_length=200)] | None = None
+    """Whose password it is; where all have one it is left out."""
+    password: Annotated[str, Field(min_length=1, max_length=200)]
 
 
 class SessionSummary(WireModel):

@@ -69,6 +69,9 @@ class SessionRecord(BaseModel):
     public: bool
     created_at: str
     token_sha256: str
+    """Of the control token, which itself is not kept."""
+    owner: str | None = None
+    """Who made it, where the server knows people; controls it without the token."""
     cast: Cast
     """Who plays what."""
     score_filename: str | None

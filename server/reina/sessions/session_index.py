@@ -33,6 +33,7 @@ class Entry:
         public: Whether it is listed.
         created_at: ISO 8601, UTC.
         modified_ns: When its record was written; another time on disk means that it has to be read again.
+        owner: Who made it, where that is known.
     """
 
     id: str
@@ -40,11 +41,12 @@ class Entry:
     public: bool
     created_at: str
     modified_ns: int
+    owner: str | None = None
 
     @classmethod
     def of(cls, record: SessionRecord, modified_ns: int) -> Entry:
         """The entry of a record."""
-        return cls(record.id, record.title, record.public, record.created_at, modified_ns)
+        return cls(record.id, record.title, record.public, record.created_at, modified_ns, record.owner)
 
     @property
     def place(self) -> str:
@@ -113,20 +115,26 @@ class SessionIndex:
             self._unlist(session_id)
             self._entries.pop(session_id, None)
 
-    def page(self, limit: int, after: str | None) -> tuple[list[Entry], str | None]:
-        """Some of the sessions that are listed, the newest first.
+    def page(
+        self, limit: int, after: str | None, *, owner: str | None = None
+    ) -> tuple[list[Entry], str | None]:
+        """Some of the sessions that are listed, or of a person's, the newest first.
 
         Args:
             limit: How many at most.
             after: What the page before gave; None for the first page.
+            owner: Whose, listed or not; None for those that are listed.
 
         Returns:
             The sessions, and what the next page is asked for with; None when there are no more.
         """
         with self._changing:
-            end = len(self._listed) if after is None else bisect_left(self._listed, after)
+            listed = self._listed
+            if owner is not None:
+                listed = sorted(entry.place for entry in self._entries.values() if entry.owner == owner)
+            end = len(listed) if after is None else bisect_left(listed, after)
             start = max(0, end - limit)
-            places = self._listed[start:end][::-1]
+            places = listed[start:end][::-1]
             entries = [self._entries[place.partition("_")[2]] for place in places]
         return entries, places[-1] if start and places else None
 

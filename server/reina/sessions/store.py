@@ -84,6 +84,7 @@ class Draft:
         cast: Who plays what.
         in_time: Whether the score's seconds are the song's already, so that it need not be looked for.
         sender: Who sent it, as far as that is known; what is read of senders is read in turn.
+        owner: The person whose it is, where people are known; controls it without a token.
     """
 
     folder: Path
@@ -96,6 +97,7 @@ class Draft:
     cast: Cast = field(default_factory=Cast)
     in_time: bool = False
     sender: str = ""
+    owner: str | None = None
 
 
 class SessionStore:
@@ -225,9 +227,20 @@ class SessionStore:
         self._sessions.move_to_end(session_id)
         return session
 
-    def listed(self, limit: int, after: str | None = None) -> tuple[list[Entry], str | None]:
-        """Some of the sessions that are listed, newest first; see `SessionIndex.page`."""
-        return self._folders.index.page(limit, after)
+    def listed(
+        self, limit: int, after: str | None = None, *, owner: str | None = None
+    ) -> tuple[list[Entry], str | None]:
+        """Some of the sessions that are listed, or of a person's, newest first; see `SessionIndex.page`."""
+        return self._folders.index.page(limit, after, owner=owner)
+
+    async def renew_token(self, session: Session) -> str:
+        """Give a session another control token, in place of the one before; returns it, which is not kept."""
+        token = new_token()
+        async with self._edit(session):
+            record = session.record.model_copy(update={"token_sha256": hash_token(token)})
+            await asyncio.to_thread(self._folders.write_record, record)
+            session.record = record
+        return token
 
     async def change(
         self,
@@ -462,6 +475,7 @@ class SessionStore:
             public=draft.public,
             created_at=created_now(),
             token_sha256=token_sha256,
+            owner=draft.owner,
             cast=production.cast,
             score_filename=draft.score_filename,
             song=song,

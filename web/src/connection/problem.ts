@@ -69,6 +69,11 @@ export class ProblemError extends Error {
     return PASSING.includes(this.status);
   }
 
+  /** The server takes that from people alone who are signed in. */
+  get needsSignIn(): boolean {
+    return this.type === "urn:reina:problem:sign-in-needed";
+  }
+
   /** This page may watch the session, but not change it. */
   get isForbidden(): boolean {
     return this.status === 401 || this.status === 403;

@@ -2,6 +2,7 @@ import type {
   Cast,
   CastFields,
   CastingFields,
+  ControlToken,
   CreatedSession,
   Example,
   ExampleList,
@@ -10,11 +11,14 @@ import type {
   InstrumentList,
   LightMood,
   LightMoodList,
+  Password,
   Score,
   Session,
   SessionChange,
+  SessionList,
   ShowParameter,
   ShowParameterList,
+  SignIn,
   Stance,
   TransportCommand,
   Transcription,
@@ -59,6 +63,9 @@ export interface RequestOptions extends Sending {
 export class ReinaApi {
   /** Waits until a busy server may be asked again; rejects where the person gives it up. */
   whenBusy: ((problem: ProblemError, signal?: AbortSignal) => Promise<void>) | null = null;
+  /** Asks the person to sign in, where an upload needs it; resolves to whether that went well. */
+  askSignIn: () => Promise<boolean> = () => Promise.resolve(false);
+
   readonly #base: string;
   readonly #fetch: typeof fetch;
   readonly #send: typeof send;
@@ -107,14 +114,39 @@ export class ReinaApi {
     if (files.title !== undefined) form.append("title", files.title);
     if (files.inTime === true) form.append("in_time", "true");
     if (files.cast !== undefined) form.append("cast", JSON.stringify(castFields(files.cast)));
-    return this.#json("POST", `${this.#base}/sessions`, { ...options, body: form });
+    return this.#upload(() => this.#json("POST", `${this.#base}/sessions`, { ...options, body: form }));
+  }
+
+  /** Whether uploads need a sign-in, by what, and who is signed in. */
+  signInState(): Promise<SignIn> {
+    return this.#json("GET", `${this.#base}/sign-in`);
+  }
+
+  /** Sign in by a password; the browser keeps that in a cookie, which no page can read. */
+  signInBy(given: Pick<Password, "password"> & Partial<Password>): Promise<SignIn> {
+    return this.#json("POST", `${this.#base}/sign-in`, { json: given });
+  }
+
+  async signOut(): Promise<void> {
+    await this.request("DELETE", `${this.#base}/sign-in`);
+  }
+
+  /** The sessions of who is signed in, the newest first. */
+  mySessions(): Promise<SessionList> {
+    return this.#json("GET", `${this.#base}/sessions?mine=true&limit=1000`);
+  }
+
+  /** Make a session's token anew; the one before controls nothing any more. */
+  async renewToken(id: string, token: string): Promise<string> {
+    const path = this.sessionPath(id, "control_token");
+    return (await this.#json<ControlToken>("POST", path, { token })).control_token;
   }
 
   /** Have the server look for the notes of a recording of one line. */
   transcribe(song: File, sending: Sending = {}): Promise<Transcription> {
     const form = new FormData();
     form.append("song", song);
-    return this.#json("POST", `${this.#base}/transcriptions`, { ...sending, body: form });
+    return this.#upload(() => this.#json("POST", `${this.#base}/transcriptions`, { ...sending, body: form }));
   }
 
   transcription(id: string): Promise<Transcription> {
@@ -248,7 +280,8 @@ export class ReinaApi {
   async #requestOnce(method: string, path: string, options: RequestOptions): Promise<Response> {
     const { sent, signal } = options;
     const headers: Record<string, string> = { Accept: "application/json, */*" };
-    if (options.token !== undefined) headers["Authorization"] = `Bearer ${options.token}`;
+    // Who is signed in as a session's owner needs no token: theirs is empty.
+    if (options.token !== undefined && options.token !== "") headers["Authorization"] = `Bearer ${options.token}`;
     if (options.ifMatch !== undefined) headers["If-Match"] = options.ifMatch;
     if (options.json !== undefined) headers["Content-Type"] = "application/json";
     const body = options.json === undefined ? options.body : JSON.stringify(options.json);
@@ -268,6 +301,17 @@ export class ReinaApi {
     }
     if (!response.ok) throw await problemOf(response);
     return response;
+  }
+
+  /** Upload something, once the person has signed in where that is needed. */
+  async #upload<T>(send: () => Promise<T>): Promise<T> {
+    try {
+      return await send();
+    } catch (error) {
+      const isAsked = error instanceof ProblemError && error.needsSignIn;
+      if (!isAsked || !(await this.askSignIn())) throw error;
+      return await send();
+    }
   }
 
   #transcriptionPath(id: string): string {

@@ -273,6 +273,8 @@ export interface Session {
   /** Its own, in the order of the choices of player/stance. */
   stances: Stance[]
   links: SessionLinks
+  /** Whether who asks is signed in as the person who made it, and controls it without its token. */
+  mine: boolean
 }
 
 /** First on every stream: whoever joins late or again needs nothing else. */
@@ -378,6 +380,23 @@ export interface SessionList {
   sessions: SessionSummary[]
   /** What the next page is asked for with, as after; null when there are no more. */
   next: string | null
+}
+
+/** A session's control token, as it is told once. */
+export interface ControlToken {
+  control_token: string
+}
+
+/** Who asks, and whether the server wants to know. */
+export interface SignIn {
+  /** Whether only who is signed in may upload. */
+  needed: boolean
+  /** By what one signs in; null where nobody does. proxy: at the proxy before the server, not here. */
+  asks: "password" | "name-and-password" | "proxy" | null
+  signed_in: boolean
+  /** Who it is; null where that is not known, as where all have one password. */
+  name: string | null
+  by: "password" | "proxy" | null
 }
 
 /** The score, as far as it is drawn and played. */
@@ -664,6 +683,13 @@ export interface SessionChange {
   handedness?: "left" | "right" | null
   /** auto: the score itself says who plays it; the fields for one player are then left out. */
   cast?: "auto" | null
+}
+
+/** What somebody signs in by. */
+export interface Password {
+  /** Whose password it is; where all have one it is left out. */
+  name?: string | null
+  password: string
 }
 
 /** Who is to play what, the first player first. */

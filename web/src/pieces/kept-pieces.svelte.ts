@@ -1,4 +1,5 @@
 import { ProblemError, type ReinaApi } from "../connection";
+import type { SignIn } from "../generated/protocol";
 import { remember, remembered, type KeptPiece } from "../state/storage";
 import { forgetPicture, pictureOf } from "../state/pictures";
 
@@ -14,12 +15,17 @@ export interface Piece extends KeptPiece {
   readonly picture: string | null;
 }
 
-/** The sessions that this browser made and the server still has, the one opened last first. */
+/** The sessions that this browser made, or who is signed in, and the server still has; the one opened last first. */
 export class KeptPieces {
   all = $state.raw<readonly Piece[]>([]);
   /** What was deleted and can still be brought back. */
   deleted = $state.raw<Piece | null>(null);
 
+  /** Who is signed in; null where nobody is. */
+  who = $state.raw<SignIn | null>(null);
+
+  /** The pieces of who is signed in, by id; these need no token. */
+  #mine: Readonly<Record<string, KeptPiece>> = {};
   readonly #api: ReinaApi;
   readonly #tell: (error: unknown) => void;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -36,6 +42,34 @@ export class KeptPieces {
 
   /** Ask the server which pieces there still are, and what they are called now. */
   async refresh(): Promise<void> {
+    await Promise.all([this.#refreshKept(), this.#refreshMine()]);
+    this.all = this.#shown();
+  }
+
+  /** Sign out; what was made by who was signed in is not listed any more. */
+  async signOut(): Promise<void> {
+    await this.#api.signOut();
+    this.who = null;
+    this.#mine = {};
+    this.all = this.#shown();
+  }
+
+  async #refreshMine(): Promise<void> {
+    try {
+      const who = await this.#api.signInState();
+      this.who = who.signed_in ? who : null;
+      if (who.name === null) return;
+      const { sessions } = await this.#api.mySessions();
+      this.#mine = Object.fromEntries(
+        sessions.map(({ id, title, created_at }) => [id, { title, opened: Date.parse(created_at) }]),
+      );
+    } catch (error) {
+      if (!(error instanceof ProblemError)) throw error;
+      this.#tell(error);
+    }
+  }
+
+  async #refreshKept(): Promise<void> {
     const ids = Object.keys(remembered().tokens).reverse();
     let known: Readonly<Record<string, KeptPiece>> = remembered().pieces;
     for (let begin = 0; begin < ids.length; begin += AT_ONCE) {
@@ -52,7 +86,6 @@ export class KeptPieces {
       });
     }
     remember({ pieces: known });
-    this.all = this.#shown();
   }
 
   /** Take a piece out of the list; the server ends it when the time for Undo is over, or the page is left. */
@@ -76,7 +109,8 @@ export class KeptPieces {
     if (piece === null) return;
     clearTimeout(this.#timer);
     this.deleted = null;
-    const token = remembered().tokens[piece.id];
+    const token = remembered().tokens[piece.id] ?? (piece.id in this.#mine ? "" : undefined);
+    this.#mine = without(this.#mine, piece.id);
     forget(piece.id);
     if (token === undefined) return;
     // It has to arrive even where the page is being left.
@@ -86,14 +120,14 @@ export class KeptPieces {
   }
 
   #shown(): readonly Piece[] {
-    return listed().filter(({ id }) => id !== this.deleted?.id);
+    return listed(this.#mine).filter(({ id }) => id !== this.deleted?.id);
   }
 }
 
-function listed(): readonly Piece[] {
+function listed(mine: Readonly<Record<string, KeptPiece>> = {}): readonly Piece[] {
   const { tokens, pieces } = remembered();
-  return Object.entries(pieces)
-    .filter(([id]) => tokens[id] !== undefined)
+  const kept = Object.entries(pieces).filter(([id]) => tokens[id] !== undefined || id in mine);
+  return Object.entries({ ...mine, ...Object.fromEntries(kept) })
     .map(([id, piece]) => ({ ...piece, id, picture: pictureOf(id) }))
     .sort((a, b) => b.opened - a.opened);
 }

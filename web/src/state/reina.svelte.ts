@@ -9,7 +9,9 @@ import { Patience } from "./patience.svelte";
 import { PracticeChoices } from "./practice-choices.svelte";
 import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
+import { isFramed } from "./framed";
 import { SessionView } from "./session-view.svelte";
+import { SignInDesk } from "../signin/sign-in.svelte";
 import { OutputLatency } from "../latency/output-latency.svelte";
 import { remember, remembered, rememberToken } from "./storage";
 import { transcribed } from "./transcribing";
@@ -41,6 +43,7 @@ export class Reina {
   readonly uploads = new Uploads();
   /** What waits for a busy server. */
   readonly patience = new Patience();
+  readonly signIn: SignInDesk;
   readonly practice = new PracticeChoices();
   /** Called with the session of a score that was just uploaded. */
   arrived: ((view: SessionView) => void) | null = null;
@@ -77,12 +80,15 @@ export class Reina {
   constructor(api = new ReinaApi()) {
     this.api = api;
     api.whenBusy = (problem, signal) => this.patience.wait(problem, signal);
+    this.signIn = new SignInDesk(api);
+    api.askSignIn = () => this.signIn.ask();
   }
 
   /** Open what the address says; `/` opens this browser's own session of the bundled piece. */
   async start(): Promise<void> {
     void this.#readLists();
     this.#takeControl();
+    addEventListener("storage", () => this.#followToken());
     await this.openAddress(location.pathname);
   }
 
@@ -109,7 +115,8 @@ export class Reina {
     const opening = ++this.#opening;
     this.phase = "opening";
     try {
-      const token = remembered().tokens[id] ?? null;
+      // Whoever frames the page could lead a click to any of its buttons.
+      const token = isFramed() ? null : (remembered().tokens[id] ?? null);
       const view = await SessionView.open(id, token, {
         api: this.api,
         practice: this.practice,
@@ -408,6 +415,21 @@ export class Reina {
 
   async #showDocument(id: string): Promise<unknown> {
     return (await this.api.request("GET", this.api.sessionPath(id, "show"))).json();
+  }
+
+  /** Make the open session's control link anew: those that were given away control nothing any more. */
+  async renewControl(view: SessionView): Promise<void> {
+    if (view.token === null) return;
+    rememberToken(view.id, await this.api.renewToken(view.id, view.token));
+    if (this.view === view) await this.open(view.id);
+  }
+
+  /** Go on with the token that another tab of this browser has made anew. */
+  #followToken(): void {
+    const { view } = this;
+    if (view === null || view.token === null) return;
+    const kept = remembered().tokens[view.id];
+    if (kept !== undefined && kept !== view.token) void this.open(view.id);
   }
 
   /** Keep the token of a link that gives control, and take it out of sight. */

@@ -28,6 +28,7 @@ import type {
 import { Metronome, monoWav, sameMotion, SongPlayer, soundTone, type SoundState } from "../sound";
 import { isListenedTo } from "./alignment-words";
 import { CastState } from "./cast.svelte";
+import { isFramed } from "./framed";
 import { lineNotes } from "./line-notes";
 import { Refresh } from "./refresh";
 import { heldAt, stepFrom } from "./note-steps";
@@ -66,7 +67,7 @@ export interface Surroundings {
 /** One session as this page sees it: what it is, its clock, its frames and its sound. */
 export class SessionView {
   readonly id: string;
-  /** What changes the session; null where this browser did not make it and may only watch. */
+  /** What changes the session; empty where its owner is signed in, null where this page may only watch. */
   readonly token: string | null;
   readonly sync = new SyncMeasure();
   /** Who plays what, and whom the strips follow here. */
@@ -146,7 +147,8 @@ export class SessionView {
       api.score(id),
       api.cast(id),
     ]);
-    return new SessionView(session, score, cast, transport, token, surroundings);
+    const control = token ?? (session.mine && !isFramed() ? "" : null);
+    return new SessionView(session, score, cast, transport, control, surroundings);
   }
 
   private constructor(

@@ -19,6 +19,8 @@ SECURE = {"http": "https", "https": "https", "ws": "wss", "wss": "wss"}
 PLAIN = {"http": "http", "https": "http", "ws": "ws", "wss": "ws"}
 MOST_HOPS = 20
 """So many are looked at, from the server outwards."""
+BY_PROXY = "reina.by_proxy"
+"""Stands in the scope of what comes through a trusted proxy, whose other headers mean something then too."""
 OWN_NETWORK_BITS = 64
 """What one household or machine has of IPv6 (RFC 6177): all of it counts as one."""
 
@@ -109,7 +111,7 @@ class BehindProxies:
         if client and scope["type"] in {"http", "websocket"} and self._proxies.trusts(client[0]):
             address = self._proxies.client_of(client[0], scope["headers"])
             scheme = self._proxies.scheme_of(client[0], scope["headers"], scope["scheme"])
-            scope = {**scope, "client": (address, client[1]), "scheme": scheme}
+            scope = {**scope, "client": (address, client[1]), "scheme": scheme, BY_PROXY: True}
         await self._app(scope, receive, send)
 
 
@@ -124,6 +126,22 @@ def client_address(scope: Scope) -> str:
     """
     client = scope.get("client")
     return _plain(client[0]) if client else ""
+
+
+def comes_by_proxy(scope: Scope) -> bool:
+    """Whether who is connected is a trusted proxy: only then its headers mean anything."""
+    return bool(scope.get(BY_PROXY))
+
+
+def is_secure(scope: Scope) -> bool:
+    """Whether the browser speaks TLS, to this server or to the proxy before it."""
+    return scope["scheme"] in {"https", "wss"}
+
+
+def only_header(scope: Scope, name: bytes) -> str | None:
+    """A header's value; None where there is none, or more than one, of which one may be a stranger's."""
+    values = [value for header, value in scope["headers"] if header == name]
+    return values[0].decode("latin-1").strip() if len(values) == 1 else None
 
 
 def counted_as(address: str) -> str | None:

@@ -57,6 +57,7 @@ export const page = words("page", {
   showNotLoaded: "The show's editor could not be loaded. Reload the page.",
   inTimeNotLoaded: "What puts the score in time could not be loaded. Reload the page.",
   keysNotLoaded: "The list of keys could not be loaded. Reload the page.",
+  signInNotLoaded: "What asks for the password could not be loaded. Reload the page.",
   turnSoundOn: "Turn the sound on",
   opening: "Opening …",
   noFullScreen: "This browser does not do full screen here",
