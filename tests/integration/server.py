@@ -75,7 +75,7 @@ def serve(
             stdout=subprocess.PIPE,
             stderr=said,
             text=True,
-            env=surroundings,
+            env=environment,
             cwd=source,
         )
     try:

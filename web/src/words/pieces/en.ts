@@ -28,7 +28,8 @@ export const pieces = words("pieces", {
   codeToWatch: "QR code of the address to watch",
   codeToControl: "QR code of the address to control",
   renew: "Make the control link anew",
-  renewMeans: "The links to control that you gave away so far then control nothing any more. Links to watch stay as they are.",
+  renewMeans:
+    "The links to control that you gave away so far then control nothing any more. Links to watch stay as they are.",
   renewed: "The control link is another now",
   giveControl: "Make a control link",
   signedInAs: filled("Signed in as {name}"),
