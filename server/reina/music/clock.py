@@ -228,7 +228,7 @@ class MusicClock:
         """
         duration_s = self.duration_s
         loop = state.loop
-        if loop is not None and not (0 <= loop[0] and loop[0] + SHORTEST_LOOP_S <= loop[1] <= duration_s):
+        if loop is not None and not (loop[0] >= 0 and loop[0] + SHORTEST_LOOP_S <= loop[1] <= duration_s):
             loop = None
         counted = state.loop_count_in_s if loop else 0.0
         then = replace(
