@@ -220,7 +220,7 @@ class MusicClock:
         return self._changed.at(self._now() if at is None else at)
 
     def resume(self, state: ClockState) -> ClockState:
-        """Go on from a state that another clock was in, before or at the present; what does not fit is let go.
+        """Go on from a state that another clock was in; what of it does not fit this song is let go.
 
         Args:
             state: Its server time is this clock's, and may lie before this clock was made: song time has run

@@ -1,4 +1,4 @@
-"""A music clock as it is kept: what it said at one time of the calendar, from which all later times follow."""
+"""A music clock as it is kept: what it said at one time, from which all later times follow."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
 class KeptClock(BaseModel):
-    """A clock's state at one time; song time is arithmetic from there on, whether anybody computes it or not."""
+    """A clock's state at one time; song time is arithmetic from there on."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

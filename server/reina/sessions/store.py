@@ -41,7 +41,7 @@ from reina.system.atomic_write import write_atomically
 from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable, Generator
+    from collections.abc import AsyncGenerator, Callable, Generator, Iterable
     from pathlib import Path
 
     from reina.sessions.note_messages import NoteMessages
@@ -52,9 +52,6 @@ if TYPE_CHECKING:
     from reina.sound.hearing import Hearing
     from reina.sound.recording.probe import AudioInfo
     from reina.sound.renderer import SongRenderer
-
-SONG_CACHE_BYTES = 2_000_000_000
-"""How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
 
 Stances = tuple[StanceRecord, ...]
 
@@ -116,7 +113,6 @@ class SessionStore:
         renderer: Makes songs for scores that come without.
         now: Server time, seconds; never goes back.
         loaded: How many sessions are kept in memory.
-        song_cache_bytes: How large the rendered songs may be together.
         memory_bytes: How many bytes the sessions in memory may weigh together.
         disk: How much may be kept.
         staging_bytes: How large what is being sent may be together.
@@ -134,7 +130,6 @@ class SessionStore:
         *,
         now: Callable[[], float],
         loaded: int = LOADED,
-        song_cache_bytes: int = SONG_CACHE_BYTES,
         memory_bytes: int = MEMORY_BYTES,
         disk: DiskBound | None = None,
         staging_bytes: int = STAGING_BYTES,
@@ -148,6 +143,7 @@ class SessionStore:
         self.decoder = decoder or SongDecoder()
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
+        renderer.cache.in_use = self._listened_to
         self._aligner = aligner or Aligner()
         self._now = now
         self._wall = wall
@@ -159,7 +155,6 @@ class SessionStore:
         self._clocks = ClockKeeping(self._keep_clock)
         self.sightings = Sightings(self._folders, wall=wall)
         """When sessions were seen."""
-        self._song_cache_bytes = song_cache_bytes
         self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
         self._loading: dict[str, asyncio.Task[Session | None]] = {}
@@ -489,9 +484,7 @@ class SessionStore:
 
     async def prune_songs(self) -> None:
         """Remove the rendered songs that were not asked for the longest until the rest is small enough."""
-        freed = await asyncio.to_thread(
-            self._renderer.prune, self._song_cache_bytes, in_use=self.songs_in_use()
-        )
+        freed = await asyncio.to_thread(self._renderer.prune, in_use=self._listened_to())
         if freed:
             _log.info("removed %.0f MB of rendered songs", freed / 1e6)
 
@@ -672,13 +665,22 @@ class SessionStore:
         if record.song:
             return UploadedSong(self._folders.folder(record.id), record.song)
         return RenderedSong(
-            self._renderer, production.score, production.sounding, ready=lambda: self._song_made(session)
+            self._renderer,
+            production.score,
+            production.sounding,
+            owner=record.sender or record.id,
+            ready=lambda: self._song_made(session),
         )
 
     def _heard(self, session: Session, hearing: Hearing) -> RenderedSong:
         production = session.production
         return RenderedSong(
-            self._renderer, production.score, production.sounding, hearing=hearing, ready=self._prune_soon
+            self._renderer,
+            production.score,
+            production.sounding,
+            hearing=hearing,
+            owner=session.record.sender or session.id,
+            ready=self._prune_soon,
         )
 
     def _song_made(self, session: Session) -> None:
@@ -690,11 +692,22 @@ class SessionStore:
         self._pruning.add(pruning)
         pruning.add_done_callback(self._pruning.discard)
 
+    def _listened_to(self) -> set[Path]:
+        """Files of songs of sessions that somebody watches."""
+        return self._songs_of(session for session in self._sessions.values() if len(session.audience))
+
     def songs_in_use(self) -> set[Path]:
         """Files of songs that sessions have open, as everybody and as single viewers hear them."""
-        sessions = self._sessions.values()
-        own = {session.song.path for session in sessions if session.song.path is not None}
-        return own.union(*(session.heard.paths for session in sessions))
+        return self._songs_of(self._sessions.values())
+
+    @staticmethod
+    def _songs_of(sessions: Iterable[Session]) -> set[Path]:
+        paths: set[Path] = set()
+        for session in sessions:
+            paths |= session.heard.paths
+            if session.song.path is not None:
+                paths.add(session.song.path)
+        return paths
 
     def _make_room(self, adding: int, *, staying: Session | None = None) -> None:
         """Unload what is idle, so that something more fits.

@@ -88,9 +88,7 @@ class _Scales:
 
 
 def _fields(held: object) -> Iterator[object]:
-    """What an object's attributes refer to, in its dictionary and in its slots; of a function, what it has of
-    the function that it was made in.
-    """
+    """What an object refers to: its attributes, or what a function has of the one that it was made in."""
     if isinstance(held, MethodType):
         yield held.__self__
         return
