@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
@@ -33,9 +34,11 @@ from reina.api import (
 )
 from reina.api.description import describe
 from reina.api.http import problems
+from reina.api.http.answers import Answers
 from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
+from reina.api.http.pieces import InPieces
 from reina.api.http.retrieval import Retrieval
 from reina.api.http.unread_body import UnreadBody
 from reina.api.lab import routes as lab
@@ -45,6 +48,7 @@ from reina.protocol.links import API
 from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
 from reina.sessions.transcriptions import Transcriptions
+from reina.sessions.unseen import sweep_unseen
 from reina.sound.renderer import SongRenderer
 from reina.system.turns import Turns
 
@@ -78,20 +82,25 @@ def create_app(
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
-        renderer = SongRenderer(chosen.data_dir)
+        renderer = SongRenderer(chosen.data_dir, most_bytes=chosen.song_cache_bytes)
         store = SessionStore(
             chosen.data_dir,
             stage or Stage.load(chosen.rigs_dir),
             renderer,
             now=now,
-            song_cache_bytes=chosen.song_cache_bytes,
+            memory_bytes=chosen.memory_bytes,
+            disk=chosen.disk,
+            staging_bytes=chosen.staging_bytes,
         )
         await store.prune_songs()
         app.state.store = store
         app.state.computing = Turns()
         app.state.lab_pool = lab_pool()
         app.state.transcriptions = Transcriptions()
+        app.state.answers = Answers()
+        sweeping = asyncio.create_task(sweep_unseen(store, chosen.end_unseen_s))
         yield
+        sweeping.cancel()
         await app.state.transcriptions.aclose()
         await app.state.lab_pool.aclose()
         await store.aclose()
@@ -131,6 +140,7 @@ def create_app(
     app.add_middleware(Compression)
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
+    app.add_middleware(InPieces)
     app.add_middleware(UnreadBody)
     app.add_middleware(UntilTheEnd, ending=app.state.ending)
     return app

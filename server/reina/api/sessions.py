@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,9 +12,11 @@ from fastapi.responses import StreamingResponse
 from pydantic import ValidationError
 
 from reina.api.cast import cast_of_fields, refuse_twice
-from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.access import Controlled, ServerSettings, Store, Watched
+from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
+from reina.api.http.sender import sender_of
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
 from reina.api.http.work import in_turn
 from reina.api.upload import Upload, receive_upload
@@ -69,8 +72,10 @@ async def create_session(request: Request, response: Response, store: Store) -> 
 
     The answer holds the control token, which is told this once: keep it.
     """
-    async with store.staging() as folder:
-        upload = await receive_upload(request, folder)
+    sender = sender_of(request)
+    store.require_disk(sender)
+    async with store.staging(sender) as folder:
+        upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
         session, token = await store.create(_draft(folder, upload, request))
     response.headers["Location"] = session_links(session.id).self
     resource = await asyncio.to_thread(session.resource)
@@ -99,7 +104,7 @@ def _draft(folder: Path, upload: Upload, request: Request) -> Draft:
         public=fields.public,
         cast=cast_of_fields(fields),
         in_time=fields.in_time,
-        sender=request.client.host if request.client else "",
+        sender=sender_of(request),
     )
 
 
@@ -125,9 +130,11 @@ async def list_sessions(
 
 
 @router.get("/sessions/{session_id}")
-async def get_session(session: Watched) -> resources.Session:
+async def get_session(session: Watched, store: Store, settings: ServerSettings) -> resources.Session:
     """One session."""
-    return await asyncio.to_thread(session.resource)
+    ends_at = store.ends_at(session, settings.end_unseen_s)
+    resource = await asyncio.to_thread(session.resource)
+    return resource.model_copy(update={"ends_at": ends_at})
 
 
 @router.patch("/sessions/{session_id}")
@@ -156,7 +163,7 @@ async def end_session(session: Controlled, store: Store) -> None:
     await store.delete(session)
 
 
-@router.get("/sessions/{session_id}/score", response_model=resources.Score)
+@router.get("/sessions/{session_id}/score", response_model=resources.Score, dependencies=[LARGE_ANSWER])
 async def get_score(
     request: Request,
     session: Watched,

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING
 import uvicorn
 
 from reina.api.app import create_app
-from reina.api.settings import Settings, require_page, require_writable
+from reina.api.settings import Settings, days, require_page, require_writable
 from reina.cli.http_protocol import ProblemProtocol
 from reina.cli.listening import are_loopback, listen
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
+from reina.sessions.sightings import DAY_S
 from reina.sessions.stage import Stage
 
 if TYPE_CHECKING:
@@ -76,6 +77,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action=argparse.BooleanOptionalAction,
         default=_switch(environment.get("REINA_LAB", "")),
         help="answer at /lab and under /api/v1/lab (only where it listens on this machine's own address)",
+    )
+    parser.add_argument(
+        "--end-unseen",
+        default=None,
+        metavar="DAYS",
+        help="end sessions that nobody has seen for so many days; 0 for never (0)",
     )
     parser.add_argument(
         "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
@@ -142,6 +149,8 @@ def _settings(arguments: argparse.Namespace) -> Settings:
     settings = Settings()
     if arguments.data_dir is not None:
         settings = replace(settings, data_dir=arguments.data_dir)
+    if arguments.end_unseen is not None:
+        settings = replace(settings, end_unseen_s=days(arguments.end_unseen) * DAY_S)
     hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}
     if arguments.host not in EVERY_ADDRESS:
         hosts.add(arguments.host.lower())

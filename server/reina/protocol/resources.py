@@ -167,6 +167,8 @@ class Session(WireModel):
     alignment: AlignmentState
     stances: list[Stance]
     """Its own, in the order of the choices of `player/stance`."""
+    ends_at: str | None = None
+    """When it will be ended unless somebody sees it before, ISO 8601, UTC; null unless that is near."""
     links: SessionLinks
 
 

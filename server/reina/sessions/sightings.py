@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -11,6 +12,8 @@ if TYPE_CHECKING:
     from reina.sessions.folders import SessionFolders
 
 DAY_S = 86_400.0
+NEAR_S = 14 * DAY_S
+"""So long before its end a session says so, and a third of the time that is waited at most."""
 
 
 class Sightings:
@@ -48,3 +51,16 @@ class Sightings:
         """
         seen, self._seen = self._seen, set()
         await asyncio.to_thread(self._folders.note_seen, seen.union(watched), self._wall())
+
+
+def near_end(ends_s: float, now_s: float, after_s: float) -> str | None:
+    """The end of a session that nobody sees, if it is near: ISO 8601, UTC.
+
+    Args:
+        ends_s: When it is, seconds since 1970.
+        now_s: The present.
+        after_s: How long is waited.
+    """
+    if ends_s - now_s > min(NEAR_S, after_s / 3):
+        return None
+    return datetime.fromtimestamp(ends_s, UTC).isoformat(timespec="seconds")

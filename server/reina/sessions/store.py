@@ -24,7 +24,7 @@ from reina.sessions.memory_bound import MEMORY_BYTES, MemoryBound
 from reina.sessions.record import SessionRecord, SongRecord, StanceRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
-from reina.sessions.sightings import Sightings
+from reina.sessions.sightings import Sightings, near_end
 from reina.sessions.song import RenderedSong, Song, UploadedSong
 from reina.sessions.staging import STAGING_BYTES, StagingRoom
 from reina.sessions.usage import DiskBound
@@ -170,23 +170,28 @@ class SessionStore:
         """About how many bytes they take."""
         return sum(session.weight for session in self._sessions.values())
 
+    def ends_at(self, session: Session, after_s: float) -> str | None:
+        """When a session will be ended that nobody sees, if that is near: ISO 8601, UTC.
+
+        Args:
+            session: Which.
+            after_s: How long after it was seen last sessions are ended; 0 for never.
+        """
+        if not after_s or len(session.audience):
+            return None
+        ends_s = self.sightings.ends_s(session.id, after_s)
+        return None if ends_s is None else near_end(ends_s, self._wall(), after_s)
+
     @property
     def watched(self) -> list[str]:
         """The ids of those that somebody watches."""
         return [session.id for session in self._sessions.values() if len(session.audience)]
 
-    async def end_unseen(self, since: float) -> int:
-        """End the sessions that nobody has seen since a time.
-
-        Args:
-            since: Seconds since 1970.
-
-        Returns:
-            How many.
-        """
+    async def end_unseen(self, after_s: float) -> int:
+        """End the sessions that nobody has seen for so long, seconds; returns how many."""
         await self.sightings.keep(self.watched)
-        ended = 0
-        for session_id in await asyncio.to_thread(self._folders.unseen_since, since):
+        ended, since_s = 0, self._wall() - after_s
+        for session_id in await asyncio.to_thread(self._folders.unseen_since, since_s):
             loaded = self._sessions.get(session_id)
             if loaded is None and session_id not in self._loading:
                 doomed = await asyncio.to_thread(self._folders.take_out, session_id)
