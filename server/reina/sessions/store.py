@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from reina.sessions.production import Production
     from reina.sessions.session_index import Entry
     from reina.sessions.stage import Stage
+    from reina.sessions.usage import Usage
     from reina.show import ShowHistory
     from reina.sound.hearing import Hearing
     from reina.sound.recording.probe import AudioInfo
@@ -226,6 +227,10 @@ class SessionStore:
         """Remove a folder of `staging_folder`, if it is still there."""
         await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
         self.staged.end(folder)
+
+    def usage(self, sender: str | None) -> Usage:
+        """How many sessions came from a sender, or from all (None), and how large they are."""
+        return self._folders.usage(sender)
 
     def require_disk(self, sender: str, adding: int = 0) -> None:
         """See that another session of a sender may be kept; what the sender is sending counts too.

@@ -18,7 +18,7 @@ from reina.sound.hearing import AS_WRITTEN, Hearing
 from reina.sound.renderer import SongRenderer, SongRequest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Sequence
+    from collections.abc import Callable, Coroutine, Hashable, Sequence
 
     from reina.music import Score
     from reina.sessions.session import Session
@@ -46,11 +46,16 @@ class HandRenderer(SongRenderer):
         self.let.set()
 
     async def request(
-        self, score: Score, played: Sequence[PlayedParts] = (), hearing: Hearing = AS_WRITTEN
+        self,
+        score: Score,
+        played: Sequence[PlayedParts] = (),
+        hearing: Hearing = AS_WRITTEN,
+        *,
+        owner: Hashable = None,
     ) -> SongRequest:
         self.asked.append((played[0].parts[0], played[0].transposition))
         self.hearings.append(hearing)
-        return await super().request(score, played, hearing)
+        return await super().request(score, played, hearing, owner=owner)
 
     async def _run(self, rendering: object, plan: object, heard: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
