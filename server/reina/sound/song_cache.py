@@ -39,7 +39,8 @@ class SongCache:
 
     def __init__(self, folder: Path, most_bytes: int, *, is_made: Callable[[Path], bool]) -> None:
         self._folder = folder
-        self._most_bytes = most_bytes
+        self.most_bytes = most_bytes
+        """How large all may be together."""
         self._is_made = is_made
         self._promised = 0
         self._given_back = asyncio.Event()
@@ -56,12 +57,12 @@ class SongCache:
         Raises:
             SoundError: It does not fit though there were no other.
         """
-        if needed > self._most_bytes:
+        if needed > self.most_bytes:
             raise SoundError(
                 f"while it is made the sound takes up to {needed / MEGABYTE:.0f} MB, and all songs together "
-                f"have {self._most_bytes / MEGABYTE:.0f} MB (REINA_SONG_CACHE_MB)"
+                f"have {self.most_bytes / MEGABYTE:.0f} MB (REINA_SONG_CACHE_MB)"
             )
-        while self._promised + needed > self._most_bytes:
+        while self._promised + needed > self.most_bytes:
             await self._given_back.wait()
         self._promised += needed
         try:
@@ -94,7 +95,7 @@ class SongCache:
                     remove_song(entry)
         total = sum(size for _, _, size, _ in songs)
         for _, _, size, song in sorted(songs):
-            if total > self._most_bytes - self._promised:
+            if total > self.most_bytes - self._promised:
                 remove_song(song.parent)
                 total -= size
                 freed += size
