@@ -12,6 +12,8 @@ export interface Piece extends KeptPiece {
   readonly id: string;
   /** A small picture as a data URL; null where none was taken yet. */
   readonly picture: string | null;
+  /** When the server removes it unless somebody opens it before, ISO 8601; null unless that is near. */
+  readonly ends: string | null;
 }
 
 /** The sessions that this browser made and the server still has, the one opened last first. */
@@ -20,6 +22,7 @@ export class KeptPieces {
   /** What was deleted and can still be brought back. */
   deleted = $state.raw<Piece | null>(null);
 
+  readonly #ends = new Map<string, string | null>();
   readonly #api: ReinaApi;
   readonly #tell: (error: unknown) => void;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -31,7 +34,7 @@ export class KeptPieces {
   constructor(api: ReinaApi, tell: (error: unknown) => void) {
     this.#api = api;
     this.#tell = tell;
-    this.all = listed();
+    this.all = this.#shown();
   }
 
   /** Ask the server which pieces there still are, and what they are called now. */
@@ -44,6 +47,7 @@ export class KeptPieces {
       answers.forEach((answer, index) => {
         const id = some[index] ?? "";
         if (answer.status === "fulfilled") {
+          this.#ends.set(id, answer.value.ends_at ?? null);
           known = { ...known, [id]: { title: answer.value.title, opened: known[id]?.opened ?? 0 } };
         } else if (answer.reason instanceof ProblemError && answer.reason.isUnknown) {
           known = without(known, id);
@@ -86,11 +90,13 @@ export class KeptPieces {
   }
 
   #shown(): readonly Piece[] {
-    return listed().filter(({ id }) => id !== this.deleted?.id);
+    return listed()
+      .filter(({ id }) => id !== this.deleted?.id)
+      .map((piece) => ({ ...piece, ends: this.#ends.get(piece.id) ?? null }));
   }
 }
 
-function listed(): readonly Piece[] {
+function listed(): readonly Omit<Piece, "ends">[] {
   const { tokens, pieces } = remembered();
   return Object.entries(pieces)
     .filter(([id]) => tokens[id] !== undefined)
