@@ -31,6 +31,7 @@ class ClockKeeping:
         self._keep = keep
         self._within_s = within_s
         self._waiting: dict[Session, asyncio.Task[None]] = {}
+        self._writing: set[asyncio.Task[None]] = set()
 
     def note(self, session: Session) -> None:
         """A session's clock has been changed."""
@@ -39,9 +40,9 @@ class ClockKeeping:
 
     async def aclose(self) -> None:
         """Wait for what is being written; what still waits is left to who puts the sessions away."""
-        tasks = list(self._waiting.values())
-        for task in tasks:
+        for task in self._waiting.values():
             task.cancel()
+        tasks = {*self._waiting.values(), *self._writing}
         if tasks:
             await asyncio.wait(tasks)
 
@@ -50,8 +51,11 @@ class ClockKeeping:
             await asyncio.sleep(self._within_s)
         finally:
             # What is told from now on is written once more.
-            del self._waiting[session]
+            own = self._waiting.pop(session)
+        self._writing.add(own)
         try:
-            await asyncio.shield(asyncio.ensure_future(self._keep(session)))
+            await self._keep(session)
         except OSError as error:
             _log.warning("the clock of session %s could not be kept: %s", session.id, error)
+        finally:
+            self._writing.discard(own)

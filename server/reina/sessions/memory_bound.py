@@ -32,13 +32,14 @@ class MemoryBound:
     most_bytes: int = MEMORY_BYTES
 
     def leaving(
-        self, loaded: Iterable[Session], adding: int, *, staying: Session | None = None
+        self, loaded: Iterable[Session], adding: int, *, coming: int = 0, staying: Session | None = None
     ) -> list[Session]:
         """Who has to go so that something more fits: idle ones, the least recently asked for first.
 
         Args:
             loaded: Those that are in memory, the least recently asked for first.
             adding: How many bytes come to them.
+            coming: How many more are on their way.
             staying: A session that is not to go, whatever it does.
 
         Raises:
@@ -51,7 +52,7 @@ class MemoryBound:
                 f"in memory this piece takes about {adding / MEGABYTE:.0f} MB, and all pieces together have "
                 f"{self.most_bytes / MEGABYTE:.0f} MB (REINA_MEMORY_MB): send fewer notes or keyframes"
             )
-        above = sum(session.weight for session in sessions) + adding - self.most_bytes
+        above = sum(session.weight for session in sessions) + adding + coming - self.most_bytes
         too_many = len(sessions) + (staying is None) - self.most_sessions
         leaving: list[Session] = []
         for session in sessions:

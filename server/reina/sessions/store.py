@@ -275,12 +275,13 @@ class SessionStore:
         kept = await asyncio.to_thread(ShowRevision.begin, production.show)
         with self._room_for(production.weight + kept.weight):
             made = await asyncio.to_thread(self._make, draft, production, kept, song, hash_token(token))
-        if draft.in_time and song is not None and song.duration_s is not None:
-            in_time = _in_time(production.score.duration_s, song.duration_s)
-            await asyncio.to_thread(self._folders.write_alignment, made[0].id, in_time)
-            return self._admit(*made, in_time), token
-        session = self._admit(*made)
-        self.search_alignment(session)
+            in_time: Alignment | None = None
+            if draft.in_time and song is not None and song.duration_s is not None:
+                in_time = _in_time(production.score.duration_s, song.duration_s)
+                await asyncio.to_thread(self._folders.write_alignment, made[0].id, in_time)
+        session = self._admit(*made, in_time)
+        if in_time is None:
+            self.search_alignment(session)
         return session, token
 
     async def get(self, session_id: str) -> Session | None:
@@ -644,6 +645,8 @@ class SessionStore:
             planned = await asyncio.to_thread(planned.with_show, before.show)
         if planned.show is not kept.show:
             kept = await asyncio.to_thread(kept.then, lambda history: history.then(planned.show))
+        growing = planned.weight + kept.weight - before.weight - session.show_revision.weight
+        self._make_room(growing, staying=session)
         return planned, kept
 
     def _admit(
@@ -725,8 +728,8 @@ class SessionStore:
         Raises:
             LimitError: It does not, with all that is watched.
         """
-        adding += self._coming
-        for session in self._bound.leaving(self._sessions.values(), adding, staying=staying):
+        loaded = self._sessions.values()
+        for session in self._bound.leaving(loaded, adding, coming=self._coming, staying=staying):
             self._unload(session)
 
     @contextmanager
