@@ -178,22 +178,24 @@ def test_who_reads_slowly_is_one_of_few(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_who_is_seen_by_nobody_is_ended_with_a_notice(tmp_path: Path) -> None:
     day = 1 / 86_400
-    with serve(tmp_path, "--no-page", "--end-unseen", str(6 * day)) as server:
-        with httpx.Client(base_url=server.address, timeout=60) as client:
-            unseen, seen = (upload(client, scale(4), song=("s.wav", song())) for _ in range(2))
-            assert client.get(unseen.path).json()["ends_at"] is None
-            told = None
-            for _ in range(2000):
-                client.get(seen.path, headers=seen.headers)
-                answer = client.get(unseen.path)
-                if answer.status_code == 404:
-                    break
-                told = answer.json()["ends_at"] or told
-                time.sleep(0.02)
-            assert answer.status_code == 404
-            assert told is not None
-            assert told.endswith("+00:00")
-            assert client.get(seen.path).status_code == 200
+    with (
+        serve(tmp_path, "--no-page", "--end-unseen", str(6 * day)) as server,
+        httpx.Client(base_url=server.address, timeout=60) as client,
+    ):
+        unseen, seen = (upload(client, scale(4), song=("s.wav", song())) for _ in range(2))
+        assert client.get(unseen.path).json()["ends_at"] is None
+        told = None
+        for _ in range(2000):
+            client.get(seen.path, headers=seen.headers)
+            answer = client.get(unseen.path)
+            if answer.status_code == 404:
+                break
+            told = answer.json()["ends_at"] or told
+            time.sleep(0.02)
+        assert answer.status_code == 404
+        assert told is not None
+        assert told.endswith("+00:00")
+        assert client.get(seen.path).status_code == 200
 
 
 def _size(path: Path) -> int:

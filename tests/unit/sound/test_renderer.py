@@ -246,7 +246,7 @@ class CountedRenderer(SongRenderer):
         self.largest = max(self.largest, sum(map(size, path.parent.parent.glob(f"*/{SONG}"))))
         await self.let.acquire()
         path.with_name("mix").unlink()
-        path.write_bytes(bytes(1_000_000))
+        await asyncio.to_thread(path.write_bytes, bytes(1_000_000))
 
 
 async def until(met: Callable[[], bool]) -> None:

@@ -24,7 +24,13 @@ def test_all_together_and_each_have_so_much() -> None:
 
 def test_what_is_held_for_a_while_is_given_back_whatever_happens() -> None:
     room = Room(1)
-    with pytest.raises(ZeroDivisionError), room.holding("one"):
-        assert room.held == 1
-        raise ZeroDivisionError
-    assert room.held == 0
+    held: list[int] = []
+
+    def fail() -> None:
+        with room.holding("one"):
+            held.append(room.held)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert (held, room.held) == ([1], 0)
