@@ -48,11 +48,11 @@ def test_sessions_that_play_unwatched_stay_within_the_bound_and_go_on(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sound = ("s.wav", song())
-    with server_with(tmp_path, monkeypatch, memory_mb=20) as (server, client):
-        warm = [upload(client, scale(1000), song=sound) for _ in range(4)]
+    with server_with(tmp_path, monkeypatch, memory_mb=6) as (server, client):
+        warm = [upload(client, scale(200), song=sound) for _ in range(4)]
         base = server.memory_bytes()
         began: dict[str, float] = {}
-        made = [upload(client, scale(1000), song=sound) for _ in range(30)]
+        made = [upload(client, scale(200), song=sound) for _ in range(30)]
         for session in made:
             session.control("play")
             began[session.id] = time.time()

@@ -38,6 +38,11 @@ class ClockKeeping:
         if session not in self._waiting:
             self._waiting[session] = asyncio.create_task(self._keep_soon(session))
 
+    async def written(self) -> None:
+        """Wait until none is being written: a session whose clock is cannot be put away."""
+        while self._writing:
+            await asyncio.wait(self._writing)
+
     async def aclose(self) -> None:
         """Wait for what is being written; what still waits is left to who puts the sessions away."""
         for task in self._waiting.values():

@@ -273,6 +273,7 @@ class SessionStore:
             await asyncio.to_thread(show_file.unlink)
             production = await asyncio.to_thread(production.with_show, show)
         kept = await asyncio.to_thread(ShowRevision.begin, production.show)
+        await self._clocks.written()
         with self._room_for(production.weight + kept.weight):
             made = await asyncio.to_thread(self._make, draft, production, kept, song, hash_token(token))
             in_time: Alignment | None = None
@@ -576,6 +577,7 @@ class SessionStore:
             if session_id in self._folders:
                 raise
             return None
+        await self._clocks.written()
         # Ended while it was read: it must not come back.
         if session_id not in self._folders:
             return None
