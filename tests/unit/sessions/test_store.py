@@ -308,9 +308,9 @@ def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
         write(folders, record)
 
     async def scenario() -> None:
+        monkeypatch.setattr(ClockKeeping, "note", lambda *_: None)
         desk = Desk(tmp_path, stage, loaded=1)
         first = await desk.create(scale(8))
-        monkeypatch.setattr(ClockKeeping, "note", lambda *_: None)
         first.control(Seek(action="seek", song_time_s=0.75))
         monkeypatch.setattr(SessionFolders, "write_record", slowly)
         await desk.create(scale(4))
