@@ -35,11 +35,13 @@ from reina.api import (
 )
 from reina.api.description import describe
 from reina.api.http import problems
+from reina.api.http.answers import Answers
 from reina.api.http.compression import Compression
 from reina.api.http.ending import Ending, UntilTheEnd
 from reina.api.http.guard import Guard
 from reina.api.http.headers import ProtectingHeaders
 from reina.api.http.observed import Observed, RouteNoted
+from reina.api.http.pieces import InPieces
 from reina.api.http.proxies import BehindProxies, TrustedProxies
 from reina.api.http.query import known_query
 from reina.api.http.rates import BoundedRates, Rates
@@ -54,6 +56,7 @@ from reina.protocol.links import API
 from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
 from reina.sessions.transcriptions import Transcriptions
+from reina.sessions.unseen import sweep_unseen
 from reina.sound.renderer import SongRenderer
 from reina.system.turns import Turns
 
@@ -90,13 +93,15 @@ def create_app(
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
-        renderer = SongRenderer(chosen.data_dir)
+        renderer = SongRenderer(chosen.data_dir, most_bytes=chosen.song_cache_bytes)
         store = SessionStore(
             chosen.data_dir,
             stage or Stage.load(chosen.rigs_dir),
             renderer,
             now=now,
-            song_cache_bytes=chosen.song_cache_bytes,
+            memory_bytes=chosen.memory_bytes,
+            disk=chosen.disk,
+            staging_bytes=chosen.staging_bytes,
         )
         await store.prune_songs()
         app.state.store = store
@@ -105,10 +110,13 @@ def create_app(
         app.state.computing = Turns()
         app.state.lab_pool = lab_pool()
         app.state.transcriptions = Transcriptions()
+        app.state.answers = Answers()
         observed = Observation(chosen, store, now=now, ending=app.state.ending)
         app.state.readiness = observed.readiness
         await observed.start()
+        sweeping = asyncio.create_task(sweep_unseen(store, chosen.end_unseen_s))
         yield
+        sweeping.cancel()
         await observed.aclose()
         await app.state.transcriptions.aclose()
         await app.state.lab_pool.aclose()
@@ -161,6 +169,7 @@ def create_app(
     app.add_middleware(BoundedRates, rates=Rates.named(chosen.rates), now=now)
     app.add_middleware(Guard, settings=chosen)
     app.add_middleware(Retrieval)
+    app.add_middleware(InPieces)
     app.add_middleware(UnreadBody)
     app.add_middleware(UntilTheEnd, ending=app.state.ending)
     app.add_middleware(ProtectingHeaders)

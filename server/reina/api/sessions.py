@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,7 +12,16 @@ from fastapi.responses import StreamingResponse
 from pydantic import ValidationError
 
 from reina.api.cast import cast_of_fields, refuse_twice
-from reina.api.http.access import Controlled, People, Store, Uploader, Watched, is_owner
+from reina.api.http.access import (
+    Controlled,
+    People,
+    ServerSettings,
+    Store,
+    Uploader,
+    Watched,
+    is_owner,
+)
+from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
 from reina.api.http.proxies import client_address
@@ -74,8 +84,10 @@ async def create_session(
 
     The answer holds the control token, which is told this once: keep it.
     """
-    async with store.staging() as folder:
-        upload = await receive_upload(request, folder)
+    sender = client_address(request.scope)
+    store.require_disk(sender)
+    async with store.staging(sender) as folder:
+        upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
         session, token = await store.create(_draft(folder, upload, request, person))
     if await request.is_disconnected():
         # Whoever sent it has given it up, and nobody else can come to know it.
@@ -152,9 +164,13 @@ async def list_sessions(
 
 
 @router.get("/sessions/{session_id}")
-async def get_session(request: Request, session: Watched) -> resources.Session:
+async def get_session(
+    request: Request, session: Watched, store: Store, settings: ServerSettings
+) -> resources.Session:
     """One session."""
-    return await _told(request, session)
+    ends_at = store.ends_at(session, settings.end_unseen_s)
+    resource = await _told(request, session)
+    return resource.model_copy(update={"ends_at": ends_at})
 
 
 @router.patch("/sessions/{session_id}")
@@ -193,7 +209,7 @@ async def renew_control_token(session: Controlled, store: Store) -> resources.Co
     return resources.ControlToken(control_token=await store.renew_token(session))
 
 
-@router.get("/sessions/{session_id}/score", response_model=resources.Score)
+@router.get("/sessions/{session_id}/score", response_model=resources.Score, dependencies=[LARGE_ANSWER])
 async def get_score(
     request: Request,
     session: Watched,

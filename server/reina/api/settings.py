@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import tempfile
@@ -11,7 +12,11 @@ from typing import TYPE_CHECKING
 
 from reina.api.accounts import Accounts
 from reina.errors import InputError
-from reina.sessions.store import SONG_CACHE_BYTES
+from reina.sessions.memory_bound import MEMORY_BYTES
+from reina.sessions.sightings import DAY_S
+from reina.sessions.staging import STAGING_BYTES
+from reina.sessions.usage import DiskBound
+from reina.sound.song_cache import SONG_CACHE_BYTES
 from reina.system.resources import bundled, default_data_dir
 
 if TYPE_CHECKING:
@@ -23,13 +28,45 @@ LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
 MEGABYTE = 1_000_000
 
 
-def _song_cache_bytes() -> int:
-    given = os.environ.get("REINA_SONG_CACHE_MB", "")
+def _count(variable: str, default: int, what: str) -> int:
+    given = os.environ.get(variable, "")
     if not given:
-        return SONG_CACHE_BYTES
+        return default
     if not given.isdecimal():
-        raise InputError(f"REINA_SONG_CACHE_MB is a whole number of megabytes, not {given!r}")
-    return int(given) * MEGABYTE
+        raise InputError(f"{variable} is a whole number of {what}, not {given!r}")
+    return int(given)
+
+
+def _bytes(variable: str, default: int) -> Callable[[], int]:
+    return lambda: _count(variable, default // MEGABYTE, "megabytes") * MEGABYTE
+
+
+def _disk() -> DiskBound:
+    bound = DiskBound()
+    return DiskBound(
+        _bytes("REINA_DISK_MB", bound.most_bytes)(),
+        _bytes("REINA_DISK_PER_SENDER_MB", bound.most_bytes_of_sender)(),
+        _count("REINA_SESSIONS_PER_SENDER", bound.most_sessions_of_sender, "sessions"),
+    )
+
+
+def days(text: str, name: str = "--end-unseen") -> float:
+    """A number of days, 0 for never.
+
+    Raises:
+        InputError: It is none.
+    """
+    try:
+        number = float(text or 0)
+    except ValueError:
+        number = math.nan
+    if not 0 <= number < math.inf:
+        raise InputError(f"{name} is a number of days, 0 for never, not {text!r}")
+    return number
+
+
+def _end_unseen_s() -> float:
+    return days(os.environ.get("REINA_END_UNSEEN_DAYS", ""), "REINA_END_UNSEEN_DAYS") * DAY_S
 
 
 def _upload_password_file() -> Path | None:
@@ -52,6 +89,10 @@ class Settings:
         examples_dir: The bundled pieces.
         page_dir: The built page.
         song_cache_bytes: How large the songs that were rendered may be together.
+        memory_bytes: How many bytes the sessions in memory may weigh together.
+        staging_bytes: How large what is being sent may be together.
+        disk: How much may be kept.
+        end_unseen_s: How long after it was seen last a session is ended, seconds; 0 for never.
         allowed_hosts: Host names that the server answers to, without ports.
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
@@ -68,7 +109,11 @@ class Settings:
     rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", lambda: bundled("rigs")))
     examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", lambda: bundled("examples")))
     page_dir: Path = field(default_factory=lambda: _folder("REINA_PAGE", lambda: bundled("page")))
-    song_cache_bytes: int = field(default_factory=_song_cache_bytes)
+    song_cache_bytes: int = field(default_factory=_bytes("REINA_SONG_CACHE_MB", SONG_CACHE_BYTES))
+    memory_bytes: int = field(default_factory=_bytes("REINA_MEMORY_MB", MEMORY_BYTES))
+    staging_bytes: int = field(default_factory=_bytes("REINA_STAGING_MB", STAGING_BYTES))
+    disk: DiskBound = field(default_factory=_disk)
+    end_unseen_s: float = field(default_factory=_end_unseen_s)
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
     trusted_proxies: tuple[str, ...] = ()

@@ -9,9 +9,10 @@ from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
 from reina.api.http.access import unknown_session
-from reina.api.http.problems import ProblemError
+from reina.api.http.problems import ProblemError, problem_of_input
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.messages import Lead, Pong, StreamError, viewer_message
+from reina.sessions.limit_errors import LimitError
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
@@ -60,7 +61,11 @@ async def stream(
     """Refuse before the handshake ends, or send until either side goes."""
     store: SessionStore = socket.app.state.store
     now: Callable[[], float] = socket.app.state.now
-    session = await store.get(session_id)
+    try:
+        session = await store.get(session_id)
+    except LimitError as error:
+        await socket.send_denial_response(problem_of_input(error).response())
+        return
     size = SIZES.get(frames_per_message)
     problem: ProblemError | None = None
     if session is None:
@@ -79,6 +84,14 @@ async def stream(
         if problem:
             await socket.send_denial_response(problem.response())
         return
+    with session.asked():
+        await _send_until_the_end(socket, session, size, now)
+    store.sightings.note(session.id)
+
+
+async def _send_until_the_end(
+    socket: WebSocket, session: "Session", size: int, now: Callable[[], float]
+) -> None:
     await socket.accept(subprotocol=SUBPROTOCOL)
     viewer = Viewer(WebSocketConnection(socket), frames_per_message=size)
     await session.ready()

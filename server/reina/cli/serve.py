@@ -19,7 +19,7 @@ import uvicorn
 from reina.api.app import create_app
 from reina.api.http.proxies import TrustedProxies
 from reina.api.http.rates import Rates
-from reina.api.settings import Settings, require_page, require_sign_in, require_writable
+from reina.api.settings import Settings, days, require_page, require_sign_in, require_writable
 from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
 from reina.cli.connections import Connections
 from reina.cli.environment import switch
@@ -29,6 +29,7 @@ from reina.cli.metrics import METRICS_HOST, serve_metrics
 from reina.cli.server_config import Config
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
+from reina.sessions.sightings import DAY_S
 from reina.sessions.stage import Stage
 from reina.sound.font import SoundError
 from reina.sound.provide_soundfont import provide_soundfont
@@ -132,6 +133,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="go on answering for so long after SIGTERM, while /api/v1/health/ready says 503 (0)",
     )
     parser.add_argument(
+        "--end-unseen",
+        default=None,
+        metavar="DAYS",
+        help="end sessions that nobody has seen for so many days; 0 for never (0)",
+    )
+    parser.add_argument(
         "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
     )
 
@@ -202,6 +209,8 @@ def _settings(arguments: argparse.Namespace) -> Settings:
     settings = Settings()
     if arguments.data_dir is not None:
         settings = replace(settings, data_dir=arguments.data_dir)
+    if arguments.end_unseen is not None:
+        settings = replace(settings, end_unseen_s=days(arguments.end_unseen) * DAY_S)
     hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}
     if arguments.host not in EVERY_ADDRESS:
         hosts.add(arguments.host.lower())

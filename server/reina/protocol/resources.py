@@ -169,6 +169,8 @@ class Session(WireModel):
     alignment: AlignmentState
     stances: list[Stance]
     """Its own, in the order of the choices of `player/stance`."""
+    ends_at: str | None = None
+    """When it will be ended unless somebody sees it before, ISO 8601, UTC; null unless that is near."""
     links: SessionLinks
     mine: bool = False
     """Whether who asks is signed in as the person who made it, and controls it without its token."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import secrets
 import shutil
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 from reina.sessions.record import SESSION_ID, SessionRecord
@@ -13,15 +14,18 @@ from reina.sound.alignment.document import read_alignment, write_alignment
 from reina.system.atomic_write import write_atomically
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Iterable
     from pathlib import Path
 
+    from reina.sessions.usage import Usage
     from reina.sound.alignment.alignment import Alignment
 
 RECORD = "session.json"
 SCORE = "score"
 SHOW = "show.json"
 ALIGNMENT = "alignment.json"
+SEEN = "seen"
+"""An empty file; it was written last when the session was seen last."""
 
 
 class SessionFolders:
@@ -42,7 +46,14 @@ class SessionFolders:
         self.index = SessionIndex()
         """Of all sessions, to list them by."""
         self._index_file = data_dir / INDEX
-        self.index.fill(self._sessions.iterdir(), RECORD, self.record, self._index_file)
+        self.index.fill(
+            self._sessions.iterdir(),
+            RECORD,
+            self.record,
+            self._index_file,
+            size_of=self._size,
+            seen_of=self._seen,
+        )
 
     def __contains__(self, session_id: str) -> bool:
         # The pattern has no dots and slashes: an id never leads out of the folder.
@@ -99,6 +110,37 @@ class SessionFolders:
         else:
             write_atomically(file, write_alignment(alignment))
 
+    def usage(self, sender: str | None) -> Usage:
+        """How many sessions came from a sender, or from all (None), and how large they are."""
+        return self.index.usage(sender)
+
+    def note_size(self, session_id: str) -> None:
+        """Measure a session's files anew."""
+        self.index.change(session_id, size_bytes=self._size(session_id))
+
+    def note_seen(self, session_ids: Iterable[str], when: float) -> None:
+        """Somebody has seen these sessions; those that are gone are left out.
+
+        Args:
+            session_ids: Which.
+            when: Seconds since 1970.
+        """
+        for session_id in session_ids:
+            with suppress(FileNotFoundError):
+                file = self.folder(session_id) / SEEN
+                file.touch()
+                os.utime(file, (when, when))
+                self.index.change(session_id, seen_s=when)
+
+    def seen_s(self, session_id: str) -> float | None:
+        """When a session was seen last, seconds since 1970; None where there is none."""
+        entry = self.index.entry(session_id)
+        return None if entry is None else entry.seen_s
+
+    def unseen_since(self, when: float) -> list[str]:
+        """The sessions that nobody has seen since a time, seconds since 1970."""
+        return self.index.unseen_since(when)
+
     def write_index(self) -> None:
         """Keep the index for the next start."""
         if len(self.index):
@@ -115,4 +157,18 @@ class SessionFolders:
 
     def _note(self, record: SessionRecord) -> None:
         modified_ns = (self.folder(record.id) / RECORD).stat().st_mtime_ns
-        self.index.put(Entry.of(record, modified_ns))
+        seen_s = self.seen_s(record.id) or 0.0
+        self.index.put(Entry.of(record, modified_ns, self._size(record.id), seen_s))
+
+    def _size(self, session_id: str) -> int:
+        size = 0
+        with suppress(FileNotFoundError), os.scandir(self.folder(session_id)) as files:
+            for file in files:
+                with suppress(FileNotFoundError):  # replaced just now
+                    size += file.stat().st_size
+        return size
+
+    def _seen(self, session_id: str) -> float:
+        with suppress(OSError):
+            return (self.folder(session_id) / SEEN).stat().st_mtime
+        return 0.0

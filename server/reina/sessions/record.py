@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from reina.instruments import Cast  # noqa: TC001 - pydantic reads it
 from reina.protocol.resources import Warned  # noqa: TC001 - pydantic reads it
+from reina.sessions.kept_clock import KeptClock
 
 SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
 """128 random bits, base64url."""
@@ -80,8 +81,20 @@ class SessionRecord(BaseModel):
     """None: the server renders the score."""
     stances: tuple[StanceRecord, ...] = ()
     """Its own stances, in the order of the show's choices."""
-    song_time_s: float = 0.0
-    """Where the clock stood when the session was last unloaded."""
+    clock: KeptClock = KeptClock()
+    """The clock, at some time; where it is now follows from that."""
+    sender: str = ""
+    """Who sent it, as far as that was known: an address, which is told to nobody."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_a_clock_that_stood(cls, fields: object) -> object:
+        """Records of before clocks were kept have nothing but where it stood."""
+        if not isinstance(fields, dict) or "song_time_s" not in fields:
+            return cast("object", fields)
+        rest = dict(cast("dict[str, Any]", fields))
+        stood_s = rest.pop("song_time_s")
+        return rest | {"clock": {"song_time_s": stood_s}}
 
     @model_validator(mode="before")
     @classmethod

@@ -6,9 +6,11 @@ import json
 import logging
 import threading
 from bisect import bisect_left, insort
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
+from reina.sessions.usage import Usage
 from reina.system.failure import failure_of
 from reina.system.logs import shown_session
 
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
     from reina.sessions.record import SessionRecord
 
 INDEX = "sessions.json"
-VERSION = 1
+VERSION = 2
 _log = logging.getLogger(__name__)
 
 
@@ -34,6 +36,9 @@ class Entry:
         created_at: ISO 8601, UTC.
         modified_ns: When its record was written; another time on disk means that it has to be read again.
         owner: Who made it, where that is known.
+        sender: Who sent it; told to nobody.
+        size_bytes: How large its files are together.
+        seen_s: When it was seen last, seconds since 1970; when it was made where that is not known.
     """
 
     id: str
@@ -42,11 +47,25 @@ class Entry:
     created_at: str
     modified_ns: int
     owner: str | None = None
+    sender: str = ""
+    size_bytes: int = 0
+    seen_s: float = 0.0
 
     @classmethod
-    def of(cls, record: SessionRecord, modified_ns: int) -> Entry:
+    def of(cls, record: SessionRecord, modified_ns: int, size_bytes: int = 0, seen_s: float = 0.0) -> Entry:
         """The entry of a record."""
-        return cls(record.id, record.title, record.public, record.created_at, modified_ns, record.owner)
+        made_s = datetime.fromisoformat(record.created_at).timestamp()
+        return cls(
+            record.id,
+            record.title,
+            record.public,
+            record.created_at,
+            modified_ns,
+            owner=record.owner,
+            sender=record.sender,
+            size_bytes=size_bytes,
+            seen_s=max(seen_s, made_s),
+        )
 
     @property
     def place(self) -> str:
@@ -70,7 +89,14 @@ class SessionIndex:
         return len(self._entries)
 
     def fill(
-        self, folders: Iterable[Path], record_file: str, read: Callable[[str], SessionRecord], file: Path
+        self,
+        folders: Iterable[Path],
+        record_file: str,
+        read: Callable[[str], SessionRecord],
+        file: Path,
+        *,
+        size_of: Callable[[str], int] = lambda _: 0,
+        seen_of: Callable[[str], float] = lambda _: 0.0,
     ) -> None:
         """Take stock.
 
@@ -79,6 +105,8 @@ class SessionIndex:
             record_file: The name of the record in each.
             read: Reads a record by its session's id.
             file: The index as it was kept.
+            size_of: Measures a session's files.
+            seen_of: Tells when a session was seen last, 0 where that is not known.
         """
         known = _kept(file)
         for folder in folders:
@@ -86,7 +114,8 @@ class SessionIndex:
                 modified_ns = (folder / record_file).stat().st_mtime_ns
                 entry = known.get(folder.name)
                 if entry is None or entry.modified_ns != modified_ns:
-                    entry = Entry.of(read(folder.name), modified_ns)
+                    entry = Entry.of(read(folder.name), modified_ns, size_of(folder.name))
+                entry = replace(entry, seen_s=max(entry.seen_s, seen_of(folder.name)))
             except (OSError, ValueError) as error:
                 # Damaged from outside; the others are still to be found.
                 _log.warning(
@@ -108,6 +137,27 @@ class SessionIndex:
             self._entries[entry.id] = entry
             if entry.public:
                 insort(self._listed, entry.place)
+
+    def change(self, session_id: str, **fields: Any) -> None:
+        """Take in what is counted of a session beside its record; one that is gone stays gone."""
+        with self._changing:
+            if session_id in self._entries:
+                self._entries[session_id] = replace(self._entries[session_id], **fields)
+
+    def entry(self, session_id: str) -> Entry | None:
+        """One session's, or None."""
+        return self._entries.get(session_id)
+
+    def usage(self, sender: str | None) -> Usage:
+        """How many sessions came from a sender, or from all (None), and how large they are."""
+        with self._changing:
+            sizes = [e.size_bytes for e in self._entries.values() if sender is None or e.sender == sender]
+        return Usage(len(sizes), sum(sizes))
+
+    def unseen_since(self, when: float) -> list[str]:
+        """The sessions that nobody has seen since a time, seconds since 1970."""
+        with self._changing:
+            return [entry.id for entry in self._entries.values() if entry.seen_s < when]
 
     def remove(self, session_id: str) -> None:
         """Forget a session."""

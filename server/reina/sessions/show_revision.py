@@ -25,6 +25,12 @@ REFERENCE_BYTES = 1
 """A track that was edited holds its unchanged keyframes by reference alone: each weighs so much."""
 STEP_BYTES = 100
 """What a step weighs of itself."""
+WRITTEN = 2
+"""A track's text is there as a whole, and keyframe by keyframe."""
+KEYFRAME_BYTES = 700
+"""What a keyframe takes in memory beside its text: an object, and its share of curves that are made ready."""
+HELD = 6
+"""How many bytes the objects take that a byte of text in the history stands for."""
 FEW = 64
 """One keyframe in so many that was replaced is found without looking for it elsewhere in the track."""
 
@@ -74,6 +80,13 @@ class ShowRevision:
             weights = (*weights[:done], _weight(self.text, text))[-len(history.past) :]
         history, weights = _bounded(history, weights)
         return ShowRevision(history, text, self.revision + 1, weights)
+
+    @property
+    def weight(self) -> int:
+        """About how many bytes show, plan and history take in memory."""
+        tracks = self.text.tracks.values()
+        texts = sum(len(written.text) for written in tracks)
+        return WRITTEN * texts + KEYFRAME_BYTES * sum(map(_keyframe_count, tracks)) + HELD * sum(self.weights)
 
     @property
     def state(self) -> ShowState:
@@ -129,6 +142,10 @@ def _weight_of_tracks(old: TrackText | None, new: TrackText | None) -> int:
 
 def _keyframes(written: TrackText | None) -> tuple[Keyframe[Any], ...]:
     return written.track.keyframes if written is not None and isinstance(written.track, Track) else ()
+
+
+def _keyframe_count(written: TrackText) -> int:
+    return len(_keyframes(written))
 
 
 def _shared(one: Sequence[Keyframe[Any]], other: Sequence[Keyframe[Any]]) -> int:

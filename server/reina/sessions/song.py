@@ -51,6 +51,7 @@ class RenderedSong:
         score: From this.
         played: What the players play.
         hearing: What of it is to be heard.
+        owner: For whom; renderings go round by owner.
         ready: Called when it can be fetched, or has failed.
     """
 
@@ -65,13 +66,14 @@ class RenderedSong:
         played: Sequence[PlayedParts],
         *,
         hearing: Hearing = AS_WRITTEN,
+        owner: str,
         ready: Callable[[], None],
     ) -> None:
         self.path: Path | None = None
         self.error: str | None = None
         self.request: SongRequest | None = None
         """What is there of it; None until it is planned."""
-        self._making = asyncio.create_task(self._make(renderer, score, played, hearing, ready))
+        self._making = asyncio.create_task(self._make(renderer, score, played, hearing, owner, ready))
 
     @property
     def progress(self) -> float:
@@ -88,10 +90,11 @@ class RenderedSong:
         score: Score,
         played: Sequence[PlayedParts],
         hearing: Hearing,
+        owner: str,
         ready: Callable[[], None],
     ) -> None:
         try:
-            self.request = await renderer.request(score, played, hearing)
+            self.request = await renderer.request(score, played, hearing, owner=owner)
             self.path = await self.request.wait()
         except (SoundError, InputError) as error:
             self.error = str(error)

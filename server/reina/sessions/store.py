@@ -6,22 +6,28 @@ import asyncio
 import contextlib
 import logging
 import shutil
+import time
 from collections import OrderedDict
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
 from reina.instruments import Cast
 from reina.music import ScoreError
+from reina.sessions.clock_keeping import ClockKeeping
 from reina.sessions.description import warned
 from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, Role, role_of
 from reina.sessions.file_role import SHOW as SHOW_DOCUMENT
 from reina.sessions.folders import SCORE, SHOW, SessionFolders
+from reina.sessions.memory_bound import MEMORY_BYTES, MemoryBound
 from reina.sessions.record import SessionRecord, SongRecord, StanceRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
+from reina.sessions.sightings import Sightings, near_end
 from reina.sessions.song import RenderedSong, Song, UploadedSong
+from reina.sessions.staging import STAGING_BYTES, StagingRoom
+from reina.sessions.usage import DiskBound
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
 from reina.skeleton import pose_of
@@ -35,20 +41,18 @@ from reina.system.atomic_write import write_atomically
 from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable
+    from collections.abc import AsyncGenerator, Callable, Generator, Iterable
     from pathlib import Path
 
     from reina.sessions.note_messages import NoteMessages
     from reina.sessions.production import Production
     from reina.sessions.session_index import Entry
     from reina.sessions.stage import Stage
+    from reina.sessions.usage import Usage
     from reina.show import ShowHistory
     from reina.sound.hearing import Hearing
     from reina.sound.recording.probe import AudioInfo
     from reina.sound.renderer import SongRenderer
-
-SONG_CACHE_BYTES = 2_000_000_000
-"""How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
 
 Stances = tuple[StanceRecord, ...]
 
@@ -112,7 +116,10 @@ class SessionStore:
         renderer: Makes songs for scores that come without.
         now: Server time, seconds; never goes back.
         loaded: How many sessions are kept in memory.
-        song_cache_bytes: How large the rendered songs may be together.
+        memory_bytes: How many bytes the sessions in memory may weigh together.
+        disk: How much may be kept.
+        staging_bytes: How large what is being sent may be together.
+        wall: The present, seconds since 1970.
         decoder: Tells what uploaded songs are.
         reader: Reads scores and shows.
         aligner: Finds scores in uploaded songs.
@@ -126,7 +133,10 @@ class SessionStore:
         *,
         now: Callable[[], float],
         loaded: int = LOADED,
-        song_cache_bytes: int = SONG_CACHE_BYTES,
+        memory_bytes: int = MEMORY_BYTES,
+        disk: DiskBound | None = None,
+        staging_bytes: int = STAGING_BYTES,
+        wall: Callable[[], float] = time.time,
         decoder: SongDecoder | None = None,
         reader: Reader | None = None,
         aligner: Aligner | None = None,
@@ -136,10 +146,18 @@ class SessionStore:
         self.decoder = decoder or SongDecoder()
         self._folders = SessionFolders(data_dir)
         self._renderer = renderer
+        renderer.cache.in_use = self._listened_to
         self._aligner = aligner or Aligner()
         self._now = now
-        self._most_loaded = loaded
-        self._song_cache_bytes = song_cache_bytes
+        self._wall = wall
+        self._bound = MemoryBound(loaded, memory_bytes)
+        self._coming = 0
+        self._disk = disk or DiskBound()
+        self.staged = StagingRoom(staging_bytes)
+        """What is being sent."""
+        self._clocks = ClockKeeping(self._keep_clock)
+        self.sightings = Sightings(self._folders, wall=wall)
+        """When sessions were seen."""
         self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
         self._loading: dict[str, asyncio.Task[Session | None]] = {}
@@ -155,18 +173,79 @@ class SessionStore:
         """How many streams are open."""
         return sum(len(session.audience) for session in list(self._sessions.values()))
 
+    @property
+    def weight(self) -> int:
+        """About how many bytes they take."""
+        return sum(session.weight for session in self._sessions.values())
+
+    def ends_at(self, session: Session, after_s: float) -> str | None:
+        """When a session will be ended that nobody sees, if that is near: ISO 8601, UTC.
+
+        Args:
+            session: Which.
+            after_s: How long after it was seen last sessions are ended; 0 for never.
+        """
+        if not after_s or len(session.audience):
+            return None
+        ends_s = self.sightings.ends_s(session.id, after_s)
+        return None if ends_s is None else near_end(ends_s, self._wall(), after_s)
+
+    @property
+    def watched(self) -> list[str]:
+        """The ids of those that somebody watches."""
+        return [session.id for session in self._sessions.values() if len(session.audience)]
+
+    async def end_unseen(self, after_s: float) -> int:
+        """End the sessions that nobody has seen for so long, seconds; returns how many."""
+        await self.sightings.keep(self.watched)
+        ended, since_s = 0, self._wall() - after_s
+        for session_id in await asyncio.to_thread(self._folders.unseen_since, since_s):
+            loaded = self._sessions.get(session_id)
+            if loaded is None and session_id not in self._loading:
+                doomed = await asyncio.to_thread(self._folders.take_out, session_id)
+                await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
+            elif loaded is not None and loaded.is_idle:
+                await self.delete(loaded)
+            else:
+                continue
+            ended += 1
+        return ended
+
     @asynccontextmanager
-    async def staging(self) -> AsyncGenerator[Path]:
-        """A new folder for a draft's files; what is not made a session of is removed at the end."""
-        folder = await asyncio.to_thread(self._folders.stage)
+    async def staging(self, sender: str = "") -> AsyncGenerator[Path]:
+        """A new folder for a draft's files; what is not made a session of is removed at the end.
+
+        Args:
+            sender: Who sends them; `staged` counts them.
+        """
+        folder = await self.staging_folder(sender)
         try:
             yield folder
         finally:
-            await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+            await self.discard_staged(folder)
 
-    async def staging_folder(self) -> Path:
-        """A new folder; whoever asked for it removes it."""
-        return await asyncio.to_thread(self._folders.stage)
+    async def staging_folder(self, sender: str = "") -> Path:
+        """A new folder; whoever asked for it has it discarded."""
+        folder = await asyncio.to_thread(self._folders.stage)
+        self.staged.begin(folder, sender)
+        return folder
+
+    async def discard_staged(self, folder: Path) -> None:
+        """Remove a folder of `staging_folder`, if it is still there."""
+        await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+        self.staged.end(folder)
+
+    def usage(self, sender: str | None) -> Usage:
+        """How many sessions came from a sender, or from all (None), and how large they are."""
+        return self._folders.usage(sender)
+
+    def require_disk(self, sender: str, adding: int = 0) -> None:
+        """See that another session of a sender may be kept; what the sender is sending counts too.
+
+        Raises:
+            LimitError: It may not.
+        """
+        self._disk.require(self._folders.usage, sender, max(adding, self.staged.of(sender) if sender else 0))
 
     async def create(self, draft: Draft) -> tuple[Session, str]:
         """Make a session.
@@ -178,6 +257,7 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
+        self.require_disk(draft.sender, self.staged.size(draft.folder))
         try:
             production = await self._plan(
                 draft.folder / draft.score, draft.score_filename, draft.cast, owner=draft.sender
@@ -199,13 +279,17 @@ class SessionStore:
                 raise ShowError(f"this is {sent.name}, not a show") from error
             await asyncio.to_thread(show_file.unlink)
             production = await asyncio.to_thread(production.with_show, show)
-        made = await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
-        if draft.in_time and song is not None and song.duration_s is not None:
-            in_time = _in_time(production.score.duration_s, song.duration_s)
-            await asyncio.to_thread(self._folders.write_alignment, made[0].id, in_time)
-            return self._admit(*made, in_time), token
-        session = self._admit(*made)
-        self.search_alignment(session)
+        kept = await asyncio.to_thread(ShowRevision.begin, production.show)
+        await self._clocks.written()
+        with self._room_for(production.weight + kept.weight):
+            made = await asyncio.to_thread(self._make, draft, production, kept, song, hash_token(token))
+            in_time: Alignment | None = None
+            if draft.in_time and song is not None and song.duration_s is not None:
+                in_time = _in_time(production.score.duration_s, song.duration_s)
+                await asyncio.to_thread(self._folders.write_alignment, made[0].id, in_time)
+        session = self._admit(*made, in_time)
+        if in_time is None:
+            self.search_alignment(session)
         return session, token
 
     async def get(self, session_id: str) -> Session | None:
@@ -395,9 +479,11 @@ class SessionStore:
             kept = await asyncio.to_thread(session.show_revision.then, step)
             if kept is not session.show_revision:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
+                self._make_room(kept.weight - session.show_revision.weight, staying=session)
                 # Seen first, then kept: the answer waits for both.
                 await session.change_show(production, kept)
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+                await asyncio.to_thread(self._folders.note_size, session.id)
         return kept
 
     def original_song(self, session: Session) -> Path | None:
@@ -428,14 +514,14 @@ class SessionStore:
 
     async def prune_songs(self) -> None:
         """Remove the rendered songs that were not asked for the longest until the rest is small enough."""
-        freed = await asyncio.to_thread(
-            self._renderer.prune, self._song_cache_bytes, in_use=self.songs_in_use()
-        )
+        freed = await asyncio.to_thread(self._renderer.prune, in_use=self._listened_to())
         if freed:
             _log.info("removed %.0f MB of rendered songs", freed / 1e6)
 
     async def aclose(self) -> None:
         """Put every session away."""
+        await self._clocks.aclose()
+        await self.sightings.keep(self.watched)
         for session in list(self._sessions.values()):
             self._unload(session)
         await self._renderer.aclose()
@@ -464,10 +550,14 @@ class SessionStore:
         )
 
     def _make(
-        self, draft: Draft, production: Production, song: SongRecord | None, token_sha256: str
+        self,
+        draft: Draft,
+        production: Production,
+        kept: ShowRevision,
+        song: SongRecord | None,
+        token_sha256: str,
     ) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
         (draft.folder / draft.score).rename(draft.folder / SCORE)
-        kept = ShowRevision.begin(production.show)
         _write_show(draft.folder, kept)
         record = SessionRecord(
             id=new_id(),
@@ -479,6 +569,7 @@ class SessionStore:
             cast=production.cast,
             score_filename=draft.score_filename,
             song=song,
+            sender=draft.sender,
         )
         self._folders.adopt(draft.folder, record)
         return record, production, kept, note_messages(production)
@@ -505,6 +596,7 @@ class SessionStore:
             if session_id in self._folders:
                 raise
             return None
+        await self._clocks.written()
         # Ended while it was read: it must not come back.
         if session_id not in self._folders:
             return None
@@ -574,6 +666,8 @@ class SessionStore:
             planned = await asyncio.to_thread(planned.with_show, before.show)
         if planned.show is not kept.show:
             kept = await asyncio.to_thread(kept.then, lambda history: history.then(planned.show))
+        growing = planned.weight + kept.weight - before.weight - session.show_revision.weight
+        self._make_room(growing, staying=session)
         return planned, kept
 
     def _admit(
@@ -584,11 +678,20 @@ class SessionStore:
         notes: NoteMessages,
         alignment: Alignment | None = None,
     ) -> Session:
+        self._make_room(production.weight + kept.weight)
         session = Session(
-            record, production, kept, notes, self._song, self._heard, now=self._now, alignment=alignment
+            record,
+            production,
+            kept,
+            notes,
+            self._song,
+            self._heard,
+            now=self._now,
+            wall=self._wall,
+            alignment=alignment,
+            clock_changed=self._clocks.note,
         )
         self._sessions[session.id] = session
-        self._make_room()
         return session
 
     def _song(self, session: Session) -> Song:
@@ -596,13 +699,22 @@ class SessionStore:
         if record.song:
             return UploadedSong(self._folders.folder(record.id), record.song)
         return RenderedSong(
-            self._renderer, production.score, production.sounding, ready=lambda: self._song_made(session)
+            self._renderer,
+            production.score,
+            production.sounding,
+            owner=record.sender or record.id,
+            ready=lambda: self._song_made(session),
         )
 
     def _heard(self, session: Session, hearing: Hearing) -> RenderedSong:
         production = session.production
         return RenderedSong(
-            self._renderer, production.score, production.sounding, hearing=hearing, ready=self._prune_soon
+            self._renderer,
+            production.score,
+            production.sounding,
+            hearing=hearing,
+            owner=session.record.sender or session.id,
+            ready=self._prune_soon,
         )
 
     def _song_made(self, session: Session) -> None:
@@ -614,21 +726,57 @@ class SessionStore:
         self._pruning.add(pruning)
         pruning.add_done_callback(self._pruning.discard)
 
+    def _listened_to(self) -> set[Path]:
+        """Files of songs of sessions that somebody watches."""
+        return self._songs_of(session for session in self._sessions.values() if len(session.audience))
+
     def songs_in_use(self) -> set[Path]:
         """Files of songs that sessions have open, as everybody and as single viewers hear them."""
-        sessions = self._sessions.values()
-        own = {session.song.path for session in sessions if session.song.path is not None}
-        return own.union(*(session.heard.paths for session in sessions))
+        return self._songs_of(self._sessions.values())
 
-    def _make_room(self) -> None:
-        *others, _ = self._sessions.values()
-        idle = [session for session in others if session.is_idle]
-        for session in idle[: max(0, len(self._sessions) - self._most_loaded)]:
+    @staticmethod
+    def _songs_of(sessions: Iterable[Session]) -> set[Path]:
+        paths: set[Path] = set()
+        for session in sessions:
+            paths |= session.heard.paths
+            if session.song.path is not None:
+                paths.add(session.song.path)
+        return paths
+
+    def _make_room(self, adding: int, *, staying: Session | None = None) -> None:
+        """Unload what is idle, so that something more fits.
+
+        Raises:
+            LimitError: It does not, with all that is watched.
+        """
+        loaded = self._sessions.values()
+        for session in self._bound.leaving(loaded, adding, coming=self._coming, staying=staying):
             self._unload(session)
+
+    @contextmanager
+    def _room_for(self, weight: int) -> Generator[None]:
+        """Have room for a session that is being made.
+
+        Raises:
+            LimitError: There is none.
+        """
+        self._make_room(weight)
+        self._coming += weight
+        try:
+            yield
+        finally:
+            self._coming -= weight
+
+    async def _keep_clock(self, session: Session) -> None:
+        async with session.editing:
+            if self._sessions.get(session.id) is session:
+                record = session.kept()
+                await asyncio.to_thread(self._folders.write_record, record)
+                session.is_kept(record)
 
     def _unload(self, session: Session) -> None:
         del self._sessions[session.id]
-        record = session.record.model_copy(update={"song_time_s": session.clock.state().song_time_s})
+        record = session.kept()
         session.close()
         if record != session.record:
             writing = asyncio.create_task(asyncio.to_thread(self._folders.write_record, record))

@@ -145,6 +145,7 @@ def _render_passage(plan: SoundPlan, passage: Passage, soundfont: bytes) -> Samp
 def _pieces(mix: Mix, frames: int, gain: float) -> Iterator[np.ndarray[tuple[int, int], np.dtype[np.int16]]]:
     """The whole as the segments have it, without their overlaps."""
     for first in range(0, frames, SEGMENT):
+        mix.forget(first)
         yield levelled(mix.read(first, min(first + SEGMENT, frames)), gain)
 
 

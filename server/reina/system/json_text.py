@@ -16,7 +16,9 @@ def json_text(document: Any) -> bytes:
     Raises:
         TypeError: It holds something that JSON has not.
     """
-    return orjson.dumps(document)
+    # What orjson returns keeps the buffer that it was written in, a kilobyte for the shortest text; a show
+    # keeps one text for each of its keyframes.
+    return memoryview(orjson.dumps(document)).tobytes()
 
 
 def with_list(head: Mapping[str, Any], name: str, entries: Sequence[bytes]) -> bytes:

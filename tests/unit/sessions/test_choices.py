@@ -96,7 +96,7 @@ def test_choices_are_kept(tmp_path: Path, stage: Stage) -> None:
         await choose(store, made, title="Walk")
         found = await a_store(tmp_path, stage).get(made.id)
         assert found is not None
-        assert found.record == made.record
+        assert found.record == made.record.model_copy(update={"clock": found.record.clock})
         assert pitches(found) == pitches(made) == [pitch - 2 for pitch in range(60, 68)]
         assert found.resource().warnings == made.resource().warnings
 
@@ -110,7 +110,7 @@ def test_joined_parts_are_kept_until_another_part_is_chosen(tmp_path: Path, stag
         assert made.record.cast.lead.joined_parts == made.production.played.joined_parts == (1, 2)
         found = await a_store(tmp_path, stage).get(made.id)
         assert found is not None
-        assert found.record == made.record
+        assert found.record == made.record.model_copy(update={"clock": found.record.clock})
         assert pitches(found) == pitches(made)
         await choose(store, made, part=0, transposition=1)
         assert made.record.cast.lead.joined_parts == (1, 2), "the part is the same"

@@ -31,7 +31,8 @@ def test_any_failure_is_told_as_one(
 
     async def make() -> RenderedSong:
         heard = asyncio.Event()
-        song = RenderedSong(SongRenderer(tmp_path), score, [PlayedParts((0,))], ready=heard.set)
+        parts = [PlayedParts((0,))]
+        song = RenderedSong(SongRenderer(tmp_path), score, parts, owner="somebody", ready=heard.set)
         await asyncio.wait_for(heard.wait(), 10)
         return song
 

@@ -272,6 +272,8 @@ export interface Session {
   alignment: AlignmentState
   /** Its own, in the order of the choices of player/stance. */
   stances: Stance[]
+  /** When it will be ended unless somebody sees it before, ISO 8601, UTC; null unless that is near. */
+  ends_at: string | null
   links: SessionLinks
   /** Whether who asks is signed in as the person who made it, and controls it without its token. */
   mine: boolean

@@ -13,6 +13,8 @@ export interface Piece extends KeptPiece {
   readonly id: string;
   /** A small picture as a data URL; null where none was taken yet. */
   readonly picture: string | null;
+  /** When the server removes it unless somebody opens it before, ISO 8601; null unless that is near. */
+  readonly ends: string | null;
 }
 
 /** The sessions that this browser made, or who is signed in, and the server still has; the one opened last first. */
@@ -26,6 +28,7 @@ export class KeptPieces {
 
   /** The pieces of who is signed in, by id; these need no token. */
   #mine: Readonly<Record<string, KeptPiece>> = {};
+  readonly #ends = new Map<string, string | null>();
   readonly #api: ReinaApi;
   readonly #tell: (error: unknown) => void;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -37,7 +40,7 @@ export class KeptPieces {
   constructor(api: ReinaApi, tell: (error: unknown) => void) {
     this.#api = api;
     this.#tell = tell;
-    this.all = listed();
+    this.all = this.#shown();
   }
 
   /** Ask the server which pieces there still are, and what they are called now. */
@@ -78,6 +81,7 @@ export class KeptPieces {
       answers.forEach((answer, index) => {
         const id = some[index] ?? "";
         if (answer.status === "fulfilled") {
+          this.#ends.set(id, answer.value.ends_at ?? null);
           known = { ...known, [id]: { title: answer.value.title, opened: known[id]?.opened ?? 0 } };
         } else if (answer.reason instanceof ProblemError && answer.reason.isUnknown) {
           known = without(known, id);
@@ -120,11 +124,13 @@ export class KeptPieces {
   }
 
   #shown(): readonly Piece[] {
-    return listed(this.#mine).filter(({ id }) => id !== this.deleted?.id);
+    return listed(this.#mine)
+      .filter(({ id }) => id !== this.deleted?.id)
+      .map((piece) => ({ ...piece, ends: this.#ends.get(piece.id) ?? null }));
   }
 }
 
-function listed(mine: Readonly<Record<string, KeptPiece>> = {}): readonly Piece[] {
+function listed(mine: Readonly<Record<string, KeptPiece>> = {}): readonly Omit<Piece, "ends">[] {
   const { tokens, pieces } = remembered();
   const kept = Object.entries(pieces).filter(([id]) => tokens[id] !== undefined || id in mine);
   return Object.entries({ ...mine, ...Object.fromEntries(kept) })

@@ -5,6 +5,12 @@ export function number(value: number, options?: Intl.NumberFormatOptions): strin
   return new Intl.NumberFormat(language(), options).format(value);
 }
 
+/** A day as the language that is shown writes it: `3 May 2026`, `3. Mai 2026`, `2026年5月3日`. */
+export function day(time: string): string {
+  const shown = language() === "en" ? "en-GB" : language();
+  return new Intl.DateTimeFormat(shown, { dateStyle: "long" }).format(new Date(time));
+}
+
 /** What stands before tenths: a point or a comma. */
 export function decimalSign(): string {
   const parts = new Intl.NumberFormat(language()).formatToParts(1.5);

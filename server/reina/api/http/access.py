@@ -3,6 +3,7 @@
 Uploads are for everybody, unless the server was started to ask who somebody is.
 """
 
+from collections.abc import AsyncGenerator
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
@@ -66,11 +67,20 @@ def unknown_session(session_id: str) -> ProblemError:
     )
 
 
-async def _watched(session_id: SessionId, store: Store) -> Session:
+async def _found(session_id: str, store: SessionStore) -> Session:
     session = await store.get(session_id)
     if session is None:
         raise unknown_session(session_id)
     return session
+
+
+async def _watched(request: Request, session_id: SessionId, store: Store) -> AsyncGenerator[Session]:
+    session = await _found(session_id, store)
+    credentials = await _bearer(request)
+    if credentials is not None and token_matches(session.record.token_sha256, credentials.credentials):
+        store.sightings.note(session.id)
+    with session.asked():
+        yield session
 
 
 Watched = Annotated[Session, Depends(_watched)]
@@ -131,6 +141,6 @@ async def admit(request: Request, dependant: Dependant) -> None:
         _uploader(request)
     if not needed & {_watched, _controlled}:
         return
-    session = await _watched(request.path_params["session_id"], _store(request))
+    session = await _found(request.path_params["session_id"], _store(request))
     if _controlled in needed:
         await _controlled(request, session, await _bearer(request))

@@ -16,6 +16,13 @@ from reina.errors import InputError
 from reina.instruments import CastError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
+from reina.sessions.limit_errors import (
+    LimitError,
+    NoRoomError,
+    PieceTooLargeError,
+    SenderLimitError,
+    ServerBusyError,
+)
 from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
@@ -129,6 +136,10 @@ def _in_words(faults: Sequence[Fault], count: int) -> str:
 
 INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (SessionEndedError, 404, "unknown-session", "There is no such session"),
+    (ServerBusyError, 503, "busy", "The server has too much at hand"),
+    (NoRoomError, 507, "no-room", "The server has no room for it"),
+    (SenderLimitError, 429, "sender-limit", "You have as much here as one may have"),
+    (PieceTooLargeError, 413, "piece-too-large", "The piece is larger than the server can play"),
     (ScoreLimitError, 413, "score-too-large", "The score is larger than Reina reads"),
     (NotInScoreError, 422, "not-in-score", "The score does not hold that"),
     (ScoreError, 422, "score-unreadable", "The score cannot be read"),
@@ -154,7 +165,9 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
     detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
-    return ProblemError(status, kind, title, detail, errors=faults)
+    retry_s = error.retry_after_s if isinstance(error, LimitError) else None
+    headers = None if retry_s is None else {"Retry-After": str(retry_s)}
+    return ProblemError(status, kind, title, detail, errors=faults, headers=headers)
 
 
 def _location(parts: Sequence[str | int]) -> str:

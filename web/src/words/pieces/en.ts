@@ -6,6 +6,7 @@ export const pieces = words("pieces", {
   panel: "my pieces",
   deleted: filled("“{title}” is deleted."),
   undo: "Undo",
+  ends: filled("Is removed on {day} unless somebody opens it before"),
   none: "Pieces that you open stand here. Drop a MIDI file to begin.",
   delete: "Delete this piece",
   deleteNamed: filled("Delete {title}"),
