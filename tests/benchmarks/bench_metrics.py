@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from prometheus_client import generate_latest
 
-import reina.system.process_metrics  # noqa: F401 - what is told of processes belongs to a scrape
+import reina.system.process_metrics  # pyright: ignore[reportUnusedImport]  # noqa: F401 - what is told of processes belongs to a scrape
 from reina.system.metrics import EVALUATION, REGISTRY, REQUEST_SECONDS, REQUESTS, tally
 
 if TYPE_CHECKING:

@@ -87,7 +87,7 @@ def test_what_was_uploaded_never_runs(client: httpx.Client) -> None:
     """Whatever a sender calls it: names and types of an upload decide nothing."""
     session = upload(client, scale(2), name="score.html", song=("song.svg", song(0.2), "text/html"))
     # What stands in a show is JSON; a page in it is text.
-    show = {"version": 1, "tracks": [], "title": HTML.decode()}
+    show: dict[str, object] = {"version": 1, "tracks": [], "title": HTML.decode()}
     assert session.change("PUT", "/show", json=show).status_code == 200
     types = {
         "/score/file": "application/octet-stream",

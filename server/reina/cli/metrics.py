@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from prometheus_client import start_http_server
 
-import reina.system.process_metrics  # noqa: F401 - registers what is told of processes
+import reina.system.process_metrics  # pyright: ignore[reportUnusedImport]  # noqa: F401 - registers what is told of processes
 from reina.cli.listening import explained
 from reina.system.logs import logger
 from reina.system.metrics import REGISTRY

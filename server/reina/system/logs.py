@@ -160,7 +160,9 @@ class _OnceAMinute(logging.Filter):
         kind = (
             record.name,
             record.levelno,
-            fields.get("event", message if isinstance(message, str) else type(message).__name__),
+            fields.get(
+                "event", message if isinstance(message, str) else type(cast("object", message)).__name__
+            ),
             fields.get("kind"),
             (failure.kind, failure.place) if failure else None,
         )

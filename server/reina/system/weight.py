@@ -65,7 +65,8 @@ class _Scales:
         return self._object(held, depth)
 
     def _array(self, array: np.ndarray[Any, Any], depth: int) -> int:
-        base = array.base
+        # Of a mapped file it is the map, which numpy's own types do not say.
+        base: object = array.base
         if base is not None and not isinstance(base, np.ndarray):
             return self.weigh(base, depth + 1) or array.nbytes
         if base is not None:

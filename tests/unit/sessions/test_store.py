@@ -297,6 +297,10 @@ def test_sessions_that_nobody_sees_are_ended(tmp_path: Path, stage: Stage) -> No
     run(scenario)
 
 
+def _nothing(*_: object) -> None:
+    """In place of what is not to be done."""
+
+
 def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -308,7 +312,7 @@ def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
         write(folders, record)
 
     async def scenario() -> None:
-        monkeypatch.setattr(ClockKeeping, "note", lambda *_: None)
+        monkeypatch.setattr(ClockKeeping, "note", _nothing)
         desk = Desk(tmp_path, stage, loaded=1)
         first = await desk.create(scale(8))
         first.control(Seek(action="seek", song_time_s=0.75))

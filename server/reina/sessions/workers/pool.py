@@ -9,7 +9,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import contextvars
-import functools
 import logging
 import queue
 import subprocess
@@ -82,7 +81,11 @@ class WorkerPool:
         """
         loop = asyncio.get_running_loop()
         # What is logged on the thread belongs to who asked.
-        work = functools.partial(contextvars.copy_context().run, self._work, function, arguments)
+        context = contextvars.copy_context()
+
+        def work() -> object:
+            return context.run(self._work, function, arguments)
+
         with in_queue(self._name):
             async with self._turns.of(owner):
                 return cast("T", await loop.run_in_executor(self._threads, work))
