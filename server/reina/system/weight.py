@@ -66,7 +66,7 @@ class _Scales:
 
     def _array(self, array: np.ndarray[Any, Any], depth: int) -> int:
         # Of a mapped file it is the map, which numpy's own types do not say.
-        base: object = array.base
+        base = cast("object", array.base)
         if base is not None and not isinstance(base, np.ndarray):
             return self.weigh(base, depth + 1) or array.nbytes
         if base is not None:
