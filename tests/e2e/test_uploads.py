@@ -23,7 +23,7 @@ DUET = (("duet.mid", "audio/midi", duet()), ("duet.wav", "audio/wav", song(4.0))
 LONG = (("long.mid", "audio/midi", scale(32)), ("long.wav", "audio/wav", song(60.0)))
 SLOW_BYTES = 20_000
 """Bytes a second: the long recording takes a minute."""
-BUSY = {
+BUSY: dict[str, Any] = {
     "type": "urn:reina:problem:too-many",
     "title": "Too Many Requests",
     "status": 429,
