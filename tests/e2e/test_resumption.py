@@ -69,6 +69,5 @@ def test_the_page_is_where_the_clock_is_after_a_restart(tmp_path: Path, browser:
     restarted(tmp_path, browser, goes_on=False)
 
 
-@pytest.mark.skip(reason="the server comes back paused until its record keeps that it plays")
 def test_the_music_goes_on_after_a_restart(tmp_path: Path, browser: Browser) -> None:
     restarted(tmp_path, browser, goes_on=True)

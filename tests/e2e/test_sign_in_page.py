@@ -45,7 +45,7 @@ def sign_in(opened: Opened, password: str) -> None:
 def test_uploads_wait_for_the_password_and_pieces_follow_a_person(browser: Browser, tmp_path: Path) -> None:
     file = tmp_path / "people"
     file.write_text(f"ada:{hash_password(PASSWORD)}\n")
-    with serve(tmp_path / "data", environment={"REINA_UPLOAD_PASSWORD_FILE": str(file)}) as running:
+    with serve(tmp_path / "data", settings={"REINA_UPLOAD_PASSWORD_FILE": file}) as running:
         first = opened_in(browser, running.address)
         first.choose_files(MIDI, WAV)
         sign_in(first, "wrong password")

@@ -184,8 +184,6 @@ def run(arguments: argparse.Namespace) -> int:
             log_level="warning",
             access_log=False,
             server_header=False,
-            # Whose headers mean anything is for the settings to say: uvicorn would believe this machine's.
-            proxy_headers=False,
         ),
         app.state.ending,
         connections,

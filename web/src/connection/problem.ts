@@ -15,6 +15,9 @@ const PLAIN_TITLES: Readonly<Record<number, () => string>> = {
 /** What may be better in a moment, without anything done about it: so may no answer at all. */
 const PASSING: readonly number[] = [0, 408, 429, 502, 503, 504, 507];
 
+/** What is known of a problem: one that the page found has neither a kind nor a request. */
+type SaidProblem = Omit<Problem, "type" | "instance"> & Partial<Pick<Problem, "type" | "instance">>;
+
 /** A request that the server refused, with its problem details (RFC 9457), or that never reached it. */
 export class ProblemError extends Error {
   override readonly name = "ProblemError";
@@ -31,7 +34,7 @@ export class ProblemError extends Error {
   /** For how long the server asks to be left alone, seconds; null where it does not say. */
   readonly retryAfter: number | null;
 
-  constructor(problem: Omit<Problem, "type"> & Partial<Pick<Problem, "type">>, retryAfter: number | null = null) {
+  constructor(problem: SaidProblem, retryAfter: number | null = null) {
     const { type = "", status } = problem;
     const plain = isNamed("problem", type) ? undefined : PLAIN_TITLES[status]?.();
     const title = plain ?? serverWords("problem", type, problem.title);
