@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from reina.sessions.record import SESSION_ID, SessionRecord
 from reina.sessions.session_index import INDEX, Entry, SessionIndex
 from reina.sound.alignment.document import read_alignment, write_alignment
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import write_durably
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -65,7 +65,7 @@ class SessionFolders:
 
     def adopt(self, staged: Path, record: SessionRecord) -> Path:
         """Turn a staged folder into a session's; returns where it then stands."""
-        write_atomically(staged / RECORD, record.model_dump_json(indent=2).encode())
+        write_durably(staged / RECORD, record.model_dump_json(indent=2).encode())
         folder = self.folder(record.id)
         staged.rename(folder)
         self._note(record)
@@ -81,7 +81,7 @@ class SessionFolders:
 
     def write_record(self, record: SessionRecord) -> None:
         """Replace a session's record."""
-        write_atomically(self.folder(record.id) / RECORD, record.model_dump_json(indent=2).encode())
+        write_durably(self.folder(record.id) / RECORD, record.model_dump_json(indent=2).encode())
         self._note(record)
 
     def alignment(self, session_id: str) -> Alignment | None:
@@ -97,12 +97,12 @@ class SessionFolders:
         if alignment is None:
             file.unlink(missing_ok=True)
         else:
-            write_atomically(file, write_alignment(alignment))
+            write_durably(file, write_alignment(alignment))
 
     def write_index(self) -> None:
         """Keep the index for the next start."""
         if len(self.index):
-            write_atomically(self._index_file, self.index.text().encode())
+            write_durably(self._index_file, self.index.text().encode())
         else:
             self._index_file.unlink(missing_ok=True)
 

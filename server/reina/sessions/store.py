@@ -31,7 +31,7 @@ from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
 from reina.sound.recording.decoder import SongDecoder
 from reina.sound.recording.peaks import peaks_path
 from reina.sound.recording.probe import Conversion
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import write_durably
 from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
@@ -649,7 +649,7 @@ def _in_time(score_duration_s: float, song_duration_s: float) -> Alignment:
 
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:
-    write_atomically(folder / SHOW, kept.text.text())
+    write_durably(folder / SHOW, kept.text.text())
 
 
 def _role_of_file(path: Path) -> Role | None:
