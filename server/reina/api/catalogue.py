@@ -13,9 +13,12 @@ from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.resources import Health, LightMood, LightMoodList, ShowParameterList
 from reina.stage import LIGHT_MOODS, MOOD_REST
+from reina.system.disk_room import has_room
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from reina.api.settings import Settings
 
 router = APIRouter(tags=["server"])
 
@@ -66,6 +69,12 @@ async def list_moods() -> LightMoodList:
 async def get_health(request: Request) -> Health:
     """Answers once the server can play."""
     now: Callable[[], float] = request.app.state.now
+    settings: Settings = request.app.state.settings
+    ready = await asyncio.to_thread(has_room, settings.data_dir)
     return Health(
-        status="ok", ready=True, version=reina.__version__, streams=[SUBPROTOCOL], server_time_s=now()
+        status="ok" if ready else "storage-full",
+        ready=ready,
+        version=reina.__version__,
+        streams=[SUBPROTOCOL],
+        server_time_s=now(),
     )

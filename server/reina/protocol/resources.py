@@ -687,7 +687,7 @@ class Health(WireModel):
     """Liveness and readiness."""
 
     status: str
-    """`ok` once it can play."""
+    """`ok` once it can play; `storage-full` where it can, and takes nothing new for lack of room."""
     ready: bool
     version: str
     streams: list[str]

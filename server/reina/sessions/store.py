@@ -269,8 +269,8 @@ class SessionStore:
                     session.alignment.alignment = None
                     await asyncio.to_thread(self._folders.write_alignment, session.id, None)
                     self.search_alignment(session)
-            session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
+            session.record = record
 
     async def change_alignment(self, session: Session, step: Callable[[Alignment | None], Alignment]) -> None:
         """Say anew where a session's score is heard in its song; edits of a session follow one another.
@@ -377,9 +377,9 @@ class SessionStore:
             kept = await asyncio.to_thread(session.show_revision.then, step)
             if kept is not session.show_revision:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
-                # Seen first, then kept: the answer waits for both.
-                await session.change_show(production, kept)
+                # Kept first: what the disk refuses is seen by nobody.
                 await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+                await session.change_show(production, kept)
         return kept
 
     def original_song(self, session: Session) -> Path | None:

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
-import secrets
-import threading
-import time
 from typing import TYPE_CHECKING
-
-from reina.system.durable import open_own
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,9 +16,7 @@ NO_ROOM = (
 )
 """What whoever asked for a write is told."""
 LEAST_BYTES = 1_000_000
-"""With less room than that a disk counts as full: an edit of a large show may be as long."""
-PROBE_BYTES = 65_536
-PROBED_EVERY_S = 1.0
+"""With less room than that a disk counts as full: a show may be as long."""
 
 
 def is_disk_full(error: BaseException) -> bool:
@@ -32,48 +24,7 @@ def is_disk_full(error: BaseException) -> bool:
     return isinstance(error, OSError) and error.errno in FULL
 
 
-class DiskRoom:
-    """Tells whether a folder can be written to. For several threads.
-
-    A disk with room may still refuse, as by a quota. So after a write was refused it is tried out whether a
-    small one is taken, until it is.
-
-    Args:
-        folder: Where is written; a probe is made in it.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._probing = threading.Lock()
-        self._refused = False
-        self._probed_s = -PROBED_EVERY_S
-
-    def refused(self) -> None:
-        """A write was refused for lack of room."""
-        self._refused = True
-
-    def is_there(self) -> bool:
-        """Whether there is room; blocks as long as the disk takes."""
-        status = os.statvfs(self._folder)
-        if status.f_bavail * status.f_frsize < LEAST_BYTES:
-            return False
-        with self._probing:
-            if self._refused and time.monotonic() - self._probed_s >= PROBED_EVERY_S:
-                self._probed_s = time.monotonic()
-                self._refused = not self._is_taken()
-            return not self._refused
-
-    def _is_taken(self) -> bool:
-        probe = self._folder / f".probe-{secrets.token_hex(4)}"
-        try:
-            with open_own(probe) as file:
-                file.write(bytes(PROBE_BYTES))
-                file.flush()
-                os.fsync(file.fileno())
-        except OSError:
-            return False
-        else:
-            return True
-        finally:
-            with contextlib.suppress(OSError):
-                probe.unlink(missing_ok=True)
+def has_room(folder: Path) -> bool:
+    """Whether there is room on the disk that a folder is on; blocks as long as the disk takes to say."""
+    status = os.statvfs(folder)
+    return status.f_bavail * status.f_frsize >= LEAST_BYTES
