@@ -1,4 +1,4 @@
-"""On a full disk what is there goes on, what is new is refused as a whole, and with room all is well again."""
+"""On a full disk what is there goes on, what is new is refused whole, and with room all is well again."""
 
 from __future__ import annotations
 
@@ -51,7 +51,8 @@ def is_ready(client: httpx.Client) -> bool:
 
 
 def put_key(session: Owned, value: float) -> httpx.Response:
-    return session.change("POST", f"{TRACK}/keyframes", json={"time": 0.5, "value": value})
+    """A key that brings a light to a value, as many bars in."""
+    return session.change("POST", f"{TRACK}/keyframes", json={"time": value, "value": value})
 
 
 def seen(session: Owned) -> dict[str, Any]:
@@ -138,6 +139,27 @@ def test_a_song_is_made_once_there_is_room(client: httpx.Client, disk: Disk) -> 
     assert client.get(f"{session.path}/song").status_code == 200
     disk.make_room()
     wait_until(lambda: client.get(asked).status_code == 200)
+
+
+def test_a_server_ends_on_a_full_disk_and_starts_on_it_again(disk: Disk, tmp_path: Path) -> None:
+    data, logs = disk.folder / "data", [tmp_path / "first", tmp_path / "second"]
+    with (
+        serve(data, "--no-page", log=logs[0]) as server,
+        httpx.Client(base_url=server.address, timeout=PATIENCE_S) as client,
+    ):
+        session = upload(client, scale(), song=("song.wav", song()))
+        before = seen(session)
+        disk.fill()
+        assert server.stop() == 0
+    with (
+        serve(data, "--no-page", log=logs[1]) as server,
+        httpx.Client(base_url=server.address, timeout=PATIENCE_S) as client,
+    ):
+        again = Owned(client, session.body)
+        assert seen(again) == before
+        refused(put_key(again, 2.5))
+        assert seen(again) == before
+    assert [log.name for log in logs if "Traceback" in log.read_text()] == []
 
 
 def test_a_session_ends_on_a_full_disk_too(client: httpx.Client, disk: Disk) -> None:

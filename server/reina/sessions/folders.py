@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from reina.sessions.record import SESSION_ID, SessionRecord
 from reina.sessions.session_index import INDEX, Entry, SessionIndex
 from reina.sound.alignment.document import read_alignment, write_alignment
-from reina.system.durable import write_durably
+from reina.system.durable import make_folder, sync, write_durably
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -38,7 +38,7 @@ class SessionFolders:
         self._staging = data_dir / "staging"
         shutil.rmtree(self._staging, ignore_errors=True)
         for folder in (self._sessions, self._staging, self.songs):
-            folder.mkdir(parents=True, exist_ok=True)
+            make_folder(folder)
         self.index = SessionIndex()
         """Of all sessions, to list them by."""
         self._index_file = data_dir / INDEX
@@ -66,8 +66,12 @@ class SessionFolders:
     def adopt(self, staged: Path, record: SessionRecord) -> Path:
         """Turn a staged folder into a session's; returns where it then stands."""
         write_durably(staged / RECORD, record.model_dump_json(indent=2).encode())
+        for file in staged.iterdir():
+            sync(file)
+        sync(staged)
         folder = self.folder(record.id)
         staged.rename(folder)
+        sync(self._sessions)
         self._note(record)
         return folder
 
@@ -96,6 +100,7 @@ class SessionFolders:
         file = self.folder(session_id) / ALIGNMENT
         if alignment is None:
             file.unlink(missing_ok=True)
+            sync(file.parent)
         else:
             write_durably(file, write_alignment(alignment))
 
@@ -111,6 +116,7 @@ class SessionFolders:
         self.index.remove(session_id)
         doomed = self._staging / f"{session_id}-{secrets.token_hex(4)}"
         self.folder(session_id).rename(doomed)
+        sync(self._sessions)
         return doomed
 
     def _note(self, record: SessionRecord) -> None:

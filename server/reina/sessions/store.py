@@ -426,7 +426,9 @@ class SessionStore:
         for tasks in (self._pruning, self._putting_away.values()):
             if tasks:
                 await asyncio.wait(tasks)
-        await asyncio.to_thread(self._folders.write_index)
+        with contextlib.suppress(OSError):
+            # It only saves time at the next start; a full disk has no room for it.
+            await asyncio.to_thread(self._folders.write_index)
 
     async def _keep_song(self, uploaded: Path) -> SongRecord:
         """Have a song decoded, and give it the name that its format has; its peaks stand beside it.
