@@ -267,6 +267,21 @@ class TestInS3:
         kept = store.keep(staged(tmp_path, b"1" * 1000))
         assert store.path(kept.digest).read_bytes() == b"1" * 1000
 
+    def test_no_room_for_a_copy_here_is_no_reason_to_refuse(
+        self, there: InS3, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        store = there.open()
+
+        def full(*_: object) -> None:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+        with monkeypatch.context() as patched:
+            patched.setattr(local_files, "put_in_place", full)
+            kept = store.keep(staged(tmp_path, b"x"))
+            with pytest.raises(StoreFullError, match="make room"):
+                store.path(kept.digest)
+        assert store.path(kept.digest).read_bytes() == b"x"
+
     def test_a_damaged_copy_is_fetched_anew(self, there: InS3, tmp_path: Path) -> None:
         store = files_at(there.url, tmp_path)
         kept = store.keep(staged(tmp_path, b"right"))

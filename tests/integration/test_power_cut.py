@@ -17,6 +17,8 @@ from tests.integration.own_disk import Disk, mounted, needs_own_disk, new_disk
 from tests.integration.scores import duet, scale, song
 from tests.integration.server import PATIENCE_S, Owned, Running, serve, upload
 
+from reina.sessions.storage.local_files import LocalFiles
+
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
 
@@ -193,6 +195,20 @@ def test_what_was_acknowledged_survives_a_power_cut_at_any_answer(disk: Disk, tm
             assert "Traceback" not in log.read_text(), when
         image.unlink()
     assert missing == {}
+
+
+def test_a_file_that_is_kept_survives_whichever_way_it_came(disk: Disk, tmp_path: Path) -> None:
+    store = LocalFiles(disk.folder / "data" / "files")
+    kept: dict[str, bytes] = {}
+    for number, staging in enumerate([disk.folder, tmp_path, disk.folder]):
+        data = bytes([number]) * 100_000
+        (staging / "staged").write_bytes(data)
+        kept[store.keep(staging / "staged").digest] = data
+    disk.copy_as_it_is(tmp_path / "cut")
+    with mounted(tmp_path / "cut", tmp_path / "after") as after:
+        again = LocalFiles(after.folder / "data" / "files")
+        assert {digest: again.path(digest).read_bytes() for digest in kept} == kept
+        assert {file.digest for file in again.files()} == set(kept)
 
 
 def test_the_harness_sees_what_was_not_synced(disk: Disk, tmp_path: Path) -> None:
