@@ -571,7 +571,7 @@ export interface LightMoodList {
 
 /** Liveness and readiness. */
 export interface Health {
-  /** ok once it can play. */
+  /** ok once it can play; storage-full where it can, and takes nothing new for lack of room. */
   status: string
   ready: boolean
   version: string
