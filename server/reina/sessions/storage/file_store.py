@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from reina.errors import InputError
+from reina.system.disk_room import NO_ROOM
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,7 +18,10 @@ class StoredFileLostError(InputError):
 
 
 class StoreFullError(InputError):
-    """There is no room for another file."""
+    """There is no room: for a file, or for anything else that is to be kept."""
+
+    def __init__(self, detail: str = NO_ROOM) -> None:
+        super().__init__(detail)
 
 
 class StoreAwayError(InputError):

@@ -12,7 +12,7 @@ import time
 from typing import TYPE_CHECKING
 
 from reina.sessions.storage.file_store import StoredFile, StoredFileLostError, StoreFullError
-from reina.system.disk_room import NO_ROOM, is_disk_full
+from reina.system.disk_room import is_disk_full
 from reina.system.durable import OWN_FILE, make_folder, open_own, put_in_place
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class LocalFiles:
             return self._copy(file) if kept is None else kept
         except OSError as error:
             if is_disk_full(error):
-                raise StoreFullError(NO_ROOM) from error
+                raise StoreFullError from error
             raise
 
     def path(self, digest: str) -> Path:

@@ -16,7 +16,7 @@ from urllib.parse import parse_qsl, urlsplit
 from reina.errors import InputError
 from reina.sessions.storage.file_store import StoreAwayError, StoredFile, StoredFileLostError, StoreFullError
 from reina.sessions.storage.local_files import DIGEST, DRAFT, LocalFiles, measured
-from reina.system.disk_room import NO_ROOM, is_disk_full
+from reina.system.disk_room import is_disk_full
 from reina.system.durable import open_own
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ class S3Files:
             ) from error
         except OSError as error:
             if is_disk_full(error):
-                raise StoreFullError(NO_ROOM) from error
+                raise StoreFullError from error
             raise
         finally:
             draft.unlink(missing_ok=True)
