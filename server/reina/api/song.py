@@ -10,7 +10,7 @@ from starlette.concurrency import run_in_threadpool
 
 from reina.api.http.access import Store, Watched
 from reina.api.http.files import IMMUTABLE, ServedFile
-from reina.api.http.problems import ProblemError
+from reina.api.http.problems import ProblemError, storage_full
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
@@ -18,6 +18,7 @@ from reina.sessions.song import Song
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, WAV_MEDIA_TYPE, wav_of
 from reina.sound.hearing import AS_WRITTEN, MOST_SEMITONES, Hearing, Stem
 from reina.sound.recording.probe import media_type_of
+from reina.sound.renderer import NoRoomError
 
 router = APIRouter(tags=["song"])
 
@@ -162,7 +163,7 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
         if request.given_up:
             return _under_way(session)
         if request.error is not None:
-            raise _no_song(str(request.error))
+            raise _no_song(str(request.error), lacks_room=isinstance(request.error, NoRoomError))
         return _under_way(session, hearing)
     return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=ATTACHED)
 
@@ -213,11 +214,13 @@ def _song_and_path(session: Session, hearing: Hearing = AS_WRITTEN) -> tuple[Son
         session.renew_song()
         song = session.song
     if song.error is not None:
-        raise _no_song(song.error)
+        raise _no_song(song.error, lacks_room=song.lacks_room)
     return song, song.path
 
 
-def _no_song(why: str) -> ProblemError:
+def _no_song(why: str, *, lacks_room: bool) -> ProblemError:
+    if lacks_room:
+        return storage_full(why)
     return ProblemError(502, "no-song", "There is no sound", f"no song could be made: {why}")
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from reina.sessions.record import SESSION_ID, SessionRecord
 from reina.sessions.session_index import INDEX, Entry, SessionIndex
 from reina.sound.alignment.document import read_alignment, write_alignment
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import make_folder, sync, write_durably
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterable
@@ -42,7 +42,7 @@ class SessionFolders:
         self._staging = data_dir / "staging"
         shutil.rmtree(self._staging, ignore_errors=True)
         for folder in (self._sessions, self._staging, self.songs):
-            folder.mkdir(parents=True, exist_ok=True)
+            make_folder(folder)
         self.index = SessionIndex()
         """Of all sessions, to list them by."""
         self._index_file = data_dir / INDEX
@@ -76,9 +76,13 @@ class SessionFolders:
 
     def adopt(self, staged: Path, record: SessionRecord) -> Path:
         """Turn a staged folder into a session's; returns where it then stands."""
-        write_atomically(staged / RECORD, record.model_dump_json(indent=2).encode())
+        write_durably(staged / RECORD, record.model_dump_json(indent=2).encode())
+        for file in staged.iterdir():
+            sync(file)
+        sync(staged)
         folder = self.folder(record.id)
         staged.rename(folder)
+        sync(self._sessions)
         self._note(record)
         return folder
 
@@ -92,7 +96,7 @@ class SessionFolders:
 
     def write_record(self, record: SessionRecord) -> None:
         """Replace a session's record."""
-        write_atomically(self.folder(record.id) / RECORD, record.model_dump_json(indent=2).encode())
+        write_durably(self.folder(record.id) / RECORD, record.model_dump_json(indent=2).encode())
         self._note(record)
 
     def alignment(self, session_id: str) -> Alignment | None:
@@ -107,8 +111,9 @@ class SessionFolders:
         file = self.folder(session_id) / ALIGNMENT
         if alignment is None:
             file.unlink(missing_ok=True)
+            sync(file.parent)
         else:
-            write_atomically(file, write_alignment(alignment))
+            write_durably(file, write_alignment(alignment))
 
     def usage(self, sender: str | None) -> Usage:
         """How many sessions came from a sender, or from all (None), and how large they are."""
@@ -144,7 +149,7 @@ class SessionFolders:
     def write_index(self) -> None:
         """Keep the index for the next start."""
         if len(self.index):
-            write_atomically(self._index_file, self.index.text().encode())
+            write_durably(self._index_file, self.index.text().encode())
         else:
             self._index_file.unlink(missing_ok=True)
 
@@ -153,6 +158,7 @@ class SessionFolders:
         self.index.remove(session_id)
         doomed = self._staging / f"{session_id}-{secrets.token_hex(4)}"
         self.folder(session_id).rename(doomed)
+        sync(self._sessions)
         return doomed
 
     def _note(self, record: SessionRecord) -> None:

@@ -37,7 +37,7 @@ from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
 from reina.sound.recording.decoder import SongDecoder
 from reina.sound.recording.peaks import peaks_path
 from reina.sound.recording.probe import Conversion
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import write_durably
 from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
@@ -371,8 +371,8 @@ class SessionStore:
                     session.alignment.alignment = None
                     await asyncio.to_thread(self._folders.write_alignment, session.id, None)
                     self.search_alignment(session)
-            session.record = record
             await asyncio.to_thread(self._folders.write_record, record)
+            session.record = record
 
     async def change_alignment(self, session: Session, step: Callable[[Alignment | None], Alignment]) -> None:
         """Say anew where a session's score is heard in its song; edits of a session follow one another.
@@ -530,7 +530,9 @@ class SessionStore:
         for tasks in (self._pruning, self._putting_away.values()):
             if tasks:
                 await asyncio.wait(tasks)
-        await asyncio.to_thread(self._folders.write_index)
+        with contextlib.suppress(OSError):
+            # It only saves time at the next start; a full disk has no room for it.
+            await asyncio.to_thread(self._folders.write_index)
 
     async def _keep_song(self, uploaded: Path) -> SongRecord:
         """Have a song decoded, and give it the name that its format has; its peaks stand beside it.
@@ -816,7 +818,7 @@ def _in_time(score_duration_s: float, song_duration_s: float) -> Alignment:
 
 
 def _write_show(folder: Path, kept: ShowRevision) -> None:
-    write_atomically(folder / SHOW, kept.text.text())
+    write_durably(folder / SHOW, kept.text.text())
 
 
 def _role_of_file(path: Path) -> Role | None:

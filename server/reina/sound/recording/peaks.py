@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import write_durably
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,7 +60,7 @@ def read_peaks(song: Path) -> Peaks | None:
 
 def write_peaks(path: Path, peaks: Peaks) -> None:
     """Keep peaks."""
-    write_atomically(path, _pack(peaks))
+    write_durably(path, _pack(peaks))
 
 
 class PeakMeter:
