@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
@@ -43,6 +44,7 @@ from reina.api.lab.work import lab_pool
 from reina.api.settings import Settings
 from reina.protocol.links import API
 from reina.sessions.stage import Stage
+from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import SessionStore
 from reina.sessions.transcriptions import Transcriptions
 from reina.sound.renderer import SongRenderer
@@ -65,6 +67,7 @@ def create_app(
     settings: Settings | None = None,
     *,
     stage: Stage | None = None,
+    storage: SessionStorage | None = None,
     now: Callable[[], float] = time.monotonic,
 ) -> FastAPI:
     """The server as an ASGI application.
@@ -72,6 +75,7 @@ def create_app(
     Args:
         settings: Where files are and whom it answers; defaults that work in the repository.
         stage: Who plays on what; read from the settings' rigs at the start when None.
+        storage: What keeps the sessions; opened at the start when None.
         now: Server time, seconds; never goes back, and runs as the event loop's clock does.
     """
     chosen = settings or Settings()
@@ -79,14 +83,16 @@ def create_app(
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
         renderer = SongRenderer(chosen.data_dir)
+        kept = storage or await asyncio.to_thread(SessionStorage.open, chosen.data_dir, chosen.database)
         store = SessionStore(
-            chosen.data_dir,
+            kept,
             stage or Stage.load(chosen.rigs_dir),
             renderer,
             now=now,
             song_cache_bytes=chosen.song_cache_bytes,
         )
         await store.prune_songs()
+        store.begin()
         app.state.store = store
         app.state.computing = Turns()
         app.state.lab_pool = lab_pool()

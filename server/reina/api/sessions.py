@@ -11,7 +11,7 @@ from fastapi.responses import StreamingResponse
 from pydantic import ValidationError
 
 from reina.api.cast import cast_of_fields, refuse_twice
-from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.access import Controlled, Doomed, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
@@ -22,6 +22,7 @@ from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
 from reina.sessions.score_text import packed_score
+from reina.sessions.storage.errors import SessionDamagedError
 from reina.sessions.store import Draft
 
 router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
@@ -112,7 +113,7 @@ async def list_sessions(
     ] = None,
 ) -> resources.SessionList:
     """The public sessions, newest first, page by page."""
-    entries, following = store.listed(limit, after)
+    entries, following = await store.listed(limit, after)
     return resources.SessionList(
         sessions=[
             resources.SessionSummary(
@@ -151,9 +152,12 @@ async def change_session(
 
 
 @router.delete("/sessions/{session_id}", status_code=204)
-async def end_session(session: Controlled, store: Store) -> None:
-    """End it, and remove everything of it."""
-    await store.delete(session)
+async def end_session(session: Doomed, store: Store) -> None:
+    """End it, and remove everything of it; one that cannot be read, too."""
+    if isinstance(session, SessionDamagedError):
+        await store.delete_damaged(session)
+    else:
+        await store.delete(session)
 
 
 @router.get("/sessions/{session_id}/score", response_model=resources.Score)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from reina.errors import InputError
@@ -35,6 +35,7 @@ class Settings:
     """Everything that a server is started with; each has a default that works in the repository.
 
     Attributes:
+        database: The address of the database that sessions are kept in; one in the data directory when empty.
         data_dir: Sessions and rendered songs.
         rigs_dir: One folder a rig.
         examples_dir: The bundled pieces.
@@ -46,6 +47,7 @@ class Settings:
         lab: Whether the laboratory is there.
     """
 
+    database: str = field(default_factory=lambda: os.environ.get("REINA_DATABASE", ""))
     data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", "data"))
     rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", "rigs"))
     examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", "examples"))
@@ -54,6 +56,12 @@ class Settings:
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
     lab: bool = True
+
+
+def settings_of(data_dir: Path | None, database: str | None) -> Settings:
+    """The settings with what a command names; None leaves as it is."""
+    named = {"data_dir": data_dir, "database": database}
+    return replace(Settings(), **{name: value for name, value in named.items() if value is not None})
 
 
 def require_page(settings: Settings) -> None:
@@ -76,7 +84,7 @@ def require_writable(data_dir: Path) -> None:
         InputError: They cannot.
     """
     try:
-        data_dir.mkdir(parents=True, exist_ok=True)
+        data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
         with tempfile.TemporaryFile(dir=data_dir):
             pass
     except OSError as error:

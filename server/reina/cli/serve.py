@@ -16,18 +16,21 @@ from typing import TYPE_CHECKING
 import uvicorn
 
 from reina.api.app import create_app
-from reina.api.settings import Settings, require_page, require_writable
+from reina.api.settings import require_page, require_writable, settings_of
 from reina.cli.http_protocol import ProblemProtocol
+from reina.cli.kept import open_storage
 from reina.cli.listening import are_loopback, listen
 from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.stage import Stage
+from reina.sessions.storage.directory_lock import locked
 
 if TYPE_CHECKING:
     import socket
     from collections.abc import Generator, Sequence
 
     from reina.api.http.ending import Ending
+    from reina.api.settings import Settings
 
 HOST = "127.0.0.1"
 PORT = 8000
@@ -57,6 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"port to listen on; 0 picks a free one ({PORT})",
     )
     parser.add_argument("--data-dir", type=Path, default=None, help="where sessions are kept (data)")
+    add_database_argument(parser)
     parser.add_argument(
         "--allow-host",
         action="append",
@@ -82,6 +86,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_database_argument(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that names the database."""
+    parser.add_argument(
+        "--database",
+        default=None,
+        metavar="URL",
+        help="PostgreSQL to keep sessions in, postgresql+psycopg://user:password@host/name (SQLite in the "
+        "data directory)",
+    )
+
+
 def _switch(text: str) -> bool | None:
     """A switch in the environment: 1 or 0; else it is as by default."""
     return {"1": True, "0": False}.get(text.strip())
@@ -92,14 +107,24 @@ def run(arguments: argparse.Namespace) -> int:
 
     What keeps the server from starting is told in a line on standard error, with status 1.
     """
+    # What is written is for nobody else to read.
+    os.umask(0o077)
+    with contextlib.ExitStack() as held:
+        return _run(arguments, held)
+
+
+def _run(arguments: argparse.Namespace, held: contextlib.ExitStack) -> int:
     try:
         settings = _settings(arguments)
         if not arguments.no_page:
             require_page(settings)
         require_writable(settings.data_dir)
+        held.enter_context(locked(settings.data_dir))
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
         settings = replace(settings, lab=are_loopback(sockets) if arguments.lab is None else arguments.lab)
+        storage = open_storage(settings)
+        held.callback(storage.close)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
@@ -107,7 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
-    app = create_app(settings, stage=stage)
+    app = create_app(settings, stage=stage, storage=storage)
     server = Server(
         uvicorn.Config(
             app,
@@ -139,9 +164,7 @@ def share_interpreter() -> None:
 
 
 def _settings(arguments: argparse.Namespace) -> Settings:
-    settings = Settings()
-    if arguments.data_dir is not None:
-        settings = replace(settings, data_dir=arguments.data_dir)
+    settings = settings_of(arguments.data_dir, arguments.database)
     hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}
     if arguments.host not in EVERY_ADDRESS:
         hosts.add(arguments.host.lower())

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-import shutil
 import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 from tests.integration.scores import duet, scale, song
+from tests.kept import kept, sql
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.protocol.transport import Pause, Play, Seek
-from reina.sessions.folders import SessionFolders
 from reina.sessions.stage import Stage
+from reina.sessions.storage.errors import SessionDamagedError
+from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import Draft, SessionEndedError, SessionStore
 from reina.show import Show
 from reina.sound.renderer import SongRenderer
@@ -117,17 +118,17 @@ def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     writing = threading.Event()
-    write = SessionFolders.write_record
+    write = SessionStorage.change
 
-    def slowly(folders: SessionFolders, record: SessionRecord) -> None:
+    def slowly(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
         writing.wait(5)
-        write(folders, record)
+        return write(storage, record)
 
     async def scenario() -> None:
         desk = Desk(tmp_path, stage, loaded=1)
         first = await desk.create(scale(8))
         first.control(Seek(action="seek", song_time_s=0.75))
-        monkeypatch.setattr(SessionFolders, "write_record", slowly)
+        monkeypatch.setattr(SessionStorage, "change", slowly)
         await desk.create(scale(4))
         asking = asyncio.create_task(desk.get(first.id))
         await asyncio.sleep(0.05)
@@ -176,7 +177,7 @@ def test_an_ended_session_is_gone_from_disk(tmp_path: Path, stage: Stage) -> Non
         assert await desk.store.get(session.id) is None
 
     run(scenario)
-    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+    assert kept(tmp_path) == []
 
 
 def test_whoever_comes_too_late_to_end_or_change_a_session_is_told_so(tmp_path: Path, stage: Stage) -> None:
@@ -203,7 +204,7 @@ def test_a_session_ended_while_it_is_read_does_not_come_back(tmp_path: Path, sta
         desk = Desk(tmp_path, stage)
         asked = asyncio.create_task(desk.store.get(made.id))
         await asyncio.sleep(0)
-        shutil.rmtree(tmp_path / "sessions" / made.id)
+        await asyncio.to_thread(desk.store.storage.remove, made.id)
         assert await asked is None
         assert desk.store.loaded == 0
 
@@ -227,9 +228,14 @@ def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage
         desk = Desk(tmp_path, stage)
         whole = await desk.create(scale(4), public=True)
         damaged = await desk.create(scale(4), public=True)
-        (tmp_path / "sessions" / damaged.id / "session.json").write_text("{")
-        entries, following = Desk(tmp_path, stage).store.listed(10)
-        assert [entry.id for entry in entries] == [whole.id]
+        sql(tmp_path, "UPDATE sessions SET record = '{' WHERE id = ?", damaged.id)
+        again = Desk(tmp_path, stage)
+        entries, following = await again.store.listed(10)
+        assert {entry.id for entry in entries} == {whole.id, damaged.id}
         assert following is None
+        for _ in range(2):
+            with pytest.raises(SessionDamagedError, match=f"{damaged.id!r} is kept and cannot be read"):
+                await again.store.get(damaged.id)
+        assert (await again.get(whole.id)).record == whole.record
 
     run(scenario)

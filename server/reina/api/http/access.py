@@ -9,6 +9,7 @@ from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from reina.api.http.problems import ProblemError
 from reina.api.settings import Settings
 from reina.sessions.session import Session
+from reina.sessions.storage.errors import SessionDamagedError
 from reina.sessions.store import SessionStore
 from reina.system.tokens import token_matches
 
@@ -56,6 +57,11 @@ Watched = Annotated[Session, Depends(_watched)]
 async def _controlled(
     session: Watched, credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(_bearer)]
 ) -> Session:
+    _require_token(session.record.token_sha256, credentials)
+    return session
+
+
+def _require_token(token_sha256: str, credentials: HTTPAuthorizationCredentials | None) -> None:
     if credentials is None:
         raise ProblemError(
             401,
@@ -64,18 +70,34 @@ async def _controlled(
             "send `Authorization: Bearer <control_token>`; the token was told when the session was made",
             headers={"WWW-Authenticate": "Bearer"},
         )
-    if not token_matches(session.record.token_sha256, credentials.credentials):
+    if not token_matches(token_sha256, credentials.credentials):
         raise ProblemError(
             403,
             "wrong-token",
             "This is not the session's control token",
             "the token is another session's or mistyped",
         )
-    return session
 
 
 Controlled = Annotated[Session, Depends(_controlled)]
 """The session of the path, for who has its control token."""
+
+
+async def _doomed(
+    session_id: SessionId,
+    store: Store,
+    credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(_bearer)],
+) -> Session | SessionDamagedError:
+    try:
+        session = await _watched(session_id, store)
+    except SessionDamagedError as damaged:
+        _require_token(damaged.token_sha256, credentials)
+        return damaged
+    return await _controlled(session, credentials)
+
+
+Doomed = Annotated[Session | SessionDamagedError, Depends(_doomed)]
+"""The session of the path, to be ended by who has its control token, whether it can be read or not."""
 
 
 async def admit(request: Request, dependant: Dependant) -> None:

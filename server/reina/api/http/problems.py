@@ -15,6 +15,8 @@ from reina.errors import InputError
 from reina.instruments import CastError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
+from reina.sessions.storage.errors import DatabaseError, SessionDamagedError
+from reina.sessions.storage.file_store import StoreFullError
 from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
@@ -34,6 +36,8 @@ LONGEST_DETAIL = 2000
 """Characters of what was wrong; what was sent is repeated in part at most."""
 LONGEST_LOCATION = 100
 LONGEST_FAULT = 300
+RETRY_AFTER_S = "5"
+"""When what is away for the moment may be asked again, s."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 """What an address may answer to of itself."""
 
@@ -125,6 +129,9 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (ShowError, 422, "show-unusable", "The show cannot be used"),
     (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
     (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
+    (SessionDamagedError, 409, "session-damaged", "The session cannot be read"),
+    (DatabaseError, 503, "database-away", "The sessions' database does not answer"),
+    (StoreFullError, 507, "no-room", "The server has no room"),
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )
 """What an input error is told as: the first row that fits."""
@@ -142,7 +149,8 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
     detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
-    return ProblemError(status, kind, title, detail, errors=faults)
+    later = {"Retry-After": RETRY_AFTER_S} if isinstance(error, DatabaseError) else None
+    return ProblemError(status, kind, title, detail, errors=faults, headers=later)
 
 
 def _location(parts: Sequence[str | int]) -> str:
