@@ -24,7 +24,7 @@ serve: setup ## Start Reina and print its address
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
 
-test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
+test: setup .venv/.dev .venv/.browser .venv/.servers ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
@@ -93,6 +93,10 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 
 .venv/.browser: .venv/.dev
 	$(BIN)/python tests/e2e/find_browser.py --install
+	@touch $@
+
+.venv/.servers: .venv/.dev tests/servers/find_servers.py
+	$(BIN)/python tests/servers/find_servers.py --install
 	@touch $@
 
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)

@@ -7,6 +7,7 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Any
 
 from reina.sessions.storage.database import FILE
+from reina.sessions.storage.directory_lock import LOCK
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,8 +20,12 @@ def sql(data_dir: Path, statement: str, *values: Any) -> list[tuple[Any, ...]]:
 
 
 def kept(data_dir: Path) -> list[str]:
-    """Everything that is kept: files that are not the database's, and sessions in it."""
-    files = [path for path in data_dir.rglob("*") if path.is_file() and not path.name.startswith(FILE)]
+    """Everything that is kept: files that are not the database's or the lock, and sessions in it."""
+    files = [
+        path
+        for path in data_dir.rglob("*")
+        if path.is_file() and not path.name.startswith(FILE) and path.name != LOCK
+    ]
     rows = [f"session {row[0]}" for row in sql(data_dir, "SELECT id FROM sessions")]
     for table in ("session_files", "alignments", "show_states", "show_objects"):
         rows += [f"{table} of {row[0]}" for row in sql(data_dir, f"SELECT session_id FROM {table}")]

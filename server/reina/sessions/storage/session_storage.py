@@ -23,9 +23,10 @@ from reina.sessions.storage.schema import ALIGNMENTS, SESSION_FILES, SESSIONS
 from reina.sessions.storage.show_pieces import ShowUnreadableError, show_text, state_of, state_of_text
 from reina.sessions.storage.show_rows import (
     KeptShow,
+    Moved,
     add_show,
     append_state,
-    move_by,
+    moved_by,
     read_show,
     read_state,
 )
@@ -257,16 +258,17 @@ class SessionStorage:
         with self._files.keep(staged or {}) as kept:
             record = with_files(record, kept)
             with self._database.writing() as connection:
-                found = connection.execute(
-                    update(SESSIONS).where(SESSIONS.c.id == record.id).values(**_columns(record))
-                )
-                if not found.rowcount:
+                columns = _columns(record)
+                if show is not None:
+                    moved = _write_show(connection, record, show.before, show.after)
+                    columns["show_state"] = moved.number
+                    columns["show_bytes"] = SESSIONS.c.show_bytes + moved.more_bytes
+                row = update(SESSIONS).where(SESSIONS.c.id == record.id).values(**columns)
+                if not connection.execute(row).rowcount:
                     raise SessionGoneError(f"the session {record.id!r} was ended meanwhile")
                 if kept:
                     connection.execute(delete(SESSION_FILES).where(SESSION_FILES.c.session_id == record.id))
                     _name_files(connection, record)
-                if show is not None:
-                    _write_show(connection, record, show.before, show.after)
                 if alignment != UNCHANGED:
                     _write_alignment(connection, record.id, alignment)
         if replaced:
@@ -430,15 +432,16 @@ def _name_files(connection: Connection, record: SessionRecord) -> None:
 
 def _write_show(
     connection: Connection, record: SessionRecord, before: ShowRevision, after: ShowRevision
-) -> None:
+) -> Moved:
     try:
         steps = after.steps_from(before)
         if steps:
-            move_by(connection, record.id, steps)
-        else:
-            state, tracks = state_of(after.text)
-            weight = after.weights[-1] if after.weights else 0
-            append_state(connection, record.id, state, tracks, weight=weight, kept=after.done)
+            return moved_by(connection, record.id, steps)
+        state, tracks = state_of(after.text)
+        weight, is_last = after.weights[-1] if after.weights else 0, not before.undone
+        return append_state(
+            connection, record.id, state, tracks, weight=weight, kept=after.done, is_last=is_last
+        )
     except ShowUnreadableError as error:
         raise SessionDamagedError(record.id, _why(error), record.token_sha256) from error
 

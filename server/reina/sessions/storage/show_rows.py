@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from sqlalchemy import delete, func, insert, select, update
 
+from reina.sessions.storage.errors import SessionGoneError
 from reina.sessions.storage.schema import SESSIONS, SHOW_OBJECTS, SHOW_STATES
 from reina.sessions.storage.show_pieces import (
     LIST,
@@ -30,6 +31,17 @@ if TYPE_CHECKING:
 
 AT_ONCE = 500
 """So many digests are asked for in one statement."""
+
+
+MISSING_STATE = "a state of its show is missing"
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Where a show has come to: the number of the state, and how many bytes it all takes more."""
+
+    number: int
+    more_bytes: int
 
 
 @dataclass(frozen=True)
@@ -64,7 +76,8 @@ def append_state(
     *,
     weight: int,
     kept: int,
-) -> None:
+    is_last: bool,
+) -> Moved:
     """Keep what an edit made of a show, forget what was taken back, and what is too old.
 
     Args:
@@ -74,12 +87,16 @@ def append_state(
         tracks: Its tracks, by digest.
         weight: What the step weighs.
         kept: How many states before it are kept.
+        is_last: Whether nothing was taken back before.
     """
-    present = _present(connection, session_id, to_write=True)
-    number, oldest = present + 1, present + 1 - kept
-    freed = _forget(connection, session_id, SHOW_STATES.c.number > present, SHOW_OBJECTS.c["first"] > present)
-    before = _objects_of(connection, session_id, _state(connection, session_id, present), tracks)
-    if freed:
+    present, oldest, content = _present(connection, session_id)
+    number = present + 1
+    before = _objects_of(connection, session_id, StoredState.read(content), tracks)
+    freed = 0
+    if not is_last:
+        freed = _forget(
+            connection, session_id, SHOW_STATES.c.number > present, SHOW_OBJECTS.c["first"] > present
+        )
         # What the present state had in common with what was taken back is the newest's again.
         _set_last(connection, session_id, None, SHOW_OBJECTS.c["last"] >= present)
         before |= _digests(connection, session_id, SHOW_OBJECTS.c["last"].is_(None))
@@ -87,15 +104,17 @@ def append_state(
     for some in _some(before - after):
         _set_last(connection, session_id, present, SHOW_OBJECTS.c.digest.in_(some))
     added = _insert_state(connection, session_id, number, weight, state, tracks, known=before)
-    old = _forget(connection, session_id, SHOW_STATES.c.number < oldest, SHOW_OBJECTS.c["last"] < oldest)
-    _move(connection, session_id, number, added - freed - old)
+    if oldest < number - kept:
+        too_old = SHOW_STATES.c.number < number - kept, SHOW_OBJECTS.c["last"] < number - kept
+        freed += _forget(connection, session_id, *too_old)
+    return Moved(number, added - freed)
 
 
-def move_by(connection: Connection, session_id: str, steps: int) -> None:
+def moved_by(connection: Connection, session_id: str, steps: int) -> Moved:
     """Walk to another state that is kept: -1 takes the last edit back, 1 does it again."""
-    number = _present(connection, session_id, to_write=True) + steps
-    _state(connection, session_id, number)
-    _move(connection, session_id, number, 0)
+    present, _, _ = _present(connection, session_id)
+    _state(connection, session_id, present + steps)
+    return Moved(present + steps, 0)
 
 
 def read_show(connection: Connection, session_id: str) -> KeptShow:
@@ -104,7 +123,7 @@ def read_show(connection: Connection, session_id: str) -> KeptShow:
     Raises:
         ShowUnreadableError: It is damaged.
     """
-    present = _present(connection, session_id)
+    present = _number(connection, session_id)
     rows = connection.execute(
         select(SHOW_STATES.c.number, SHOW_STATES.c.weight)
         .where(SHOW_STATES.c.session_id == session_id)
@@ -112,7 +131,7 @@ def read_show(connection: Connection, session_id: str) -> KeptShow:
     ).all()
     numbers = [number for number, _ in rows]
     if present not in numbers or numbers != list(range(numbers[0], numbers[-1] + 1)):
-        raise ShowUnreadableError("a state of its show is missing")
+        raise ShowUnreadableError(MISSING_STATE)
     state = _state(connection, session_id, present)
     texts = track_texts(state.tracks, _fetching(connection, session_id))
     return KeptShow(
@@ -140,26 +159,36 @@ def read_state(
     Raises:
         ShowUnreadableError: It is damaged.
     """
-    state = _state(connection, session_id, _present(connection, session_id) + steps)
+    state = _state(connection, session_id, _number(connection, session_id) + steps)
     wanted = [digest for digest in state.tracks if digest not in known]
     return state, track_texts(wanted, _fetching(connection, session_id))
 
 
-def _present(connection: Connection, session_id: str, *, to_write: bool = False) -> int:
+def _present(connection: Connection, session_id: str) -> tuple[int, int, bytes]:
+    """The number of the present state, to be followed by another, that of the oldest, and the present one.
+
+    Raises:
+        SessionGoneError: There is no such session.
+        ShowUnreadableError: There is no such state.
+    """
     # Whoever writes next waits: its state is numbered by this one.
-    asked = select(SESSIONS.c.show_state).where(SESSIONS.c.id == session_id)
-    number = connection.execute(asked.with_for_update() if to_write else asked).scalar()
+    asked = select(SESSIONS.c.show_state).where(SESSIONS.c.id == session_id).with_for_update()
+    number = connection.execute(asked).scalar()
     if number is None:
-        raise ShowUnreadableError("there is no such session")
-    return int(number)
+        raise SessionGoneError(f"the session {session_id!r} was ended meanwhile")
+    of_session = SHOW_STATES.c.session_id == session_id
+    oldest = select(func.min(SHOW_STATES.c.number)).where(of_session).scalar_subquery()
+    row = connection.execute(
+        select(oldest, SHOW_STATES.c.content).where(of_session, SHOW_STATES.c.number == number)
+    ).first()
+    if row is None:
+        raise ShowUnreadableError(MISSING_STATE)
+    return number, row[0], row[1]
 
 
-def _move(connection: Connection, session_id: str, number: int, bytes_more: int) -> None:
-    connection.execute(
-        update(SESSIONS)
-        .where(SESSIONS.c.id == session_id)
-        .values(show_state=number, show_bytes=SESSIONS.c.show_bytes + bytes_more)
-    )
+def _number(connection: Connection, session_id: str) -> int:
+    number = connection.execute(select(SESSIONS.c.show_state).where(SESSIONS.c.id == session_id)).scalar()
+    return -1 if number is None else number
 
 
 def _state(connection: Connection, session_id: str, number: int) -> StoredState:
@@ -169,7 +198,7 @@ def _state(connection: Connection, session_id: str, number: int) -> StoredState:
         )
     ).scalar()
     if content is None:
-        raise ShowUnreadableError("a state of its show is missing")
+        raise ShowUnreadableError(MISSING_STATE)
     return StoredState.read(content)
 
 

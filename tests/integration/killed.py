@@ -1,0 +1,92 @@
+"""Servers that are killed while they write, and what they had acknowledged by then."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from typing import TYPE_CHECKING, Any
+
+import httpx
+from tests.integration.scores import scale, show, song
+from tests.integration.server import PATIENCE_S, Owned, Running, serve, upload
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+LIGHT = "lights/key/intensity"
+
+
+def options(database: str) -> list[str]:
+    return ["--no-page", *(["--database", database] if database else [])]
+
+
+def client_of(server: Running) -> httpx.Client:
+    return httpx.Client(base_url=server.address, timeout=PATIENCE_S)
+
+
+def with_client(session: Owned, client: httpx.Client) -> Owned:
+    return Owned(client, session.body)
+
+
+def move_light(session: Owned, value: float) -> httpx.Response:
+    track = {"keyframes": [{"time": 0, "value": value}]}
+    return session.change("PUT", f"/show/tracks/{LIGHT}", json=track)
+
+
+def light(session: Owned) -> float:
+    answer = session.client.get(f"{session.path}/show/tracks/{LIGHT}")
+    assert answer.status_code == 200, answer.text
+    value: float = answer.json()["keyframes"][0]["value"]
+    return value
+
+
+class Writer(threading.Thread):
+    """Makes sessions and edits them until the server is gone, and knows what was acknowledged."""
+
+    def __init__(self, address: str) -> None:
+        super().__init__()
+        self._address = address
+        self.acknowledged: dict[str, tuple[dict[str, Any], float, float]] = {}
+        """Session -> what it was told as, the last value that was acknowledged, the last that was sent."""
+        self.writes = 0
+        """How many writes were acknowledged."""
+
+    def run(self) -> None:
+        try:
+            with httpx.Client(base_url=self._address, timeout=PATIENCE_S) as client:
+                while True:
+                    session = upload(client, scale(4), song=("s.wav", song(0.1)), show=("s.json", show(0.0)))
+                    self.acknowledged[session.id] = session.body, 0.0, 0.0
+                    self.writes += 1
+                    for value in (0.5, 1.0, 1.5):
+                        body, done, _ = self.acknowledged[session.id]
+                        self.acknowledged[session.id] = body, done, value
+                        assert move_light(session, value).status_code == 200
+                        self.acknowledged[session.id] = body, value, value
+                        self.writes += 1
+        except httpx.HTTPError:
+            pass
+
+
+def kill_in_the_middle(data_dir: Path, arguments: list[str], after_s: float) -> Writer:
+    """Have a server killed while it writes; returns what it had acknowledged."""
+    with serve(data_dir, *arguments) as server:
+        writer = Writer(server.address)
+        writer.start()
+        time.sleep(after_s)
+        server.process.send_signal(signal.SIGKILL)
+        writer.join(PATIENCE_S)
+        server.process.wait(PATIENCE_S)
+    return writer
+
+
+def check_acknowledged(client: httpx.Client, writer: Writer) -> None:
+    """See that what was acknowledged is there."""
+    for body, done, sent in writer.acknowledged.values():
+        session = Owned(client, body)
+        answer = client.get(session.path)
+        assert answer.status_code == 200, answer.text
+        assert light(session) in {done, sent}
+        assert client.get(f"{session.path}/song").content == song(0.1)
+        assert client.get(f"{session.path}/score/file").content == scale(4)
