@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import signal
 import threading
 import time
@@ -51,30 +52,42 @@ class Writer(threading.Thread):
         """Session -> what it was told as, the last value that was acknowledged, the last that was sent."""
         self.writes = 0
         """How many writes were acknowledged."""
+        self._acknowledging = threading.Condition()
 
     def run(self) -> None:
         try:
             with httpx.Client(base_url=self._address, timeout=PATIENCE_S) as client:
                 while True:
                     session = upload(client, scale(4), song=("s.wav", song(0.1)), show=("s.json", show(0.0)))
-                    self.acknowledged[session.id] = session.body, 0.0, 0.0
-                    self.writes += 1
+                    self._acknowledge(session, 0.0)
                     for value in (0.5, 1.0, 1.5):
                         body, done, _ = self.acknowledged[session.id]
                         self.acknowledged[session.id] = body, done, value
                         assert move_light(session, value).status_code == 200
-                        self.acknowledged[session.id] = body, value, value
-                        self.writes += 1
+                        self._acknowledge(session, value)
         except httpx.HTTPError:
             pass
 
+    def wait_for(self, writes: int) -> None:
+        """Wait until so many writes are acknowledged."""
+        with self._acknowledging:
+            assert self._acknowledging.wait_for(lambda: self.writes >= writes, PATIENCE_S)
 
-def kill_in_the_middle(data_dir: Path, arguments: list[str], after_s: float) -> Writer:
-    """Have a server killed while it writes; returns what it had acknowledged."""
+    def _acknowledge(self, session: Owned, value: float) -> None:
+        with self._acknowledging:
+            self.acknowledged[session.id] = session.body, value, value
+            self.writes += 1
+            self._acknowledging.notify_all()
+
+
+def kill_in_the_middle(data_dir: Path, arguments: list[str], chance: random.Random) -> Writer:
+    """Have a server killed while it writes; returns what it had acknowledged: a few writes at least."""
     with serve(data_dir, *arguments) as server:
         writer = Writer(server.address)
         writer.start()
-        time.sleep(after_s)
+        writer.wait_for(chance.randrange(1, 6))
+        # Anywhere within the next write.
+        time.sleep(chance.uniform(0.0, 0.2))
         server.process.send_signal(signal.SIGKILL)
         writer.join(PATIENCE_S)
         server.process.wait(PATIENCE_S)

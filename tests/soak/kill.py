@@ -36,7 +36,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder, running as server:
         started = options(server.database() if server else "")
         for kill in range(1, arguments.kills + 1):
-            writer = kill_in_the_middle(Path(folder), started, chance.uniform(0.0, 1.5))
+            writer = kill_in_the_middle(Path(folder), started, chance)
             with serve(Path(folder), *started) as again, client_of(again) as client:
                 check_acknowledged(client, writer)
                 for body, *_ in writer.acknowledged.values():
