@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import signal
 import threading
 import time
@@ -13,6 +12,7 @@ from tests.integration.scores import scale, show, song
 from tests.integration.server import PATIENCE_S, Owned, Running, serve, upload
 
 if TYPE_CHECKING:
+    import random
     from pathlib import Path
 
 LIGHT = "lights/key/intensity"

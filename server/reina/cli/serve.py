@@ -107,9 +107,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     What keeps the server from starting is told in a line on standard error, with status 1.
     """
-    # What is written is for nobody else to read.
-    os.umask(0o077)
     with contextlib.ExitStack() as held:
+        # What is written is for nobody else to read.
+        held.callback(os.umask, os.umask(0o077))
         return _run(arguments, held)
 
 

@@ -130,7 +130,7 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
     (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
     (SessionDamagedError, 409, "session-damaged", "The session cannot be read"),
-    (DatabaseError, 503, "database-away", "The sessions' database does not answer"),
+    (DatabaseError, 503, "database-away", "The sessions' database cannot be used now"),
     (StoreFullError, 507, "no-room", "The server has no room"),
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )
