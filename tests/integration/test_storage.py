@@ -75,42 +75,50 @@ def running(tmp_path: Path) -> Iterator[tuple[Running, httpx.Client, Path]]:
     assert "Traceback" not in log.read_text()
 
 
-@pytest.mark.parametrize("what", ["record", "copy", "show", "score"])
-def test_a_damaged_session_is_one_problem_and_can_be_ended(tmp_path: Path, what: str) -> None:
-    data_dir, log = tmp_path / "data", tmp_path / "log"
-    with serve(data_dir, "--no-page") as server, client_of(server) as client:
-        damaged = upload(client, scale(4), song=("s.wav", song()), public="true", title="Damaged")
-        whole = upload(client, scale(5), song=("s.wav", song()), public="true", title="Whole")
-        server.stop()
+def damage(data_dir: Path, what: str, damaged: str, whole: str) -> None:
+    """Damage a session that is not loaded."""
     match what:
         case "record":
-            sql(data_dir, "UPDATE sessions SET record = '{}' WHERE id = ?", damaged.id)
+            sql(data_dir, "UPDATE sessions SET record = '{}' WHERE id = ?", damaged)
         case "copy":
             copied = "(SELECT record FROM sessions WHERE id = ?)"
-            sql(data_dir, f"UPDATE sessions SET record = {copied} WHERE id = ?", whole.id, damaged.id)
+            sql(data_dir, f"UPDATE sessions SET record = {copied} WHERE id = ?", whole, damaged)
         case "show":
-            sql(data_dir, "DELETE FROM show_objects WHERE session_id = ?", damaged.id)
+            sql(data_dir, "DELETE FROM show_objects WHERE session_id = ?", damaged)
         case _:
-            (row,) = sql(
-                data_dir,
-                "SELECT digest FROM session_files WHERE session_id = ? AND name = 'score'",
-                damaged.id,
-            )
+            asked = "SELECT digest FROM session_files WHERE session_id = ? AND name = 'score'"
+            (row,) = sql(data_dir, asked, damaged)
             next(path for path in data_dir.rglob(f"*{row[0][-60:]}*") if path.is_file()).unlink()
+
+
+def test_a_damaged_session_is_one_problem_and_can_be_ended(tmp_path: Path) -> None:
+    data_dir, log = tmp_path / "data", tmp_path / "log"
+    ways = ["record", "copy", "show", "score"]
+    with serve(data_dir, "--no-page") as server, client_of(server) as client:
+        whole = upload(client, scale(3), song=("s.wav", song()), public="true", title="Whole")
+        damaged = [
+            upload(client, scale(4 + at), song=("s.wav", song()), public="true", title=way)
+            for at, way in enumerate(ways)
+        ]
+        server.stop()
+    for way, session in zip(ways, damaged, strict=True):
+        damage(data_dir, way, session.id, whole.id)
     with serve(data_dir, "--no-page", log=log) as server, client_of(server) as client:
-        damaged, whole = with_client(damaged, client), with_client(whole, client)
-        for path in ("", "/song", "/score", "/show", "/transport"):
-            answer = client.get(f"{damaged.path}{path}")
-            assert (answer.status_code, answer.json()["type"]) == (409, "urn:reina:problem:session-damaged")
-            assert damaged.id in answer.json()["detail"]
-        assert damaged.change("PATCH", json={"title": "x"}).status_code == 409
+        whole = with_client(whole, client)
         listed = client.get("/api/v1/sessions").json()["sessions"]
-        assert {session["title"] for session in listed} == {"Damaged", "Whole"}
+        assert {session["title"] for session in listed} == {"Whole", *ways}
+        for session in (with_client(each, client) for each in damaged):
+            for path in ("", "/song", "/score", "/show", "/transport"):
+                answer = client.get(f"{session.path}{path}")
+                problem = answer.status_code, answer.json()["type"]
+                assert problem == (409, "urn:reina:problem:session-damaged")
+                assert session.id in answer.json()["detail"]
+            assert session.change("PATCH", json={"title": "x"}).status_code == 409
+            assert client.delete(session.path).status_code == 401
+            assert client.delete(session.path, headers=whole.headers).status_code == 403
+            assert session.change("DELETE").status_code == 204
+            assert client.get(session.path).status_code == 404
         assert client.get(whole.path).json()["title"] == "Whole"
-        assert client.delete(damaged.path).status_code == 401
-        assert client.delete(damaged.path, headers=whole.headers).status_code == 403
-        assert damaged.change("DELETE").status_code == 204
-        assert client.get(damaged.path).status_code == 404
         assert whole.change("DELETE").status_code == 204
         assert server.stop() == 0
     assert "Traceback" not in log.read_text()

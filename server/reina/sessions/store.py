@@ -551,7 +551,7 @@ class SessionStore:
         alignment: Alignment | None,
         token_sha256: str,
     ) -> _Read:
-        kept = ShowRevision.begin(production.show)
+        kept, notes = ShowRevision.begin(production.show), note_messages(production)
         record = SessionRecord(
             id=new_id(),
             title=draft.title or production.score.title,
@@ -568,7 +568,7 @@ class SessionStore:
             files = {name: draft.folder / name for name in names if name is not None}
             staged |= {name: file for name, file in files.items() if file.is_file()}
         record = self.storage.add(record, staged, kept.text, alignment, sender=draft.sender)
-        return _Read(record, production, kept, note_messages(production), alignment, self._song_path(record))
+        return _Read(record, production, kept, notes, alignment, self._song_path(record))
 
     def _song_path(self, record: SessionRecord) -> Path | None:
         return None if record.song is None else self.storage.file(record, record.song.file)

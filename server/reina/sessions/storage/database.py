@@ -7,6 +7,7 @@ import sqlite3
 import threading
 from contextlib import contextmanager
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from alembic import command
@@ -21,7 +22,6 @@ from reina.sessions.storage.file_store import StoreFullError
 
 if TYPE_CHECKING:
     from collections.abc import Generator
-    from pathlib import Path
 
     from sqlalchemy import Connection, Engine
 
@@ -169,12 +169,19 @@ class Database:
 
 def _embedded(url: URL) -> Engine:
     # Made here, for nobody else to read; what SQLite puts beside it has the same mode.
+    path = Path(str(url.database))
     try:
-        handle = os.open(str(url.database), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
         try:
             os.fchmod(handle, 0o600)
         finally:
             os.close(handle)
+        folder = os.open(path.parent, os.O_RDONLY | os.O_CLOEXEC)
+        try:
+            # That it is there survives a power cut, too.
+            os.fsync(folder)
+        finally:
+            os.close(folder)
     except OSError as error:
         raise DatabaseError(f"the database {url.database} cannot be opened: {error.strerror}") from error
     engine = create_engine(url, connect_args={"timeout": PATIENCE_S}, pool_timeout=PATIENCE_S)
