@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 LIGHT = "lights/key/intensity"
+LONGEST_S = 120.0
+"""A write that is not answered by then will not be."""
 
 
 def options(database: str) -> list[str]:
@@ -56,7 +58,7 @@ class Writer(threading.Thread):
 
     def run(self) -> None:
         try:
-            with httpx.Client(base_url=self._address, timeout=PATIENCE_S) as client:
+            with httpx.Client(base_url=self._address, timeout=LONGEST_S) as client:
                 while True:
                     session = upload(client, scale(4), song=("s.wav", song(0.1)), show=("s.json", show(0.0)))
                     self._acknowledge(session, 0.0)
@@ -71,7 +73,7 @@ class Writer(threading.Thread):
     def wait_for(self, writes: int) -> None:
         """Wait until so many writes are acknowledged."""
         with self._acknowledging:
-            assert self._acknowledging.wait_for(lambda: self.writes >= writes, PATIENCE_S)
+            assert self._acknowledging.wait_for(lambda: self.writes >= writes, LONGEST_S)
 
     def _acknowledge(self, session: Owned, value: float) -> None:
         with self._acknowledging:
@@ -89,7 +91,7 @@ def kill_in_the_middle(data_dir: Path, arguments: list[str], chance: random.Rand
         # Anywhere within the next write.
         time.sleep(chance.uniform(0.0, 0.2))
         server.process.send_signal(signal.SIGKILL)
-        writer.join(PATIENCE_S)
+        writer.join(LONGEST_S)
         server.process.wait(PATIENCE_S)
     return writer
 
