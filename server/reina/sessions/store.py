@@ -9,7 +9,7 @@ import shutil
 from collections import OrderedDict
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field, replace
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from reina.errors import InputError
@@ -854,7 +854,7 @@ def _in_time(score_duration_s: float, song_duration_s: float) -> Alignment:
 
 def _peaks_name(song: SongRecord) -> str:
     """What a session calls the peaks of its recording."""
-    return peaks_path(PurePath(song.file).with_stem("song")).name
+    return peaks_path(Path(song.file).with_stem("song")).name
 
 
 async def _to_the_end(work: Coroutine[Any, Any, T]) -> T:

@@ -183,7 +183,7 @@ def test_a_newer_schema_is_refused(tmp_path: Path, database: str) -> None:
 def test_several_servers_may_start_at_the_same_time(tmp_path: Path, postgresql_server: PostgreSQL) -> None:
     url = postgresql_server.database()
     with ThreadPoolExecutor(4) as threads:
-        opened = list(threads.map(lambda _: Database(database_url(tmp_path, url)), range(4)))
+        opened = list(threads.map(Database, [database_url(tmp_path, url)] * 4))
     for each in opened:
         each.close()
     assert postgresql_server.sql(url, "SELECT count(*) FROM alembic_version").strip() == "1"
@@ -579,7 +579,7 @@ def test_what_is_no_database_is_told(tmp_path: Path) -> None:
 
 
 def test_without_the_driver_its_extra_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reina.sessions.storage.database.find_spec", lambda _: None)
+    monkeypatch.setattr("reina.sessions.storage.database.find_spec", {}.get)
     with pytest.raises(DatabaseError, match=r'pip install "reina\[postgres\]"'):
         database_url(tmp_path, "postgresql://host/name")
 
@@ -613,9 +613,12 @@ def test_a_database_that_is_away_is_told_and_used_again_when_it_is_back(tmp_path
 
 
 def test_what_is_written_by_many_at_once_is_all_there(keeper: Keeper) -> None:
+    def add(number: int) -> SessionRecord:
+        return keeper.add(record(), score=b"%d" % (number % 3))
+
     with ThreadPoolExecutor(8) as threads:
-        made = list(threads.map(lambda at: keeper.add(record(), score=b"%d" % (at % 3)), range(24)))
-        threads.map(lambda each: keeper.storage.remove(each.id), made[:12])
+        made = list(threads.map(add, range(24)))
+        list(threads.map(keeper.storage.remove, [each.id for each in made[:12]]))
     assert keeper.storage.usage().sessions == 12
     for each in made[12:]:
         assert keeper.storage.file(each, "score").is_file()

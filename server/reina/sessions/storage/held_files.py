@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections import Counter
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from reina.errors import InputError
 from reina.sessions.record import FileRecord
 
 if TYPE_CHECKING:
@@ -14,6 +16,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from reina.sessions.storage.file_store import FileStore
+
+_log = logging.getLogger(__name__)
 
 
 class HeldFiles:
@@ -43,19 +47,24 @@ class HeldFiles:
             StoreFullError: There is no room.
         """
         kept: list[FileRecord] = []
+        unnamed: set[str] = set()
         try:
             for name, file in staged.items():
                 kept.append(self._keep(name, file))
             yield tuple(kept)
+        except BaseException:
+            unnamed = {file.digest for file in kept}
+            raise
         finally:
             with self._looking:
                 self._held.subtract(file.digest for file in kept)
-            self.remove_unnamed({file.digest for file in kept})
+            if unnamed or self._doubtful:
+                self.remove_unnamed(unnamed)
 
     def remove_unnamed(self, digests: set[str]) -> int:
         """Remove those files that no session names; returns how many these were.
 
-        What somebody may be about to name is looked at again later.
+        What somebody may be about to name, or cannot be told or removed now, is looked at again later.
         """
         removed = 0
         with self._looking:
@@ -66,9 +75,14 @@ class HeldFiles:
                 if self._keeping:
                     # It may be the one that is just being kept.
                     self._doubtful.add(digest)
-                elif self._held[digest] <= 0 and not self._is_named(digest):
-                    self._files.remove(digest)
-                    removed += 1
+                    continue
+                try:
+                    if self._held[digest] <= 0 and not self._is_named(digest):
+                        self._files.remove(digest)
+                        removed += 1
+                except (InputError, OSError) as error:
+                    self._doubtful.add(digest)
+                    _log.warning("the file %s is left for now: %s", digest, error)
         return removed
 
     def _keep(self, name: str, file: Path) -> FileRecord:

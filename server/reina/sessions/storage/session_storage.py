@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
     from pathlib import Path
 
-    from sqlalchemy import Connection, Row
+    from sqlalchemy import Connection
 
     from reina.sessions.show_revision import ShowRevision
     from reina.sessions.show_text import ShowText
@@ -122,19 +122,20 @@ class SessionStorage:
             folder.chmod(0o700)
 
     @classmethod
-    def open(cls, data_dir: Path, database: str = "") -> SessionStorage:
+    def open(cls, data_dir: Path, database: str = "", files: FileStore | None = None) -> SessionStorage:
         """Open what is kept in a data directory, which is made if need be.
 
         Args:
             data_dir: The directory.
             database: The address of another database than the embedded one.
+            files: Another file store than a folder of the directory.
 
         Raises:
             DatabaseError: The database cannot be used.
         """
         data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
         opened = Database(database_url(data_dir, database))
-        return cls(data_dir, opened, LocalFiles(data_dir / FILES))
+        return cls(data_dir, opened, files or LocalFiles(data_dir / FILES))
 
     def close(self) -> None:
         """Give back what is open."""
@@ -340,7 +341,7 @@ class SessionStorage:
         with self._database.reading() as connection:
             rows = connection.execute(asked.order_by(place.desc()).limit(limit + 1)).all()
         following = rows[limit - 1].place if limit and len(rows) > limit else None
-        return [_listed(row) for row in rows[:limit]], following
+        return [Listed(row.id, row.title, row.created_at) for row in rows[:limit]], following
 
     def usage(self, sender: str | None = None) -> Usage:
         """How much is kept, of one sender or of all."""
@@ -418,10 +419,6 @@ def _columns(record: SessionRecord) -> dict[str, object]:
 def _fit(text: str) -> str:
     """A text that every database takes: without NUL, and without half a character."""
     return text.replace("\0", "�").encode("utf-8", "replace").decode()
-
-
-def _listed(row: Row[tuple[str, str, str, str]]) -> Listed:
-    return Listed(row.id, row.title, row.created_at)
 
 
 def _name_files(connection: Connection, record: SessionRecord) -> None:

@@ -124,9 +124,9 @@ def _read(old: Path) -> tuple[SessionRecord, bytes, bytes | None, dict[str, Path
         raise _LeftError(f"it cannot be read: {error}") from error
     if record.id != old.name:
         raise _LeftError(f"its record is of the session {record.id}")
-    needed = {SCORE} | ({record.song.file} if record.song is not None else set())
-    if missing := needed - files.keys():
-        raise _LeftError(f"it has no file {', '.join(sorted(missing))}")
+    needed = [SCORE, *([record.song.file] if record.song is not None else [])]
+    if missing := [name for name in needed if name not in files]:
+        raise _LeftError(f"it has no file {', '.join(missing)}")
     return record, show, alignment, files
 
 
