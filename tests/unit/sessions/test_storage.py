@@ -579,7 +579,8 @@ def test_what_is_no_database_is_told(tmp_path: Path) -> None:
 
 
 def test_without_the_driver_its_extra_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reina.sessions.storage.database.find_spec", {}.get)
+    found: dict[str, object] = {}
+    monkeypatch.setattr("reina.sessions.storage.database.find_spec", found.get)
     with pytest.raises(DatabaseError, match=r'pip install "reina\[postgres\]"'):
         database_url(tmp_path, "postgresql://host/name")
 
