@@ -82,9 +82,19 @@ class Writer(threading.Thread):
             self._acknowledging.notify_all()
 
 
-def kill_in_the_middle(data_dir: Path, arguments: list[str], chance: random.Random) -> Writer:
-    """Have a server killed while it writes; returns what it had acknowledged: a few writes at least."""
+def kill_in_the_middle(
+    data_dir: Path, arguments: list[str], chance: random.Random, earlier: Writer | None = None
+) -> Writer:
+    """Have a server killed while it writes; returns what it had acknowledged: a few writes at least.
+
+    What an earlier one had acknowledged is looked for first, and ended.
+    """
     with serve(data_dir, *arguments) as server:
+        if earlier is not None:
+            with client_of(server) as client:
+                check_acknowledged(client, earlier)
+                for body, *_ in earlier.acknowledged.values():
+                    assert Owned(client, body).change("DELETE").status_code == 204
         writer = Writer(server.address)
         writer.start()
         writer.wait_for(chance.randrange(1, 6))
