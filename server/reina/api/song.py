@@ -1,6 +1,6 @@
 """A session's sound."""
 
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Annotated, Literal
 
 import numpy as np
@@ -116,9 +116,14 @@ async def get_song(
                 f"it was uploaded as {song.media_type} and is sent as it came: leave `format` out",
             )
         return await run_in_threadpool(_as_wav, path)
-    if format == "original" and (original := store.original_song(session)) is not None:
-        return ServedFile(original, media_type=media_type_of(original.suffix), headers=HEADERS)
-    return ServedFile(path, media_type=song.media_type, headers=HEADERS)
+    record, is_original = session.record.song, format == "original"
+    if record is None:
+        return ServedFile(path, media_type=song.media_type, headers=HEADERS)
+    uploaded = await store.song_file(session, is_original=is_original)
+    media_type = record.media_type
+    if is_original and record.original is not None:
+        media_type = media_type_of(PurePath(record.original).suffix)
+    return ServedFile(uploaded or path, media_type=media_type, headers=HEADERS)
 
 
 @router.get("/sessions/{session_id}/song/state")
@@ -184,7 +189,8 @@ async def get_peaks(
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
     _, path = _song_and_path(session)
     if path is not None:
-        peaks = await store.decoder.peaks(path)
+        uploaded = session.record.song is not None
+        peaks = await (store.peaks(session) if uploaded else store.decoder.peaks(path))
         if peaks is None:
             return Response(status_code=204)
     else:

@@ -30,15 +30,20 @@ _log = logging.getLogger(__name__)
 
 
 class UploadedSong:
-    """A song that came with the score."""
+    """A song that came with the score.
+
+    Args:
+        path: Its file.
+        record: What is known of it.
+    """
 
     source: Literal["uploaded", "rendered"] = "uploaded"
     error: str | None = None
     lacks_room = False
     request: SongRequest | None = None
 
-    def __init__(self, folder: Path, record: SongRecord) -> None:
-        self.path: Path | None = folder / record.file
+    def __init__(self, path: Path, record: SongRecord) -> None:
+        self.path: Path | None = path
         self.media_type = record.media_type
         self.duration_s = record.duration_s
         self.progress = 1.0

@@ -30,8 +30,8 @@ from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.recording.peaks import Peaks
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.segments import SEGMENT, Segments, cut_into_segments
-from reina.system.disk_room import has_room, is_disk_full
 from reina.sound.song_cache import SONG_CACHE_BYTES, SongCache, most_bytes_of, remove_song
+from reina.system.disk_room import has_room, is_disk_full
 from reina.system.metrics import in_queue
 from reina.system.turns import Turns
 

@@ -79,7 +79,7 @@ def test_a_song_that_finds_no_room_is_made_once_there_is(
                 heard.set()
 
         score = a_score([(0, 0.0, 1.0, 60, 0.8)])
-        song = RenderedSong(SongRenderer(tmp_path), score, [PlayedParts((0,))], ready=ready)
+        song = RenderedSong(SongRenderer(tmp_path), score, [PlayedParts((0,))], owner="somebody", ready=ready)
         await asyncio.wait_for(heard.wait(), 10)
         return song
 

@@ -23,13 +23,14 @@ from reina.sessions.limit_errors import (
     SenderLimitError,
     ServerBusyError,
 )
+from reina.sessions.storage.errors import DatabaseError, SessionDamagedError
 from reina.sessions.storage.file_store import StoreAwayError, StoredFileLostError, StoreFullError
 from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.sound.transcription.posteriors import NoRuntimeError
-from reina.system.metrics import limit_hit
 from reina.system.disk_room import NO_ROOM, is_disk_full
+from reina.system.metrics import limit_hit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -152,6 +153,8 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (ShowError, 422, "show-unusable", "The show cannot be used"),
     (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
     (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
+    (SessionDamagedError, 409, "session-damaged", "The session cannot be read"),
+    (DatabaseError, 503, "database-away", "The sessions' database cannot be used now"),
     (StoreFullError, 507, "storage-full", "There is no room on the server's disk"),
     (StoreAwayError, 503, "files-away", "What keeps the large files does not answer"),
     (StoredFileLostError, 409, "file-lost", "A file of the session is lost"),
@@ -177,7 +180,7 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
     detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
-    headers = {"Retry-After": RETRY_AFTER_S} if isinstance(error, StoreAwayError) else None
+    headers = {"Retry-After": RETRY_AFTER_S} if isinstance(error, DatabaseError | StoreAwayError) else None
     if isinstance(error, LimitError) and error.retry_after_s is not None:
         headers = {"Retry-After": str(error.retry_after_s)}
     return ProblemError(status, kind, title, detail, errors=faults, headers=headers)

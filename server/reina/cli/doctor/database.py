@@ -89,7 +89,7 @@ def known_revisions() -> tuple[frozenset[str], str | None]:
     config.set_main_option("script_location", SCRIPTS)
     try:
         scripts = ScriptDirectory.from_config(config)
-        known = frozenset(script.revision for script in scripts.walkknown_revisions())
+        known = frozenset(script.revision for script in scripts.walk_revisions())
         return known, scripts.get_current_head()
     except (CommandError, ImportError):
         return frozenset(), None

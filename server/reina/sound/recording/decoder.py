@@ -75,10 +75,10 @@ class SongDecoder:
         Raises:
             InputError: As of `probe`.
         """
-        peaks = await asyncio.to_thread(read_peaks, song)
+        peaks = await asyncio.to_thread(read_peaks, peaks_path(song))
         if peaks is None:
             await self.probe(song)
-            peaks = await asyncio.to_thread(read_peaks, song)
+            peaks = await asyncio.to_thread(read_peaks, peaks_path(song))
         return peaks
 
     async def _run(self, song: Path, conversion: Conversion | None) -> dict[str, Any]:

@@ -50,10 +50,10 @@ def peaks_path(song: Path) -> Path:
     return song.with_suffix(".peaks")
 
 
-def read_peaks(song: Path) -> Peaks | None:
-    """A song's peaks, as they are kept beside it; None where they are not."""
+def read_peaks(path: Path) -> Peaks | None:
+    """Peaks, as `write_peaks` kept them; None where they are not."""
     try:
-        return _unpack(peaks_path(song).read_bytes())
+        return _unpack(path.read_bytes())
     except FileNotFoundError:
         return None
 
