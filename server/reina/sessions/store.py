@@ -789,7 +789,13 @@ class SessionStore:
         # What was kept of it last is what is read.
         if session_id in self._putting_away:
             await asyncio.wait([self._putting_away[session_id]])
-        read = await self._read(session_id)
+        try:
+            read = await self._read(session_id)
+        except SessionDamagedError:
+            if await asyncio.to_thread(self.storage.__contains__, session_id):
+                raise
+            # Nothing is damaged: it was ended meanwhile.
+            return None
         await self._clocks.written()
         # Ended while it was read: it must not come back.
         if read is None or not await asyncio.to_thread(self.storage.__contains__, session_id):
