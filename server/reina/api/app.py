@@ -54,6 +54,7 @@ from reina.api.observation import Observation
 from reina.api.settings import Settings
 from reina.protocol.links import API
 from reina.sessions.stage import Stage
+from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import SessionStore
 from reina.sessions.transcriptions import Transcriptions
 from reina.sessions.unseen import sweep_unseen
@@ -77,6 +78,7 @@ def create_app(
     settings: Settings | None = None,
     *,
     stage: Stage | None = None,
+    storage: SessionStorage | None = None,
     now: Callable[[], float] = time.monotonic,
 ) -> FastAPI:
     """The server as an ASGI application.
@@ -84,6 +86,7 @@ def create_app(
     Args:
         settings: Where files are and whom it answers; defaults that work in the repository.
         stage: Who plays on what; read from the settings' rigs at the start when None.
+        storage: What keeps the sessions; opened at the start when None.
         now: Server time, seconds; never goes back, and runs as the event loop's clock does.
 
     Raises:
@@ -94,8 +97,11 @@ def create_app(
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
         renderer = SongRenderer(chosen.data_dir, most_bytes=chosen.song_cache_bytes)
+        kept = storage or await asyncio.to_thread(
+            SessionStorage.open, chosen.data_dir, chosen.database, chosen.files
+        )
         store = SessionStore(
-            chosen.data_dir,
+            kept,
             stage or Stage.load(chosen.rigs_dir),
             renderer,
             now=now,
@@ -104,6 +110,7 @@ def create_app(
             staging_bytes=chosen.staging_bytes,
         )
         await store.prune_songs()
+        store.begin()
         app.state.store = store
         # A password that stands in a file as it is takes a moment.
         app.state.sign_in = await asyncio.to_thread(SignIn, chosen, now)

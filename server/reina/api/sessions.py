@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from reina.api.cast import cast_of_fields, refuse_twice
 from reina.api.http.access import (
     Controlled,
+    Doomed,
     People,
     ServerSettings,
     Store,
@@ -35,6 +36,7 @@ from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
 from reina.sessions.score_text import packed_score
 from reina.sessions.session import Session
+from reina.sessions.storage.errors import SessionDamagedError
 from reina.sessions.store import Draft
 
 router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
@@ -85,7 +87,7 @@ async def create_session(
     The answer holds the control token, which is told this once: keep it.
     """
     sender = client_address(request.scope)
-    store.require_disk(sender)
+    await store.require_disk(sender)
     async with store.staging(sender) as folder:
         upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
         session, token = await store.create(_draft(folder, upload, request, person))
@@ -151,7 +153,7 @@ async def list_sessions(
             raise not_signed_in()
         owner = person.name
         response.headers["Cache-Control"] = "no-store"
-    entries, following = store.listed(limit, after, owner=owner)
+    entries, following = await store.listed(limit, after, owner=owner)
     return resources.SessionList(
         sessions=[
             resources.SessionSummary(
@@ -168,7 +170,7 @@ async def get_session(
     request: Request, session: Watched, store: Store, settings: ServerSettings
 ) -> resources.Session:
     """One session."""
-    ends_at = store.ends_at(session, settings.end_unseen_s)
+    ends_at = await store.ends_at(session, settings.end_unseen_s)
     resource = await _told(request, session)
     return resource.model_copy(update={"ends_at": ends_at})
 
@@ -195,9 +197,12 @@ async def change_session(
 
 
 @router.delete("/sessions/{session_id}", status_code=204)
-async def end_session(session: Controlled, store: Store) -> None:
-    """End it, and remove everything of it."""
-    await store.delete(session)
+async def end_session(session: Doomed, store: Store) -> None:
+    """End it, and remove everything of it; one that cannot be read, too."""
+    if isinstance(session, SessionDamagedError):
+        await store.delete_damaged(session)
+    else:
+        await store.delete(session)
 
 
 @router.post("/sessions/{session_id}/control_token")

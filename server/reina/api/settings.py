@@ -6,7 +6,7 @@ import math
 import os
 import re
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -84,6 +84,8 @@ class Settings:
     """Everything that a server is started with; each has a default that works in a checkout and installed.
 
     Attributes:
+        database: The address of the database that sessions are kept in; one in the data directory when empty.
+        files: What keeps the large files: ``s3://…`` or a folder; a folder of the data directory when None.
         data_dir: Sessions and rendered songs.
         rigs_dir: One folder a rig.
         examples_dir: The bundled pieces.
@@ -105,6 +107,8 @@ class Settings:
         user_header: What a trusted proxy tells in who is signed in there; empty: nothing.
     """
 
+    database: str = field(default_factory=lambda: os.environ.get("REINA_DATABASE", ""))
+    files: str | None = field(default_factory=lambda: os.environ.get("REINA_FILES") or None)
     data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", default_data_dir))
     rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", lambda: bundled("rigs")))
     examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", lambda: bundled("examples")))
@@ -123,6 +127,12 @@ class Settings:
     log_requests: bool = False
     upload_password_file: Path | None = field(default_factory=_upload_password_file)
     user_header: str = field(default_factory=lambda: os.environ.get("REINA_USER_HEADER", ""))
+
+
+def settings_of(data_dir: Path | None, database: str | None) -> Settings:
+    """The settings with what a command names; None leaves as it is."""
+    named = {"data_dir": data_dir, "database": database}
+    return replace(Settings(), **{name: value for name, value in named.items() if value is not None})
 
 
 def require_page(settings: Settings) -> None:
@@ -163,7 +173,7 @@ def require_writable(data_dir: Path) -> None:
         InputError: They cannot.
     """
     try:
-        data_dir.mkdir(parents=True, exist_ok=True)
+        data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
         with tempfile.TemporaryFile(dir=data_dir):
             pass
     except OSError as error:

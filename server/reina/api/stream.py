@@ -10,9 +10,9 @@ from pydantic import ValidationError
 
 from reina.api.http.access import unknown_session
 from reina.api.http.problems import ProblemError, problem_of_input
+from reina.errors import InputError
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.messages import Lead, Pong, StreamError, viewer_message
-from reina.sessions.limit_errors import LimitError
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
@@ -61,23 +61,16 @@ async def stream(
     """Refuse before the handshake ends, or send until either side goes."""
     store: SessionStore = socket.app.state.store
     now: Callable[[], float] = socket.app.state.now
-    try:
-        session = await store.get(session_id)
-    except LimitError as error:
-        await socket.send_denial_response(problem_of_input(error).response())
-        return
+    session, problem = await _found(store, session_id)
     size = SIZES.get(frames_per_message)
-    problem: ProblemError | None = None
-    if session is None:
-        problem = unknown_session(session_id)
-    elif SUBPROTOCOL not in socket.scope["subprotocols"]:
+    if session is not None and SUBPROTOCOL not in socket.scope["subprotocols"]:
         offered = ", ".join(socket.scope["subprotocols"]) or "none"
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
-    elif unknown := set(socket.query_params) - {"frames_per_message"}:
+    elif session is not None and (unknown := set(socket.query_params) - {"frames_per_message"}):
         detail = f"the stream may be asked for frames_per_message, not for {', '.join(sorted(unknown))[:100]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
-    elif size is None:
+    elif session is not None and size is None:
         detail = f"frames_per_message is 1 to {MAX_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     if problem or session is None or size is None:
@@ -107,6 +100,15 @@ async def _send_until_the_end(
             # Whoever leaves does so in the middle of a message: that is no error.
             with contextlib.suppress(asyncio.CancelledError, WebSocketDisconnect, OSError):
                 await task
+
+
+async def _found(store: "SessionStore", session_id: str) -> "tuple[Session | None, ProblemError | None]":
+    """A session, or why it cannot be watched."""
+    try:
+        session = await store.get(session_id)
+    except InputError as error:
+        return None, problem_of_input(error)
+    return session, unknown_session(session_id) if session is None else None
 
 
 async def _receive(socket: WebSocket, viewer: Viewer, session: "Session", now: Callable[[], float]) -> None:

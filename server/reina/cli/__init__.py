@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 COMMANDS = {
     "serve": ("reina.cli.serve", "start the server and print its address"),
+    "migrate": ("reina.cli.migrate", "take over the sessions that an earlier version kept"),
     "inspect": ("reina.cli.inspect", "say what is in a score and how it is fingered"),
     "align": ("reina.cli.align", "say where a score is heard in a recording"),
     "transcribe": ("reina.cli.transcribe", "find the notes of a recording of one line"),

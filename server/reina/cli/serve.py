@@ -19,11 +19,12 @@ import uvicorn
 from reina.api.app import create_app
 from reina.api.http.proxies import TrustedProxies
 from reina.api.http.rates import Rates
-from reina.api.settings import Settings, days, require_page, require_sign_in, require_writable
+from reina.api.settings import days, require_page, require_sign_in, require_writable, settings_of
 from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
 from reina.cli.connections import Connections
 from reina.cli.environment import switch
 from reina.cli.http_protocol import ProblemProtocol
+from reina.cli.kept import open_storage
 from reina.cli.listening import BACKLOG, are_loopback, listen
 from reina.cli.metrics import METRICS_HOST, serve_metrics
 from reina.cli.server_config import Config
@@ -31,6 +32,7 @@ from reina.cli.websocket_protocol import TextProtocol
 from reina.errors import InputError
 from reina.sessions.sightings import DAY_S
 from reina.sessions.stage import Stage
+from reina.sessions.storage.directory_lock import locked
 from reina.sound.font import SoundError
 from reina.sound.provide_soundfont import provide_soundfont
 from reina.system.logs import configure
@@ -41,6 +43,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
 
     from reina.api.http.ending import Ending
+    from reina.api.settings import Settings
 
 HOST = "127.0.0.1"
 PORT = 8000
@@ -79,6 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=None,
         help=f"where sessions are kept ({str(default_data_dir()).replace('%', '%%')})",
     )
+    add_database_argument(parser)
     parser.add_argument(
         "--allow-host",
         action="append",
@@ -143,11 +147,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_database_argument(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that names the database."""
+    parser.add_argument(
+        "--database",
+        default=None,
+        metavar="URL",
+        help="PostgreSQL to keep sessions in, postgresql+psycopg://user:password@host/name (SQLite in the "
+        "data directory)",
+    )
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Serve until SIGINT or SIGTERM; returns the exit status.
 
     What keeps the server from starting is told in a line on standard error, with status 1.
     """
+    with contextlib.ExitStack() as held:
+        # What is written is for nobody else to read.
+        held.callback(os.umask, os.umask(0o077))
+        return _run(arguments, held)
+
+
+def _run(arguments: argparse.Namespace, held: contextlib.ExitStack) -> int:
     try:
         configure()
         settings = _settings(arguments)
@@ -160,16 +182,19 @@ def run(arguments: argparse.Namespace) -> int:
             require_page(settings)
         require_writable(settings.data_dir)
         require_sign_in(settings)
+        held.enter_context(locked(settings.data_dir))
         _provide_soundfont(settings)
         stage = _stage(settings)
         sockets = listen(arguments.host, arguments.port)
         serve_metrics(arguments.metrics_host, arguments.metrics_port)
         settings = replace(settings, lab=are_loopback(sockets) if lab is None else lab)
+        storage = open_storage(settings)
+        held.callback(storage.close)
     except InputError as error:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
     share_interpreter()
-    app = create_app(settings, stage=stage)
+    app = create_app(settings, stage=stage, storage=storage)
     server = Server(
         Config(
             app,
@@ -204,9 +229,7 @@ def share_interpreter() -> None:
 
 
 def _settings(arguments: argparse.Namespace) -> Settings:
-    settings = Settings()
-    if arguments.data_dir is not None:
-        settings = replace(settings, data_dir=arguments.data_dir)
+    settings = settings_of(arguments.data_dir, arguments.database)
     if arguments.end_unseen is not None:
         settings = replace(settings, end_unseen_s=days(arguments.end_unseen) * DAY_S)
     hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}

@@ -6,6 +6,8 @@ import asyncio
 import logging
 from typing import TYPE_CHECKING
 
+from reina.errors import InputError
+
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
@@ -60,7 +62,7 @@ class ClockKeeping:
         self._writing.add(own)
         try:
             await self._keep(session)
-        except OSError as error:
+        except (InputError, OSError) as error:
             _log.warning("the clock of session %s could not be kept: %s", session.id, error)
         finally:
             self._writing.discard(own)

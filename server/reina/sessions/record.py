@@ -5,13 +5,16 @@ from __future__ import annotations
 import re
 import secrets
 from datetime import UTC, datetime
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from reina.instruments import Cast  # noqa: TC001 - pydantic reads it
 from reina.protocol.resources import Warned  # noqa: TC001 - pydantic reads it
 from reina.sessions.kept_clock import KeptClock
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
 """128 random bits, base64url."""
@@ -60,8 +63,21 @@ class StanceRecord(BaseModel):
     """As `reina.skeleton.pose_numbers` has it."""
 
 
+class FileRecord(BaseModel):
+    """A file of a session, as the file store keeps it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    """What the session calls it: ``score``, ``song.flac``, ``song.peaks``."""
+    digest: str
+    """SHA-256 of its content, hexadecimal."""
+    size: int
+    """Bytes."""
+
+
 class SessionRecord(BaseModel):
-    """session.json."""
+    """What is known of a session, as it is kept: JSON in the database."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -79,6 +95,8 @@ class SessionRecord(BaseModel):
     """The name that the score was uploaded under."""
     song: SongRecord | None
     """None: the server renders the score."""
+    files: tuple[FileRecord, ...] = ()
+    """What it has in the file store."""
     stances: tuple[StanceRecord, ...] = ()
     """Its own stances, in the order of the show's choices."""
     clock: KeptClock = KeptClock()
@@ -105,6 +123,12 @@ class SessionRecord(BaseModel):
         rest = dict(cast("dict[str, Any]", fields))
         casting = {name: rest.pop(name) for name in CASTING_FIELDS if name in rest}
         return rest | {"cast": {"sequence": rest.pop("sequence", None), "castings": [casting]}}
+
+
+def with_files(record: SessionRecord, files: Iterable[FileRecord]) -> SessionRecord:
+    """A record with further files; one of a name that it has already takes its place."""
+    named = {file.name: file for file in (*record.files, *files)}
+    return record.model_copy(update={"files": tuple(named.values())})
 
 
 def new_id() -> str:

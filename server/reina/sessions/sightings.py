@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from reina.sessions.folders import SessionFolders
+    from reina.sessions.storage.session_storage import SessionStorage
 
 DAY_S = 86_400.0
 NEAR_S = 14 * DAY_S
@@ -20,12 +20,12 @@ class Sightings:
     """Remembers who has been seen since it was kept last.
 
     Args:
-        folders: Where it is kept.
+        storage: Where it is kept.
         wall: The present, seconds since 1970.
     """
 
-    def __init__(self, folders: SessionFolders, *, wall: Callable[[], float]) -> None:
-        self._folders = folders
+    def __init__(self, storage: SessionStorage, *, wall: Callable[[], float]) -> None:
+        self._storage = storage
         self._wall = wall
         self._seen: set[str] = set()
 
@@ -33,14 +33,16 @@ class Sightings:
         """Somebody sees a session: watches it, or asks for it with its token."""
         self._seen.add(session_id)
 
-    def ends_s(self, session_id: str, after_s: float) -> float | None:
+    async def ends_s(self, session_id: str, after_s: float) -> float | None:
         """When a session will be ended if nobody sees it again, seconds since 1970.
 
         Args:
             session_id: Which.
             after_s: How long after it was seen last.
         """
-        seen_s = self._wall() if session_id in self._seen else self._folders.seen_s(session_id)
+        if session_id in self._seen:
+            return self._wall() + after_s
+        seen_s = await asyncio.to_thread(self._storage.seen_s, session_id)
         return None if seen_s is None else seen_s + after_s
 
     async def keep(self, watched: Iterable[str]) -> None:
@@ -50,7 +52,7 @@ class Sightings:
             watched: Those that are being watched.
         """
         seen, self._seen = self._seen, set()
-        await asyncio.to_thread(self._folders.note_seen, seen.union(watched), self._wall())
+        await asyncio.to_thread(self._storage.note_seen, seen.union(watched), self._wall())
 
 
 def near_end(ends_s: float, now_s: float, after_s: float) -> str | None:

@@ -6,6 +6,7 @@ import asyncio
 import logging
 from typing import TYPE_CHECKING
 
+from reina.errors import InputError
 from reina.sessions.sightings import DAY_S
 
 if TYPE_CHECKING:
@@ -35,6 +36,6 @@ async def sweep_unseen(store: SessionStore, after_s: float) -> None:
                     _log.info("ended %d sessions that nobody had seen for %g days", ended, after_s / DAY_S)
             else:
                 await store.sightings.keep(store.watched)
-        except OSError as error:
+        except (InputError, OSError) as error:
             _log.warning("sessions that nobody sees could not be ended: %s", error)
         await asyncio.sleep(every_s)

@@ -31,17 +31,20 @@ from reina.sound.recording.peaks import Peaks
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.segments import SEGMENT, Segments, cut_into_segments
 from reina.sound.song_cache import SONG_CACHE_BYTES, SongCache, most_bytes_of, remove_song
+from reina.system.disk_room import has_room, is_disk_full
 from reina.system.metrics import in_queue
 from reina.system.turns import Turns
 
 __all__ = [
     "MissingSoundfontError",
+    "NoRoomError",
     "SongRenderer",
     "SongRequest",
     "SoundError",
     "find_soundfont",
 ]
 
+NO_ROOM = "there is no room on the server's disk for the sound; it is made as soon as there is"
 RENDERING_VERSION = "2"
 """Raised with every change of how a plan becomes sound, so that songs rendered before are not taken for new
 ones."""
@@ -54,6 +57,13 @@ STDERR_TOLD = 400
 """How many characters at the end of a crashed renderer's complaint its last line is looked for in."""
 
 log = logging.getLogger(__name__)
+
+
+class NoRoomError(SoundError):
+    """There is no room for a song now; there may be later."""
+
+    def __init__(self) -> None:
+        super().__init__(NO_ROOM)
 
 
 class SongRequest:
@@ -120,6 +130,8 @@ class SongRequest:
         if self._rendering.task.cancelled():
             return SoundError("the rendering was cancelled")
         error = self._rendering.task.exception()
+        if error is not None and is_disk_full(error):
+            return NoRoomError()
         return error if error is None or isinstance(error, SoundError) else SoundError(str(error))
 
     async def wait(self) -> Path:
@@ -269,6 +281,10 @@ class SongRenderer:
         rendering.askers += 1
         return SongRequest(path, segments, rendering)
 
+    def has_room(self) -> bool:
+        """Whether there is room on the disk for a song to be begun; blocks as long as the disk takes."""
+        return has_room(self._data_dir)
+
     async def aclose(self) -> None:
         """Stop every rendering and wait until its process is gone."""
         for task in self._tasks:
@@ -372,7 +388,7 @@ class SongRenderer:
             for partial in path.parent.glob(f"*.{process.pid}.partial"):
                 partial.unlink(missing_ok=True)
         if error is not None:
-            raise SoundError(f"the score could not be rendered: {error}")
+            raise error
         if status != 0:
             lines = complaint[-STDERR_TOLD:].strip().splitlines()
             log.warning("the renderer ended with status %d: %s", status, lines[-1] if lines else "")
@@ -406,9 +422,9 @@ async def _read(process: Process) -> str:
     return "" if process.stderr is None else (await process.stderr.read()).decode(errors="replace")
 
 
-async def _follow(process: Process, rendering: _Rendering) -> str | None:
+async def _follow(process: Process, rendering: _Rendering) -> SoundError | None:
     """Keep what is there until the process is done; return its complaint if it has one."""
-    error: str | None = None
+    error: SoundError | None = None
     while process.stdout is not None and (line := await process.stdout.readline()):
         message: dict[str, object] = json.loads(line)
         match message:
@@ -417,8 +433,10 @@ async def _follow(process: Process, rendering: _Rendering) -> str | None:
                 rendering.progress = min(share, 0.99)
             case {"segment": int(number), "peaks": str(peaks)}:
                 rendering.add(number, peaks)
+            case {"is_disk_full": True}:
+                error = NoRoomError()
             case {"error": str(complaint)}:
-                error = complaint
+                error = SoundError(f"the score could not be rendered: {complaint}")
             case _:
                 pass
     return error

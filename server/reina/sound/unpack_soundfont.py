@@ -20,7 +20,7 @@ import numpy as np
 import soundfile
 
 from reina.sound.font import MissingSoundfontError
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import write_durably
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -243,7 +243,7 @@ def main(arguments: Sequence[str]) -> int:
     try:
         unpacked = unpack_soundfont(source.read_bytes())
         target.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(target, unpacked)
+        write_durably(target, unpacked)
     except (OSError, MissingSoundfontError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         print(reason, file=sys.stderr)  # noqa: T201

@@ -128,6 +128,8 @@ def configure(
     root.setLevel(lowest.upper())
     # A viewer that goes in the middle of some frames is no news.
     logging.getLogger("asyncio").setLevel(logging.ERROR)
+    # Which tables are made is told where it goes wrong.
+    logging.getLogger("alembic").setLevel(logging.WARNING)
     logging.captureWarnings(capture=True)
     sys.excepthook = _fell
     threading.excepthook = _thread_fell

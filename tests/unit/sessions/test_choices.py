@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from tests.integration.scores import chords, collection, duet, relay, scale, show, song, two_duets
+from tests.kept import sql
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 from tests.unit.sound.material import Row, a_part, a_score
 
@@ -65,15 +66,14 @@ def pitches(session: Session) -> list[int]:
 def test_a_record_of_before_the_choices_still_loads(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         made = await create(a_store(tmp_path, stage), scale(4))
-        path = tmp_path / "sessions" / made.id / "session.json"
-        stored = json.loads(path.read_text())
+        stored = json.loads(sql(tmp_path, "SELECT record FROM sessions")[0][0])
         del stored["cast"]
         # As the first version wrote it, and as the last one before there were casts did.
         before: dict[str, Any] = {"instrument": "trumpet", "part": 0, "transposition": -2}
         chosen: dict[str, Any] = {"written": True, "octave_fit": True, "joined_parts": [], "sequence": 0}
         chosen["player"] = "soloist"
         for fields, pitch in ((before, 56), (before | chosen, 54)):
-            path.write_text(json.dumps(stored | fields))
+            sql(tmp_path, "UPDATE sessions SET record = ?", json.dumps(stored | fields))
             found = await a_store(tmp_path, stage).get(made.id)
             assert found is not None
             lead = found.record.cast.lead

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import shutil
 import threading
 import time
 from pathlib import Path
@@ -11,14 +10,16 @@ from typing import TYPE_CHECKING
 
 import pytest
 from tests.integration.scores import duet, scale, song
+from tests.kept import kept, sql
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.protocol.transport import Play, Seek, SetLoop, SetRate
 from reina.sessions.clock_keeping import ClockKeeping
-from reina.sessions.folders import SessionFolders
 from reina.sessions.limit_errors import NoRoomError, PieceTooLargeError, SenderLimitError, ServerBusyError
 from reina.sessions.sightings import DAY_S
 from reina.sessions.stage import Stage
+from reina.sessions.storage.errors import SessionDamagedError
+from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import Draft, SessionEndedError, SessionStore
 from reina.sessions.usage import DiskBound
 from reina.show import Show
@@ -181,16 +182,16 @@ def test_a_clock_is_kept_once_for_all_that_it_is_told(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     written: list[SessionRecord] = []
-    write = SessionFolders.write_record
+    write = SessionStorage.change
 
-    def counted(folders: SessionFolders, record: SessionRecord) -> None:
-        write(folders, record)
+    def counted(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
         written.append(record)
+        return write(storage, record)
 
     async def scenario() -> None:
         desk = Desk(tmp_path, stage)
         session = await desk.create(scale(40))
-        monkeypatch.setattr(SessionFolders, "write_record", counted)
+        monkeypatch.setattr(SessionStorage, "change", counted)
         for number in range(60):
             session.control(Seek(action="seek", song_time_s=number / 30))
         for _ in range(600):
@@ -230,7 +231,7 @@ def test_what_does_not_fit_beside_what_is_asked_is_refused_and_not_kept(tmp_path
             with pytest.raises(ServerBusyError, match="try again") as refused:
                 await desk.create(scale(400))
             assert refused.value.retry_after_s
-            assert len(list((tmp_path / "many" / "sessions").iterdir())) == 1
+            assert desk.store.storage.usage().sessions == 1
         await desk.create(scale(400))
         with pytest.raises(PieceTooLargeError, match="REINA_MEMORY_MB"):
             await desk.create(scale(1600))
@@ -251,8 +252,8 @@ def test_one_sender_keeps_so_much(tmp_path: Path, stage: Stage) -> None:
         # Another server knows who sent them.
         again = Desk(tmp_path, stage, disk=disk)
         with pytest.raises(SenderLimitError):
-            again.store.require_disk("one")
-        again.store.require_disk("nobody")
+            await again.store.require_disk("one")
+        await again.store.require_disk("nobody")
 
     run(scenario)
 
@@ -262,13 +263,13 @@ def test_all_together_keep_so_many_bytes(tmp_path: Path, stage: Stage) -> None:
         most = 1_000_000
         desk = Desk(tmp_path, stage, disk=DiskBound(most, 0, 0))
         made = await desk.create(scale(4))
-        taken = desk.store.usage(None)
-        kept = (tmp_path / "sessions" / made.id / name for name in ("score", "song.wav", "show.json"))
+        taken = await desk.store.usage(None)
         assert taken.sessions == 1
-        assert taken.bytes >= sum(file.stat().st_size for file in kept)
-        desk.store.require_disk("", most - taken.bytes)
+        assert {file.name for file in made.record.files} == {"score", "song.wav", "song.peaks"}
+        assert taken.bytes > sum(file.size for file in made.record.files), "the show counts too"
+        await desk.store.require_disk("", most - taken.bytes)
         with pytest.raises(NoRoomError, match=r"the server keeps 1\.0 MB at most"):
-            desk.store.require_disk("", most - taken.bytes + 1)
+            await desk.store.require_disk("", most - taken.bytes + 1)
 
     run(scenario)
 
@@ -283,15 +284,15 @@ def test_sessions_that_nobody_sees_are_ended(tmp_path: Path, stage: Stage) -> No
         again = Desk(tmp_path, stage)
         again.wall.time_s = desk.wall.time_s + 9 * DAY_S
         loaded = await again.get(idle.id)
-        told = again.store.ends_at(loaded, 10 * DAY_S)
+        told = await again.store.ends_at(loaded, 10 * DAY_S)
         assert told is not None
-        assert again.store.ends_at(loaded, 30 * DAY_S) is None, "that is far"
-        assert again.store.ends_at(loaded, 0.0) is None
+        assert await again.store.ends_at(loaded, 30 * DAY_S) is None, "that is far"
+        assert await again.store.ends_at(loaded, 0.0) is None
         again.store.sightings.note(seen.id)
         assert await again.store.end_unseen(10 * DAY_S) == 0
         again.wall.time_s += 2 * DAY_S
         assert await again.store.end_unseen(10 * DAY_S) == 2
-        assert [path.name for path in (tmp_path / "sessions").iterdir()] == [seen.id]
+        assert sql(tmp_path, "SELECT id FROM sessions") == [(seen.id,)]
         assert await again.store.get(unseen.id) is None
 
     run(scenario)
@@ -305,18 +306,18 @@ def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     writing = threading.Event()
-    write = SessionFolders.write_record
+    write = SessionStorage.change
 
-    def slowly(folders: SessionFolders, record: SessionRecord) -> None:
+    def slowly(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
         writing.wait(5)
-        write(folders, record)
+        return write(storage, record)
 
     async def scenario() -> None:
         monkeypatch.setattr(ClockKeeping, "note", _nothing)
         desk = Desk(tmp_path, stage, loaded=1)
         first = await desk.create(scale(8))
         first.control(Seek(action="seek", song_time_s=0.75))
-        monkeypatch.setattr(SessionFolders, "write_record", slowly)
+        monkeypatch.setattr(SessionStorage, "change", slowly)
         await desk.create(scale(4))
         asking = asyncio.create_task(desk.get(first.id))
         await asyncio.sleep(0.05)
@@ -365,7 +366,7 @@ def test_an_ended_session_is_gone_from_disk(tmp_path: Path, stage: Stage) -> Non
         assert await desk.store.get(session.id) is None
 
     run(scenario)
-    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+    assert kept(tmp_path) == []
 
 
 def test_whoever_comes_too_late_to_end_or_change_a_session_is_told_so(tmp_path: Path, stage: Stage) -> None:
@@ -392,7 +393,7 @@ def test_a_session_ended_while_it_is_read_does_not_come_back(tmp_path: Path, sta
         desk = Desk(tmp_path, stage)
         asked = asyncio.create_task(desk.store.get(made.id))
         await asyncio.sleep(0)
-        shutil.rmtree(tmp_path / "sessions" / made.id)
+        await asyncio.to_thread(desk.store.storage.remove, made.id)
         assert await asked is None
         assert desk.store.loaded == 0
 
@@ -416,9 +417,14 @@ def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage
         desk = Desk(tmp_path, stage)
         whole = await desk.create(scale(4), public=True)
         damaged = await desk.create(scale(4), public=True)
-        (tmp_path / "sessions" / damaged.id / "session.json").write_text("{")
-        entries, following = Desk(tmp_path, stage).store.listed(10)
-        assert [entry.id for entry in entries] == [whole.id]
+        sql(tmp_path, "UPDATE sessions SET record = '{' WHERE id = ?", damaged.id)
+        again = Desk(tmp_path, stage)
+        entries, following = await again.store.listed(10)
+        assert {entry.id for entry in entries} == {whole.id, damaged.id}
         assert following is None
+        for _ in range(2):
+            with pytest.raises(SessionDamagedError, match=f"{damaged.id!r} is kept and cannot be read"):
+                await again.store.get(damaged.id)
+        assert (await again.get(whole.id)).record == whole.record
 
     run(scenario)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.integration.scores import duet, relay, scale, show, song
+from tests.kept import kept
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.sessions.stage import Stage
@@ -261,7 +262,7 @@ def test_ending_a_session_removes_its_song_unless_another_has_the_same(tmp_path:
         await desk.store.aclose()
 
     run(scenario)
-    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["font.sf2"]
+    assert kept(tmp_path) == ["font.sf2"]
 
 
 def test_a_session_without_a_show_gets_one_written_for_its_music(tmp_path: Path, stage: Stage) -> None:

@@ -15,7 +15,7 @@ from reina.errors import InputError
 from reina.music import Score
 from reina.sound.encode import wav_of
 from reina.sound.events import SAMPLE_RATE, SoundPlan
-from reina.sound.recording.peaks import read_peaks
+from reina.sound.recording.peaks import peaks_path, read_peaks
 from reina.sound.recording.probe import probe_recording
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.renderer import MissingSoundfontError, SongRenderer, SongRequest, SoundError
@@ -387,7 +387,7 @@ def test_segments_in_any_order_are_the_whole(tmp_path: Path, soundfont: Path) ->
     two = with_renderer(tmp_path / "2", soundfont, onwards)
     assert one.read_bytes() == two.read_bytes()
     whole, _ = soundfile.read(one)
-    peaks = read_peaks(one)
+    peaks = read_peaks(peaks_path(one))
     assert peaks is not None
     assert peaks.duration_s == len(whole) / SAMPLE_RATE
     assert peaks.highest.max() == pytest.approx(whole.max(), abs=1e-4)

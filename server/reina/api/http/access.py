@@ -14,6 +14,7 @@ from reina.api.http.problems import ProblemError
 from reina.api.http.sign_in import COOKIE, Person, SignIn
 from reina.api.settings import Settings
 from reina.sessions.session import Session
+from reina.sessions.storage.errors import SessionDamagedError
 from reina.sessions.store import SessionStore
 from reina.system.tokens import token_matches
 
@@ -101,8 +102,12 @@ async def _controlled(
     session: Watched,
     credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(_bearer)],
 ) -> Session:
-    if is_owner(request, session):
-        return session
+    if not is_owner(request, session):
+        _require_token(session.record.token_sha256, credentials)
+    return session
+
+
+def _require_token(token_sha256: str, credentials: HTTPAuthorizationCredentials | None) -> None:
     if credentials is None:
         raise ProblemError(
             401,
@@ -111,18 +116,42 @@ async def _controlled(
             "send `Authorization: Bearer <control_token>`; the token was told when the session was made",
             headers={"WWW-Authenticate": "Bearer"},
         )
-    if not token_matches(session.record.token_sha256, credentials.credentials):
+    if not token_matches(token_sha256, credentials.credentials):
         raise ProblemError(
             403,
             "wrong-token",
             "This is not the session's control token",
             "the token is another session's or mistyped, or has been made anew since",
         )
-    return session
 
 
 Controlled = Annotated[Session, Depends(_controlled)]
 """The session of the path, for who has its control token, and for the person whose it is."""
+
+
+async def _doomed(
+    request: Request,
+    session_id: SessionId,
+    store: Store,
+    credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(_bearer)],
+) -> AsyncGenerator[Session | SessionDamagedError]:
+    session: Session | SessionDamagedError
+    try:
+        session = await _found(session_id, store)
+    except SessionDamagedError as damaged:
+        session = damaged
+    if isinstance(session, SessionDamagedError):
+        _require_token(session.token_sha256, credentials)
+        yield session
+        return
+    if not is_owner(request, session):
+        _require_token(session.record.token_sha256, credentials)
+    with session.asked():
+        yield session
+
+
+Doomed = Annotated[Session | SessionDamagedError, Depends(_doomed)]
+"""The session of the path, to be ended by who has its control token, whether it can be read or not."""
 
 
 async def admit(request: Request, dependant: Dependant) -> None:

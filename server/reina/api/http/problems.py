@@ -23,10 +23,13 @@ from reina.sessions.limit_errors import (
     SenderLimitError,
     ServerBusyError,
 )
+from reina.sessions.storage.errors import DatabaseError, SessionDamagedError
+from reina.sessions.storage.file_store import StoreAwayError, StoredFileLostError, StoreFullError
 from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.sound.transcription.posteriors import NoRuntimeError
+from reina.system.disk_room import NO_ROOM, is_disk_full
 from reina.system.metrics import limit_hit
 
 if TYPE_CHECKING:
@@ -47,6 +50,8 @@ LONGEST_DETAIL = 2000
 """Characters of what was wrong; what was sent is repeated in part at most."""
 LONGEST_LOCATION = 100
 LONGEST_FAULT = 300
+RETRY_AFTER_S = "5"
+"""When what is away for the moment may be asked again, seconds."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 """What an address may answer to of itself."""
 READING = ("HEAD", "OPTIONS")
@@ -148,9 +153,19 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (ShowError, 422, "show-unusable", "The show cannot be used"),
     (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
     (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
+    (SessionDamagedError, 409, "session-damaged", "The session cannot be read"),
+    (DatabaseError, 503, "database-away", "The sessions' database cannot be used now"),
+    (StoreFullError, 507, "storage-full", "There is no room on the server's disk"),
+    (StoreAwayError, 503, "files-away", "What keeps the large files does not answer"),
+    (StoredFileLostError, 409, "file-lost", "A file of the session is lost"),
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )
 """What an input error is told as: the first row that fits."""
+
+
+def storage_full(detail: str = NO_ROOM) -> ProblemError:
+    """The problem of what needs room where there is none."""
+    return problem_of_input(StoreFullError(detail))
 
 
 def problem_of_input(error: InputError) -> ProblemError:
@@ -165,8 +180,9 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
     detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
-    retry_s = error.retry_after_s if isinstance(error, LimitError) else None
-    headers = None if retry_s is None else {"Retry-After": str(retry_s)}
+    headers = {"Retry-After": RETRY_AFTER_S} if isinstance(error, DatabaseError | StoreAwayError) else None
+    if isinstance(error, LimitError) and error.retry_after_s is not None:
+        headers = {"Retry-After": str(error.retry_after_s)}
     return ProblemError(status, kind, title, detail, errors=faults, headers=headers)
 
 
@@ -227,6 +243,8 @@ def install(app: FastAPI) -> None:
                 return error.response()
             case InputError():
                 return problem_of_input(error).response()
+            case OSError() if is_disk_full(error):
+                return storage_full().response()
             case RequestValidationError():
                 return problem_of_validation(error).response()
             case ClientDisconnect():
@@ -241,5 +259,5 @@ def install(app: FastAPI) -> None:
             case _:
                 raise error
 
-    for kind in (ProblemError, InputError, RequestValidationError, ClientDisconnect, HTTPException):
+    for kind in (ProblemError, InputError, OSError, RequestValidationError, ClientDisconnect, HTTPException):
         app.add_exception_handler(kind, refused)

@@ -9,16 +9,17 @@ import json
 import secrets
 from typing import TYPE_CHECKING, Any
 
+from reina.sessions.storage.archive import SIGNING_KEY
+
 if TYPE_CHECKING:
     from pathlib import Path
 
-KEY_FILE = "signing-key"
 KEY_BYTES = 32
 
 
 def signing_key(data_dir: Path) -> bytes:
     """The server's own key; made when it is needed first, for nobody else to read."""
-    path = data_dir / KEY_FILE
+    path = data_dir / SIGNING_KEY
     try:
         key = path.read_bytes()
     except FileNotFoundError:

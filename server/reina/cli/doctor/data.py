@@ -8,6 +8,7 @@ import tempfile
 from typing import TYPE_CHECKING
 
 from reina.cli.doctor.finding import fail, ok, warn
+from reina.sessions.storage.directory_lock import LOCK
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
 
 LEAST_ROOM_BYTES, GOOD_ROOM_BYTES = 100_000_000, 3_000_000_000
 """With less uploads fail soon; with less than the other the cache of rendered songs does not fit."""
-LOCK = "lock"
-"""The file that a server locks while it works in the directory; it holds its process's id."""
 OTHERS = 0o077
 ANOTHER_DIRECTORY = "name one that is this user's with --data-dir or REINA_DATA_DIR, or give it to this user"
 

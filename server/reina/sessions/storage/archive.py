@@ -8,11 +8,13 @@ from pathlib import PurePosixPath
 from pydantic import BaseModel, ConfigDict
 
 from reina.errors import InputError
+from reina.sessions.storage.database import FILE as DATABASE
 
 MANIFEST = "manifest.json"
 FORMAT = "reina-backup"
 VERSION = 1
-DATABASE = "reina.sqlite3"
+SIGNING_KEY = "signing-key"
+"""What the server signs with; without it everybody is signed out."""
 FOLDERS = ("files", "sessions")
 """What is kept beside the database. Rendered songs are made anew, and staging is of uploads under way."""
 LARGEST_MANIFEST = 500_000_000
@@ -59,7 +61,7 @@ class ArchiveManifest(BaseModel):
 def is_kept(name: str) -> bool:
     """Whether a path below the data directory, with ``/``, is one that backups hold."""
     parts = PurePosixPath(name).parts
-    if name == DATABASE:
+    if name in {DATABASE, SIGNING_KEY}:
         return True
     plain = all(_NAME.fullmatch(part) and not part.startswith(".") for part in parts)
     return len(parts) > 1 and parts[0] in FOLDERS and plain and "/".join(parts) == name

@@ -22,6 +22,7 @@ from reina.sessions.storage.archive import (
     FOLDERS,
     FORMAT,
     MANIFEST,
+    SIGNING_KEY,
     VERSION,
     ArchiveError,
     ArchiveManifest,
@@ -109,6 +110,8 @@ def _still(data_dir: Path) -> Generator[Path]:
     still = staging / f"backup-{secrets.token_hex(8)}"
     still.mkdir(OWN_FOLDER)
     try:
+        if (data_dir / SIGNING_KEY).is_file():
+            shutil.copyfile(data_dir / SIGNING_KEY, still / SIGNING_KEY)
         for folder in FOLDERS:
             _name_again(data_dir / folder, still / folder)
         if (data_dir / DATABASE).is_file():

@@ -65,4 +65,7 @@ export const named = words("server", {
   problem_unknown_keyframe: "There is no such track or keyframe",
   problem_key_taken: "There is such a keyframe already",
   problem_unknown_parameter: "There is no such parameter",
+  problem_storage_full: "There is no room on the server's disk",
+  problem_files_away: "What keeps the large files does not answer",
+  problem_file_lost: "A file of the session is lost",
 });
