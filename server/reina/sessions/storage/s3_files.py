@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
     from pathlib import Path
 
-    import obstore
-
 OPTIONS = frozenset({"endpoint", "region"})
 """What a store's address may say after its `?`."""
 PIECE = 8_000_000
@@ -64,10 +62,11 @@ class S3Files:
             import obstore
         except ModuleNotFoundError as error:
             raise InputError('keeping files in S3 needs a client for it: pip install "reina[s3]"') from error
-        self._client = obstore
+        # Its types are of stores that are not told apart here.
+        self._client: Any = obstore
         self._bucket, self._prefix, options = _parts(url)
         self._name = f"s3://{self._bucket}"
-        self._store = _open_bucket(obstore, self._bucket, options, most_tries)
+        self._store = _open_bucket(self._client, self._bucket, options, most_tries)
         self._cache_folder = cache
         self._cached = LocalFiles(cache)
         self._cache_bytes = cache_bytes
@@ -218,7 +217,7 @@ def _parts(url: str) -> tuple[str, str, dict[str, str]]:
     return parts.hostname, f"{prefix}/" if prefix else "", options
 
 
-def _open_bucket(client: obstore, bucket: str, options: dict[str, str], most_tries: int) -> Any:
+def _open_bucket(client: Any, bucket: str, options: dict[str, str], most_tries: int) -> Any:
     endpoint = (
         options.get("endpoint") or os.environ.get("AWS_ENDPOINT_URL_S3") or os.environ.get("AWS_ENDPOINT_URL")
     )
