@@ -1,1 +1,0 @@
-"""Where sessions are kept: records in a database, large files by their content."""
