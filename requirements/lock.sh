@@ -10,3 +10,4 @@ compile pyproject.toml requirements/build.in --extra postgres --extra s3 -c requ
 compile pyproject.toml requirements/build.in --group dev --group assets -c requirements/serve.txt -o requirements/dev.txt
 compile pyproject.toml requirements/build.in requirements/bench.in --group dev --group assets -c requirements/dev.txt -o requirements/bench.txt
 compile requirements/node.in -o requirements/node.txt
+compile requirements/servers.in -o requirements/servers.txt

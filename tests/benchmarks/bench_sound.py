@@ -16,11 +16,11 @@ import numpy as np
 from tests.unit.sound.material import Row, a_part, a_score
 
 from reina.music import Score, read_score
-from reina.sound.font import REPOSITORY
 from reina.sound.plan import PlayedParts
 from reina.sound.renderer import SongRenderer, SongRequest, find_soundfont
+from reina.system.resources import bundled, default_data_dir
 
-EXAMPLES = REPOSITORY / "examples" / "scores"
+EXAMPLES = bundled("examples") / "scores"
 SCORES = ("taps.mid", "carnival-of-venice.mid", "prince-of-denmarks-march.mid")
 
 
@@ -57,7 +57,7 @@ async def arrived(request: SongRequest, number: int) -> float:
 
 async def measure(name: str, score: Score, folder: Path) -> None:
     """Render a score and print its figures."""
-    renderer = SongRenderer(folder, soundfont=find_soundfont(REPOSITORY / "data"))
+    renderer = SongRenderer(folder, soundfont=find_soundfont(default_data_dir()))
     used = processor_time()
     begun = time.perf_counter()
     request = await renderer.request(score, [PlayedParts((0,))])

@@ -142,10 +142,33 @@ class Stranger:
 
     def everything_at_once(self) -> None:
         """All lines, each by a stranger of its own."""
-        lines = [getattr(self, name) for name in LINES[1:-1]]
+        lines = [getattr(self, name) for name in LINES[1 : LINES.index("everything_at_once")]]
         with ThreadPoolExecutor(len(lines)) as threads:
             for done in [threads.submit(line) for line in lines]:
                 done.result()
+
+    def sessions_set_playing_175(self) -> None:
+        """Of a score of 20,000 notes each, 0.9 MB, with nobody watching."""
+        files = {"score": ("s.json", large_score(20_000)), "song": ("s.wav", song())}
+        for _ in range(175):
+            answer = self._client.post("/api/v1/sessions", files=files)
+            if answer.is_success:
+                made = Owned(self._client, answer.json())
+                made.change("POST", "/transport", json={"action": "play"})
+
+    def scores_of_an_hour_without_a_song_40(self) -> None:
+        """And then an honest song of three minutes: the line takes as long as that waits."""
+        for number in range(40):
+            upload(self._client, scale(3590, beats=2.0, bpm=120 + number / 4))
+        honest = upload(self._client, scale(180, beats=2.0))
+        while self._client.get(f"{honest.path}/song/state").json()["status"] == "rendering":
+            time.sleep(0.5)
+
+    def sessions_308(self) -> None:
+        """As many as one likes."""
+        files = {"score": ("s.mid", scale(16)), "song": ("s.wav", song())}
+        for _ in range(308):
+            self._client.post("/api/v1/sessions", files=files)
 
     def _put_show(self, body: bytes) -> None:
         self._send("PUT", f"{self._own.path}/show", body, own=True)

@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import numpy as np
 from PIL import Image
 from playwright.sync_api import TimeoutError as LateError
+from tests.e2e.waiting import add_style, wait_until
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -78,7 +79,7 @@ class Opened:
 
     def until(self, expression: str, argument: Any = None) -> None:
         """Wait for a JavaScript expression of the page to be true."""
-        self.page.wait_for_function(expression, arg=argument, timeout=PATIENCE_S * 1000, polling=50)
+        wait_until(self.page, expression, argument, patience_s=PATIENCE_S)
 
     def until_drawn(self) -> None:
         """Wait for the page's own sign that it has drawn a picture of its session."""
@@ -118,7 +119,7 @@ class Opened:
 
     def hide_panels(self) -> None:
         """Leave nothing in the window but the stage."""
-        self.page.add_style_tag(content=".chrome { display: none }")
+        add_style(self.page, ".chrome { display: none }")
 
     def measure(self, name: str) -> Any:
         """A figure of `window.reina`."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from tests.e2e.waiting import add_style
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -55,7 +56,7 @@ def faults(opened: Opened) -> list[str]:
     opened.until_still()
     if not page.evaluate("'axe' in window"):
         page.evaluate(AXE.read_text())
-        page.add_style_tag(content=PLAIN)
+        add_style(page, PLAIN)
     return page.evaluate(RUN, TAGS)
 
 

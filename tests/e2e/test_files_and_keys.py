@@ -170,7 +170,7 @@ def test_keys_act_wherever_the_pointer_was_and_add_up(visit: Visit, client: http
     page.get_by_role("button", name="Speed 80 %").wait_for()
     page.get_by_role("button", name="Speed 80 %").click()
     page.evaluate(press, [" ", 2])
-    page.wait_for_function("async (path) => !(await (await fetch(path)).json()).playing", arg=path)
+    until("async (path) => !(await (await fetch(path)).json()).playing", path)
     page.keyboard.press("p")
     higher = page.get_by_role("button", name="A semitone higher")
     higher.evaluate("(button) => { for (let n = 0; n < 4; n += 1) button.click() }")

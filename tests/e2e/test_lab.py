@@ -73,7 +73,7 @@ def test_rotations_play_there_and_back(visit: Visit) -> None:
     opened.page.get_by_role("button", name="Pause").click()
     opened.until("window.lab.drawn > 0")
     stands = opened.page.evaluate(way)
-    opened.page.wait_for_function(
+    opened.until(
         "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
     )
     assert opened.page.evaluate(way) == stands

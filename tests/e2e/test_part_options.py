@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from tests.e2e.waiting import add_style
 from tests.integration.scores import collection, relay, song
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ def test_parts_are_joined_in_the_page(visit: Visit, client: httpx.Client) -> Non
         return float((np.abs(pictures[0] - pictures[1]).max(axis=2) > 40).mean())
 
     # What is said over the stage comes and goes.
-    page.add_style_tag(content=".notices { visibility: hidden }")
+    add_style(page, ".notices { visibility: hidden }")
     page.keyboard.press("p")
     assert next_notes() == ["G4", "A4"]
     without = blocks()

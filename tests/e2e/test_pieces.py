@@ -105,3 +105,27 @@ def test_links_to_watch_and_to_control(visit: Visit) -> None:
     assert not other.page.get_by_text("Watching", exact=True).is_visible()
     other.page.keyboard.press(" ")
     opened.until("window.reina.playing === true")
+
+
+def test_a_control_link_made_anew_ends_the_one_before(visit: Visit, client: httpx.Client) -> None:
+    opened = visit(files=(MIDI, WAV))
+    before, path = opened.headers, f"/api/v1/sessions/{opened.session}/transport"
+    beside = visit(f"/s/{opened.session}", beside=opened)
+    beside.until_drawn()
+    panel = pieces(opened)
+    panel.get_by_role("button", name="To control").click()
+    address = panel.get_by_role("textbox", name="Address")
+    first = address.input_value()
+    panel.get_by_role("button", name="Make the control link anew").click()
+    expect(address).not_to_have_value(first)
+    assert client.post(path, json={"action": "pause"}, headers=before).status_code == 403
+    assert address.input_value().endswith(
+        f"#control={opened.headers['Authorization'].removeprefix('Bearer ')}"
+    )
+    # This page, and another tab of it, go on with the new one.
+    for one in (opened, beside):
+        one.until_drawn()
+        assert client.post(path, json={"action": "pause"}, headers=one.headers).status_code == 200
+    beside.until("document.querySelector('main').dataset.phase === 'open' && window.reina.drawn")
+    beside.page.keyboard.press(" ")
+    opened.until("window.reina.playing === true")

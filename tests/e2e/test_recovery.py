@@ -48,7 +48,7 @@ def test_a_restarted_server_is_found_again(tmp_path: Path, browser: Browser) -> 
 def test_a_session_that_ends_says_so_and_offers_a_way_on(visit: Visit, client: httpx.Client) -> None:
     opened = visit(files=DUET, refusals=("404", *LOST))
     assert client.delete(f"/api/v1/sessions/{opened.session}", headers=opened.headers).status_code == 204
-    opened.page.get_by_role("heading", name="This session is not here").wait_for()
+    opened.page.get_by_role("heading", name="This session has ended").wait_for()
     opened.page.get_by_role("link", name="Open Reina's piece").click()
     opened.until_drawn()
 

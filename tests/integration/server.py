@@ -6,12 +6,13 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Mapping
     from pathlib import Path
 
     import httpx
@@ -49,14 +50,25 @@ class Running:
 
 @contextmanager
 def serve(
-    data_dir: Path, *arguments: str, source: Path | None = None, log: Path | None = None
+    data_dir: Path,
+    *arguments: str,
+    source: Path | None = None,
+    log: Path | None = None,
+    settings: Mapping[str, object] | None = None,
+    files: int | None = None,
 ) -> Generator[Running]:
     """Start a server on a free port, from another work tree if one is named, and end it.
 
-    What it logs goes into a file where one is named.
+    What it logs goes into a file where one is named; settings are what its environment says besides; files
+    are how many it may have open.
     """
     environment = os.environ | ({"PYTHONPATH": str(source / "server")} if source else {})
-    command = [sys.executable, "-c", "import sys; from reina.cli import main; sys.exit(main())"]
+    environment |= {name: str(value) for name, value in (settings or {}).items()}
+    program = "import sys; from reina.cli import main; sys.exit(main())"
+    if files is not None:
+        limited = f"import resource; resource.setrlimit(resource.RLIMIT_NOFILE, ({files}, {files}))"
+        program = f"{limited}; {program}"
+    command = [sys.executable, "-c", program]
     with open(log, "w") if log else nullcontext() as said:  # noqa: PTH123
         process = subprocess.Popen(
             [*command, "serve", "--port", "0", "--data-dir", str(data_dir), *arguments],
@@ -119,3 +131,14 @@ def upload(client: httpx.Client, score: bytes, name: str = "score.mid", **form: 
     answer = client.post("/api/v1/sessions", files=files, data=form)
     assert answer.status_code == 201, answer.text
     return Owned(client, answer.json())
+
+
+def rendered(client: httpx.Client, href: str) -> httpx.Response:
+    """A song, once it is made."""
+    deadline = time.monotonic() + 60
+    while (answer := client.get(href)).status_code == 202:
+        assert answer.json()["status"] == "rendering"
+        assert 0.0 <= answer.json()["progress"] < 1.0
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    return answer

@@ -239,7 +239,43 @@ def test_methods_that_an_address_has_not_are_told_which_it_has(client: httpx.Cli
         assert (answer.status_code, answer.headers["allow"]) == (405, allowed)
         assert answer.headers["content-type"] == "application/problem+json"
     assert client.options("/api/v1/nothing").status_code == 404
+    with client.stream("OPTIONS", client.base_url, extensions={"target": b"*"}) as whole:
+        assert (whole.status_code, whole.headers["allow"]) == (
+            204,
+            "DELETE, GET, HEAD, OPTIONS, PATCH, POST, PUT",
+        )
     assert client.head("/api/v1/lab/bvh").status_code == 405
+
+
+@pytest.mark.parametrize(
+    ("below", "told"),
+    [
+        ("", "nothing can be asked here"),
+        ("/frames", "it may ask start_s, end_s, fps"),
+        ("/score", "it may ask part"),
+        ("/song", "format"),
+        ("/show/history", "nothing can be asked here"),
+    ],
+)
+def test_what_an_address_cannot_be_asked_is_refused(
+    client: httpx.Client, played: Owned, below: str, told: str
+) -> None:
+    answer = client.get(f"{played.path}{below}", params={"packed": "maybe"})
+    assert answer.status_code == 422
+    assert answer.json()["type"] == "urn:reina:problem:request-invalid"
+    assert "'packed'" in answer.json()["detail"]
+    assert told in answer.json()["detail"]
+    assert answer.json()["errors"][0]["location"] == "query/packed"
+
+
+@pytest.mark.parametrize(
+    "asked",
+    ["fps=true", "fps=1.5", "fps=", "start_s=now", "start_s=nan", "end_s=inf", "fps=0x10", "fps=sixty"],
+)
+def test_numbers_that_an_address_asks_are_numbers(client: httpx.Client, played: Owned, asked: str) -> None:
+    answer = client.get(f"{played.path}/frames?{asked}")
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["location"] == f"query/{asked.partition('=')[0]}"
 
 
 def filled(path: str, session: str) -> str:

@@ -66,6 +66,28 @@ def test_uploads_that_break_off_leave_no_traceback(logged: tuple[Running, Path],
     assert "Traceback" not in log.read_text()
 
 
+def test_nothing_is_left_of_an_upload_whose_sender_is_gone_when_it_is_read(
+    logged: tuple[Running, Path], tmp_path: Path
+) -> None:
+    server, log = logged
+    boundary = b'\r\n--x\r\nContent-Disposition: form-data; name="%s"\r\n\r\n'
+    form = FORM.partition(b"\r\n\r\n")[2] + scale(4_000) + boundary % b"public" + b"true\r\n--x--\r\n"
+    head = FORM.partition(b"\r\n\r\n")[0].replace(b"1000000", str(len(form)).encode()) + b"\r\n\r\n"
+    connection = connect(server)
+    connection.sendall(head + form)
+    connection.close()
+    with httpx.Client(base_url=server.address, timeout=PATIENCE_S) as client:
+        stays = upload(client, scale(8), public="true")
+        deadline = time.monotonic() + PATIENCE_S
+        listed: list[str] = []
+        while os.listdir(tmp_path / "data" / "staging") or listed != [stays.id]:  # noqa: PTH208
+            assert time.monotonic() < deadline, "nobody knows of it, and it is removed"
+            time.sleep(0.05)
+            listed = [each["id"] for each in client.get("/api/v1/sessions").json()["sessions"]]
+    assert server.stop() == 0
+    assert "Traceback" not in log.read_text()
+
+
 @pytest.mark.parametrize(
     ("frame", "code"),
     [

@@ -11,6 +11,7 @@ import httpx
 import pytest
 from tests.integration.scores import scale, show, song
 from tests.integration.server import serve
+from tests.kept import kept
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -109,7 +110,7 @@ def test_broken_files_are_refused(own: httpx.Client, data_dir: Path, case: str) 
     files, status, kind, told = BROKEN[case]
     body = problem(own.post("/api/v1/sessions", files=files), status, kind)
     assert told in body["detail"]
-    assert [path for path in data_dir.rglob("*") if path.is_file()] == []
+    assert kept(data_dir) == []
     assert own.get("/api/v1/health").json()["ready"] is True
 
 
@@ -125,7 +126,7 @@ def test_too_large_a_song_is_refused_while_it_comes(own: httpx.Client, data_dir:
         "/api/v1/sessions", content=chunks(), headers={"Content-Type": "multipart/form-data; boundary=x"}
     )
     assert "200 MB" in problem(answer, 413, "song-too-large")["detail"]
-    assert [path for path in data_dir.rglob("*") if path.is_file()] == []
+    assert kept(data_dir) == []
 
 
 def test_an_upload_that_says_it_is_huge_is_refused_before_it_comes(own: httpx.Client) -> None:
@@ -159,7 +160,7 @@ def test_what_is_no_form_is_refused(
 ) -> None:
     answer = own.post("/api/v1/sessions", content=content, headers={"Content-Type": content_type})
     problem(answer, status, kind)
-    assert [path for path in data_dir.rglob("*") if path.is_file()] == []
+    assert kept(data_dir) == []
 
 
 def test_a_field_that_does_not_fit_is_named(own: httpx.Client, data_dir: Path) -> None:
@@ -168,7 +169,7 @@ def test_a_field_that_does_not_fit_is_named(own: httpx.Client, data_dir: Path) -
     assert body["errors"][0]["location"] == "transposition"
     answer = own.post("/api/v1/sessions", files={"score": ("a.mid", MIDI)}, data={"part": "7"})
     problem(answer, 422, "not-in-score")
-    assert [path for path in data_dir.rglob("*") if path.is_file()] == []
+    assert kept(data_dir) == []
 
 
 @pytest.mark.parametrize(

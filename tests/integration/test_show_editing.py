@@ -237,6 +237,22 @@ def test_a_whole_track_is_put_read_and_removed(shown: Owned) -> None:
     assert shown.change("DELETE", TRACK).status_code == 404
 
 
+def test_a_key_of_no_letters_is_refused(shown: Owned) -> None:
+    keyframe = {"key": "", "time": 3, "value": 1}
+    for method, below, body in (
+        ("POST", "/show/tracks/lights/key/intensity/keyframes", keyframe),
+        ("PUT", "/show/tracks/lights/key/intensity", {"keyframes": [keyframe]}),
+        (
+            "POST",
+            "/show/edits",
+            [{"edit": "add_keyframe", "parameter": "lights/key/intensity", "keyframe": keyframe}],
+        ),
+    ):
+        answer = shown.change(method, below, json=body)
+        assert answer.status_code == 422, (method, below)
+        assert "a key has 1 to 64 letters" in answer.json()["detail"]
+
+
 def test_several_edits_are_one_step_and_all_or_none(shown: Owned) -> None:
     before = shown.client.get(f"{shown.path}/show").json()
     edits: list[dict[str, Any]] = [

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from reina.music import Score, read_score
 from reina.sound import passages as sound_passages
-from reina.sound.font import REPOSITORY
 from reina.sound.hearing import AS_WRITTEN, Hearing
 from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.render import Wanted, render_plan
 from reina.sound.rendered import SONG
 from reina.sound.renderer import SongRenderer, find_soundfont
+from reina.system.resources import default_data_dir
 
 RATE = 48000
 Samples = NDArray[np.float64]
@@ -58,7 +58,7 @@ def listen(
     """Return the song of a score, (F, 2) with full scale 1."""
 
     async def render() -> Path:
-        renderer = SongRenderer(data_dir, soundfont=find_soundfont(REPOSITORY / "data"))
+        renderer = SongRenderer(data_dir, soundfont=find_soundfont(default_data_dir()))
         try:
             return await (await renderer.request(score, played, hearing)).wait()
         finally:
@@ -104,7 +104,7 @@ def test_passages_add_up_to_the_whole(data_dir: Path, monkeypatch: pytest.Monkey
         track("Piano", [48, 52, 55, 60] * 48, 0.25, 0.9, program=0),
         track("Drums", [36, 42, 38, 46] * 48, 0.25, 0.1, channel=9),
     )
-    plan, soundfont = plan_sound(score), find_soundfont(REPOSITORY / "data").read_bytes()
+    plan, soundfont = plan_sound(score), find_soundfont(default_data_dir()).read_bytes()
     sounds: list[Samples] = []
     for name, shortest, longest in (("cut", 5 * RATE, 10 * RATE), ("whole", 1000 * RATE, 2000 * RATE)):
         monkeypatch.setattr(sound_passages, "SHORTEST", shortest)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from tests.integration.scores import duet, scale, show, song, sung
-from tests.integration.server import upload
+from tests.integration.server import rendered, upload
 from tests.unit.music.musicxml.musicxml_text import (
     B_FLAT,
     attributes,
@@ -188,17 +188,6 @@ def test_music_lasts_as_long_as_the_longer_of_score_and_song(client: httpx.Clien
     assert 0.5 <= shorter.body["duration_s"] <= 5.0
     for session in (longer, shorter):
         session.change("DELETE").raise_for_status()
-
-
-def rendered(client: httpx.Client, href: str) -> httpx.Response:
-    """A song, once it is made."""
-    deadline = time.monotonic() + 60
-    while (answer := client.get(href)).status_code == 202:
-        assert answer.json()["status"] == "rendering"
-        assert 0.0 <= answer.json()["progress"] < 1.0
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
-    return answer
 
 
 def test_a_score_without_a_song_is_rendered_as_it_is_played(client: httpx.Client) -> None:

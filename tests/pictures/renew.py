@@ -21,6 +21,7 @@ from tests.e2e.conftest import storing
 from tests.e2e.find_browser import browser_path
 from tests.e2e.opened import Opened
 from tests.e2e.shows import ShowPage, remembering
+from tests.e2e.waiting import wait_until
 from tests.integration.server import serve, upload
 from tests.pictures.gallery import PATIENCE_MS, GalleryPage, vite
 
@@ -106,9 +107,9 @@ def draw_page(browser: Browser, server: Running) -> None:
     page = browser.new_page(viewport={"width": PAGE_SIZE[0], "height": PAGE_SIZE[1]})
     page.set_default_timeout(PATIENCE_MS)
     page.goto(f"{server.address}/?tier=full")
-    page.wait_for_function("window.reina?.drawn")
+    wait_until(page, "window.reina?.drawn", patience_s=PATIENCE_MS / 1000)
     page.keyboard.press("Space")
-    page.wait_for_function("window.reina.playing")
+    wait_until(page, "window.reina.playing", patience_s=PATIENCE_MS / 1000)
     # The panels stay while the pointer is on one.
     page.mouse.move(PAGE_SIZE[0] / 2, PAGE_SIZE[1] - 22)
     png = b""

@@ -1,38 +1,23 @@
-"""The Dockerfile against the repository, since not every machine that runs the tests has Docker."""
+"""The Dockerfile and the compose files against the repository."""
 
+import json
+import os
 import re
-import shlex
-from pathlib import Path
+import subprocess
+from typing import Any
 
 import pytest
+import yaml
+from tests.dockerfile import ROOT, is_sent, stages
+from tests.servers.compose import find_compose
 
-ROOT = Path(__file__).parents[2]
-
-
-def instructions() -> list[list[str]]:
-    """Each instruction's words, continued lines joined."""
-    text = (ROOT / "Dockerfile").read_text().replace("\\\n", " ")
-    return [shlex.split(line) for line in text.splitlines() if line and not line.startswith("#")]
+WITH_POSTGRESQL = ("docker-compose.yml", "docker-compose.postgres.yml")
 
 
 def copied_from_context() -> list[str]:
     """What the Dockerfile copies out of the repository."""
-    copies = [words[1:] for words in instructions() if words[0] == "COPY"]
+    copies = [copy.words for stage in stages() for copy in stage.all("COPY")]
     return [source for words in copies if not words[0].startswith("--from") for source in words[:-1]]
-
-
-def is_sent(path: str) -> bool:
-    """Whether .dockerignore lets a path through: the last pattern that fits it or a folder above decides."""
-    sent = True
-    for line in (ROOT / ".dockerignore").read_text().splitlines():
-        pattern = line.strip()
-        if not pattern or pattern.startswith("#"):
-            continue
-        kept, pattern = pattern.startswith("!"), pattern.removeprefix("!")
-        expression = re.escape(pattern).replace(r"\*\*/", "(.*/)?").replace(r"\*", "[^/]*")
-        if re.fullmatch(f"{expression}(/.*)?", path):
-            sent = kept
-    return sent
 
 
 @pytest.mark.parametrize("source", copied_from_context())
@@ -45,6 +30,7 @@ def test_what_is_copied_is_there_and_sent(source: str) -> None:
     "path",
     [
         "data/soundfont.sf2",
+        "dist/reina-0.1.0-py3-none-any.whl",
         ".venv/bin/python",
         ".git/config",
         "web/node_modules/three/package.json",
@@ -60,21 +46,106 @@ def test_what_is_built_or_private_is_not_sent(path: str) -> None:
 
 def test_stages_are_declared_before_they_are_copied_from() -> None:
     declared: set[str] = set()
-    for words in instructions():
-        if words[0] == "FROM" and "AS" in words:
-            declared.add(words[-1])
-        if words[0] == "COPY" and words[1].startswith("--from="):
-            assert words[1].removeprefix("--from=") in declared
+    for stage in stages():
+        for copy in stage.all("COPY"):
+            if copy.words[0].startswith("--from="):
+                assert copy.words[0].removeprefix("--from=") in declared
+        declared.add(stage.name)
+
+
+def test_bases_are_named_by_their_exact_versions() -> None:
+    node, *pythons = [stage.base for stage in stages()]
+    found = re.fullmatch(r"node:(\d+)\.(\d+)\.\d+-bookworm-slim", node)
+    assert found
+    engines = json.loads((ROOT / "web" / "package.json").read_text())["engines"]["node"]
+    least = re.search(rf"\^{found[1]}\.(\d+)", engines)
+    assert least
+    assert int(found[2]) >= int(least[1])
+    assert len(pythons) == 2
+    assert len(set(pythons)) == 1
+    assert re.fullmatch(r"python:3\.1[1-9]\.\d+-slim-bookworm", pythons[0])
 
 
 def test_it_runs_as_nobody_in_particular_and_asks_for_its_health() -> None:
-    words = instructions()
-    last_stage = words[max(index for index, line in enumerate(words) if line[0] == "FROM") :]
-    named = {line[0]: line for line in last_stage}
-    assert named["USER"][1] != "root"
-    assert named["VOLUME"][1] == "/data"
-    assert "HEALTHCHECK" in named
-    assert "REINA_DATA_DIR=/data" in named["ENV"]
+    last = {instruction.name: instruction for instruction in stages()[-1].instructions}
+    made = re.search(r"useradd --uid (\d+) --gid \w+ .*--shell /usr/sbin/nologin (\w+)", last["RUN"].text)
+    assert made
+    assert int(made[1]) >= 10_000
+    assert last["USER"].words == [made[2]]
+    assert last["VOLUME"].words == ["/data"]
+    assert "HEALTHCHECK" in last
+    assert "REINA_DATA_DIR=/data" in last["ENV"].words
+
+
+def compose_config(*files: str, **variables: str) -> dict[str, Any]:
+    """What Docker Compose makes of compose files, with these variables alone set."""
+    command = find_compose()
+    if command is None:
+        pytest.skip(
+            "there is neither `docker compose` nor `docker-compose`; `make test` brings one on Debian"
+        )
+    named = [word for file in files for word in ("-f", file)]
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("REINA_")}
+    said = subprocess.run(
+        [*command, *named, "config"],
+        cwd=ROOT,
+        env=kept | variables,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert said.returncode == 0, said.stderr
+    # Compose's older versions say in the format's version how they read it.
+    config: dict[str, Any] = yaml.safe_load(said.stdout)
+    return config
+
+
+def assert_confined(service: dict[str, Any]) -> None:
+    """A container that can do no more than it needs, and take no more than it is given."""
+    assert service["read_only"] is True
+    assert service["cap_drop"] == ["ALL"]
+    assert service["security_opt"] == ["no-new-privileges:true"]
+    assert {"mem_limit", "pids_limit", "restart", "stop_grace_period"} <= service.keys()
+    assert service["logging"]["options"].keys() == {"max-size", "max-file"}
+    assert service["init"] is True
+
+
+def test_compose_reads_it_as_it_is_meant() -> None:
+    config = compose_config("docker-compose.yml", REINA_PORT="9001", REINA_MEMORY="12g")
+    assert config["services"].keys() == {"reina"}
+    reina = config["services"]["reina"]
+    assert_confined(reina)
+    # 1.29 writes sizes as they were given, later versions in bytes.
+    assert str(reina["mem_limit"]) in {"12g", str(12 * 1024**3)}
+    assert "9001" in json.dumps(reina["ports"])
+    assert "127.0.0.1" in json.dumps(reina["ports"])
+    assert reina["ulimits"] == {"core": 0, "nofile": 65536}
+    assert config["volumes"].keys() == {"data"}
+
+
+def test_compose_joins_a_postgresql_where_it_is_asked_to() -> None:
+    config = compose_config(*WITH_POSTGRESQL, REINA_DATABASE_PASSWORD="a-secret")
+    services = config["services"]
+    assert services.keys() == {"reina", "postgres"}
+    for service in services.values():
+        assert_confined(service)
+    assert services["reina"]["environment"]["REINA_DATABASE"] == "postgresql://reina:a-secret@postgres/reina"
+    assert services["reina"]["depends_on"]["postgres"]["condition"] == "service_healthy"
+    database = services["postgres"]
+    assert re.fullmatch(r"postgres:\d+\.\d+-bookworm", database["image"])
+    assert database["environment"] == {
+        "POSTGRES_USER": "reina",
+        "POSTGRES_DB": "reina",
+        "POSTGRES_PASSWORD": "a-secret",
+    }
+    # Nobody beyond the two containers reaches it.
+    assert "ports" not in database
+    assert config["volumes"].keys() == {"data", "database"}
+
+
+def test_a_database_without_a_password_is_refused_in_words() -> None:
+    with pytest.raises(AssertionError, match="a password for the database"):
+        compose_config(*WITH_POSTGRESQL)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 """Where a session's score is heard in its song."""
 
 import asyncio
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,6 +12,7 @@ from pydantic import Discriminator, Tag
 from reina.api.http.access import Controlled, Store, Watched
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
+from reina.api.http.proxies import client_address
 from reina.protocol.alignment import Alignment as AlignmentResource
 from reina.protocol.alignment import AlignmentCorrections, AlignmentDocument
 from reina.sessions.record import UNDECODED
@@ -102,18 +105,19 @@ async def put_song_analysis(request: Request, session: Controlled, store: Store)
             "The server decodes this song itself",
             f"{song.media_type} is listened to as it was sent; POST alignment/search looks again",
         )
-    async with store.staging() as folder:
+    async with store.staging(client_address(request.scope)) as folder:
         sent = folder / "song"
-        await _write(request, sent)
+        await _write(request, sent, partial(store.staged.grow, folder))
         await store.hear_song(session, sent)
     return await _resource(session)
 
 
-async def _write(request: Request, path: Path) -> None:
-    """Write a body to a file, as it comes in."""
+async def _write(request: Request, path: Path, grow: Callable[[int], None]) -> None:
+    """Write a body to a file, as it comes in; `grow` is told of its bytes before."""
     with path.open("wb") as file:
         async for chunk in request.stream():
             if chunk:
+                grow(len(chunk))
                 await asyncio.to_thread(file.write, chunk)
 
 

@@ -2,20 +2,31 @@
 
 import asyncio
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 
 import reina
 from reina.api.http.access import Store, Watched
+from reina.api.http.problems import ProblemError
 from reina.api.http.work import in_turn
 from reina.curves import Parameter, ParameterRegistry
 from reina.protocol import SUBPROTOCOL
-from reina.protocol.resources import Health, LightMood, LightMoodList, ShowParameterList
+from reina.protocol.resources import (
+    Fault,
+    Health,
+    LightMood,
+    LightMoodList,
+    Problem,
+    ShowParameterList,
+    Unready,
+)
 from reina.stage import LIGHT_MOODS, MOOD_REST
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from reina.api.readiness import Readiness
 
 router = APIRouter(tags=["server"])
 
@@ -63,9 +74,38 @@ async def list_moods() -> LightMoodList:
 
 
 @router.get("/health")
-async def get_health(request: Request) -> Health:
-    """Answers once the server can play."""
+async def get_health(
+    request: Request,
+    probe: Annotated[  # noqa: ARG001 - nothing follows from it
+        str | None, Query(max_length=100, description="Anything: it makes another address of each request.")
+    ] = None,
+) -> Health:
+    """Answers while the server lives, and says whether it is ready; see `/health/ready`."""
+    return _health(request)
+
+
+@router.get("/health/ready", responses={503: {"model": Problem, "description": "It is not ready; why not."}})
+async def get_readiness(request: Request, response: Response) -> Health:
+    """Answers 200 while the server can do all that it is there for, else 503 with each reason in `errors`."""
+    health = _health(request)
+    if not health.ready:
+        faults = [Fault(detail=one.detail, location=one.reason) for one in health.not_ready]
+        detail = "; ".join(fault.detail for fault in faults)
+        raise ProblemError(503, "not-ready", "The server is not ready", detail, errors=faults)
+    response.headers["Cache-Control"] = "no-store"
+    return health
+
+
+def _health(request: Request) -> Health:
     now: Callable[[], float] = request.app.state.now
+    readiness: Readiness | None = request.app.state.readiness
+    starting = Unready(reason="starting", detail="the server has not started yet")
+    missing = [starting] if readiness is None else readiness.missing()
     return Health(
-        status="ok", ready=True, version=reina.__version__, streams=[SUBPROTOCOL], server_time_s=now()
+        status="not-ready" if missing else "ok",
+        ready=not missing,
+        not_ready=missing,
+        version=reina.__version__,
+        streams=[SUBPROTOCOL],
+        server_time_s=now(),
     )

@@ -7,6 +7,7 @@ from fastapi import APIRouter, Body, Depends, Query, Request, Response
 
 from reina.api.frames import LATEST_S
 from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.body import BoundedRoute
 from reina.api.http.conditions import IfNoneMatch, named, not_modified, validated
 from reina.api.http.problems import ProblemError
@@ -56,7 +57,7 @@ def _span(
 Span = Annotated[CurveSpan, Depends(_span)]
 
 
-@router.get("/sessions/{session_id}/show/curves", response_model=ShowCurves)
+@router.get("/sessions/{session_id}/show/curves", response_model=ShowCurves, dependencies=[LARGE_ANSWER])
 async def get_curves(
     request: Request,
     session: Watched,
@@ -114,7 +115,7 @@ async def preview_curve(
     return Response(text, media_type="application/json")
 
 
-@router.get("/sessions/{session_id}/time", response_model=MusicTime)
+@router.get("/sessions/{session_id}/time", response_model=MusicTime, dependencies=[LARGE_ANSWER])
 async def get_music_time(request: Request, session: Watched) -> Response:
     """How seconds, beats and bars run in this piece, and what keys may snap to."""
     production, duration_s = session.production, session.clock.duration_s

@@ -11,6 +11,7 @@ from fastapi.responses import StreamingResponse
 
 from reina.api.frames import EndS, FramesPerSecond, StartS, frame_span
 from reina.api.http.access import Store, Watched
+from reina.api.http.answers import LARGE_ANSWER
 from reina.sessions.motion_export import BvhExport, player_skeleton
 from reina.system.turns import Turns
 
@@ -19,6 +20,7 @@ router = APIRouter(tags=["frames"])
 
 @router.get(
     "/sessions/{session_id}/export.bvh",
+    dependencies=[LARGE_ANSWER],
     response_class=StreamingResponse,
     responses={200: {"content": {"text/plain": {}}, "description": "A BVH file."}},
 )
@@ -56,6 +58,7 @@ async def export_bvh(
 
 @router.get(
     "/sessions/{session_id}/export.mid",
+    dependencies=[LARGE_ANSWER],
     response_class=Response,
     responses={200: {"content": {"audio/midi": {}}, "description": "A Standard MIDI File of format 1."}},
 )

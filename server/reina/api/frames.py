@@ -9,6 +9,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import StreamingResponse
 
 from reina.api.http.access import Watched
+from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.problems import ProblemError
 from reina.protocol.messages import Hello
 from reina.sessions.frames import FRAMES_PER_BLOCK, EncodedFrames
@@ -40,6 +41,7 @@ async def get_manifest(session: Watched, fps: FramesPerSecond = 60) -> Hello:
 
 @router.get(
     "/sessions/{session_id}/frames",
+    dependencies=[LARGE_ANSWER],
     response_class=StreamingResponse,
     responses={
         200: {"content": {"application/octet-stream": {}}, "description": "Whole frames, back to back."}

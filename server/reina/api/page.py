@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from fastapi import APIRouter, WebSocket
+from fastapi import APIRouter, Request, WebSocket
 from starlette.convertors import PathConvertor, register_url_convertor
 
 from reina.api.http.access import ServerSettings
+from reina.api.http.content_policy import page_policy
 from reina.api.http.files import IMMUTABLE, REVALIDATED, ServedFile, file_below
 from reina.api.http.problems import ProblemError
 from reina.api.settings import Settings
@@ -26,14 +27,25 @@ register_url_convertor("page_file", PageFileConvertor())
 
 
 @router.get("/")
-@router.get("/s/{session_id}")
-def get_page(settings: ServerSettings) -> ServedFile:
+def get_page(request: Request, settings: ServerSettings) -> ServedFile:
     """The page; which session it shows it reads from its own address."""
-    return _document(settings, "index.html")
+    return _document(request, settings, "index.html")
+
+
+@router.get("/s/{session_id}")
+def get_session_page(request: Request, settings: ServerSettings) -> ServedFile:
+    """The same; what it offers to be put into other pages, the stage without controls, may be framed."""
+    return _document(request, settings, "index.html", framed=request.query_params.get("clean") == "1")
+
+
+@router.get("/docs")
+def get_docs(request: Request, settings: ServerSettings) -> ServedFile:
+    """The description of the API, to be read."""
+    return _document(request, settings, "docs/index.html")
 
 
 @router.get("/lab")
-def get_lab(settings: ServerSettings) -> ServedFile:
+def get_lab(request: Request, settings: ServerSettings) -> ServedFile:
     """The laboratory: a page of its own."""
     if not settings.lab:
         raise ProblemError(
@@ -42,10 +54,10 @@ def get_lab(settings: ServerSettings) -> ServedFile:
             "There is no laboratory here",
             "the server listens to other machines too and was not started with --lab",
         )
-    return _document(settings, "lab.html")
+    return _document(request, settings, "lab.html")
 
 
-def _document(settings: Settings, name: str) -> ServedFile:
+def _document(request: Request, settings: Settings, name: str, *, framed: bool = False) -> ServedFile:
     path = settings.page_dir / name
     if not path.is_file():
         raise ProblemError(
@@ -54,11 +66,13 @@ def _document(settings: Settings, name: str) -> ServedFile:
             "The page has not been built",
             "`make setup` builds it; the API answers without it",
         )
-    return ServedFile(path)
+    policy = page_policy(path, request.headers.get("host", ""), framed=framed)
+    shared = {"Cross-Origin-Resource-Policy": "cross-origin"} if framed else {}
+    return ServedFile(path, headers={"Content-Security-Policy": policy, **shared})
 
 
 @router.get("/{file:page_file}")
-def get_file(file: str, settings: ServerSettings) -> ServedFile:
+def get_file(file: str, request: Request, settings: ServerSettings) -> ServedFile:
     """A file of the page."""
     path = file_below(settings.page_dir, file)
     if path is None:
@@ -68,6 +82,8 @@ def get_file(file: str, settings: ServerSettings) -> ServedFile:
             "Not Found",
             f"there is nothing at /{file}; the API stands under /api/v1, see /docs",
         )
+    if path.suffix == ".html":
+        return _document(request, settings, str(path.relative_to(settings.page_dir.resolve())))
     return ServedFile(path, caching=IMMUTABLE if Path(file).parts[0] == HASHED else REVALIDATED)
 
 

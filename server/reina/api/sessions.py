@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,9 +12,21 @@ from fastapi.responses import StreamingResponse
 from pydantic import ValidationError
 
 from reina.api.cast import cast_of_fields, refuse_twice
-from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.access import (
+    Controlled,
+    Doomed,
+    People,
+    ServerSettings,
+    Store,
+    Uploader,
+    Watched,
+    is_owner,
+)
+from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError, problem_of_validation
+from reina.api.http.proxies import client_address
+from reina.api.http.sign_in import Person, not_signed_in
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
 from reina.api.http.work import in_turn
 from reina.api.upload import Upload, receive_upload
@@ -22,6 +35,8 @@ from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
 from reina.sessions.score_text import packed_score
+from reina.sessions.session import Session
+from reina.sessions.storage.errors import SessionDamagedError
 from reina.sessions.store import Draft
 
 router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
@@ -64,20 +79,32 @@ _COMMANDS: dict[str, Any] = {
 
 
 @router.post("/sessions", status_code=201, openapi_extra=_form())
-async def create_session(request: Request, response: Response, store: Store) -> resources.CreatedSession:
+async def create_session(
+    request: Request, response: Response, store: Store, person: Uploader
+) -> resources.CreatedSession:
     """Make a session of a score, and of a song and a show if there are any.
 
     The answer holds the control token, which is told this once: keep it.
     """
-    async with store.staging() as folder:
-        upload = await receive_upload(request, folder)
-        session, token = await store.create(_draft(folder, upload, request))
+    sender = client_address(request.scope)
+    await store.require_disk(sender)
+    async with store.staging(sender) as folder:
+        upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
+        session, token = await store.create(_draft(folder, upload, request, person))
+    if await request.is_disconnected():
+        # Whoever sent it has given it up, and nobody else can come to know it.
+        await store.delete(session)
     response.headers["Location"] = session_links(session.id).self
+    return resources.CreatedSession(**dict(await _told(request, session)), control_token=token)
+
+
+async def _told(request: Request, session: Session) -> resources.Session:
+    """A session as it is told to who asks."""
     resource = await asyncio.to_thread(session.resource)
-    return resources.CreatedSession(**dict(resource), control_token=token)
+    return resource.model_copy(update={"mine": True}) if is_owner(request, session) else resource
 
 
-def _draft(folder: Path, upload: Upload, request: Request) -> Draft:
+def _draft(folder: Path, upload: Upload, request: Request, person: Person | None) -> Draft:
     if "score" not in upload.files:
         raise ProblemError(
             422,
@@ -99,20 +126,34 @@ def _draft(folder: Path, upload: Upload, request: Request) -> Draft:
         public=fields.public,
         cast=cast_of_fields(fields),
         in_time=fields.in_time,
-        sender=request.client.host if request.client else "",
+        sender=client_address(request.scope),
+        owner=None if person is None else person.name,
     )
 
 
 @router.get("/sessions")
 async def list_sessions(
+    request: Request,
+    response: Response,
+    people: People,
     store: Store,
     limit: Annotated[int, Query(ge=1, le=MAX_LISTED, description="How many at most.")] = LISTED,
     after: Annotated[
         str | None, Query(max_length=100, description="The `next` of the page before; leave it out at first.")
     ] = None,
+    mine: Annotated[
+        bool, Query(description="Those that were made by who is signed in, public or not, instead.")
+    ] = False,
 ) -> resources.SessionList:
     """The public sessions, newest first, page by page."""
-    entries, following = store.listed(limit, after)
+    owner: str | None = None
+    if mine:
+        person = people.person(request.scope)
+        if person is None or person.name is None:
+            raise not_signed_in()
+        owner = person.name
+        response.headers["Cache-Control"] = "no-store"
+    entries, following = await store.listed(limit, after, owner=owner)
     return resources.SessionList(
         sessions=[
             resources.SessionSummary(
@@ -125,13 +166,18 @@ async def list_sessions(
 
 
 @router.get("/sessions/{session_id}")
-async def get_session(session: Watched) -> resources.Session:
+async def get_session(
+    request: Request, session: Watched, store: Store, settings: ServerSettings
+) -> resources.Session:
     """One session."""
-    return await asyncio.to_thread(session.resource)
+    ends_at = await store.ends_at(session, settings.end_unseen_s)
+    resource = await _told(request, session)
+    return resource.model_copy(update={"ends_at": ends_at})
 
 
 @router.patch("/sessions/{session_id}")
 async def change_session(
+    request: Request,
     session: Controlled,
     change: Annotated[resources.SessionChange, Body(examples=[{"title": "Taps, slower", "part": 1}])],
     store: Store,
@@ -147,16 +193,28 @@ async def change_session(
         await store.change(session, **named, recast=lambda cast: cast.found_anew(sequence))
     else:
         await store.change(session, **named, recast=lambda cast: cast.changed(**wanted))
-    return await asyncio.to_thread(session.resource)
+    return await _told(request, session)
 
 
 @router.delete("/sessions/{session_id}", status_code=204)
-async def end_session(session: Controlled, store: Store) -> None:
-    """End it, and remove everything of it."""
-    await store.delete(session)
+async def end_session(session: Doomed, store: Store) -> None:
+    """End it, and remove everything of it; one that cannot be read, too."""
+    if isinstance(session, SessionDamagedError):
+        await store.delete_damaged(session)
+    else:
+        await store.delete(session)
 
 
-@router.get("/sessions/{session_id}/score", response_model=resources.Score)
+@router.post("/sessions/{session_id}/control_token")
+async def renew_control_token(session: Controlled, store: Store) -> resources.ControlToken:
+    """Make the control token anew: the one before, and every link with it, controls nothing from then on.
+
+    Who watches goes on watching: for that the id is enough, which stays.
+    """
+    return resources.ControlToken(control_token=await store.renew_token(session))
+
+
+@router.get("/sessions/{session_id}/score", response_model=resources.Score, dependencies=[LARGE_ANSWER])
 async def get_score(
     request: Request,
     session: Watched,

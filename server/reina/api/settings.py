@@ -2,58 +2,137 @@
 
 from __future__ import annotations
 
+import math
 import os
+import re
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from reina.api.accounts import Accounts
 from reina.errors import InputError
-from reina.sessions.store import SONG_CACHE_BYTES
+from reina.sessions.memory_bound import MEMORY_BYTES
+from reina.sessions.sightings import DAY_S
+from reina.sessions.staging import STAGING_BYTES
+from reina.sessions.usage import DiskBound
+from reina.sound.song_cache import SONG_CACHE_BYTES
+from reina.system.resources import bundled, default_data_dir
 
-REPOSITORY = Path(__file__).parents[3]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 MEGABYTE = 1_000_000
 
 
-def _song_cache_bytes() -> int:
-    given = os.environ.get("REINA_SONG_CACHE_MB", "")
+def _count(variable: str, default: int, what: str) -> int:
+    given = os.environ.get(variable, "")
     if not given:
-        return SONG_CACHE_BYTES
+        return default
     if not given.isdecimal():
-        raise InputError(f"REINA_SONG_CACHE_MB is a whole number of megabytes, not {given!r}")
-    return int(given) * MEGABYTE
+        raise InputError(f"{variable} is a whole number of {what}, not {given!r}")
+    return int(given)
 
 
-def _folder(variable: str, default: str) -> Path:
-    return Path(os.environ.get(variable) or REPOSITORY / default)
+def _bytes(variable: str, default: int) -> Callable[[], int]:
+    return lambda: _count(variable, default // MEGABYTE, "megabytes") * MEGABYTE
+
+
+def _disk() -> DiskBound:
+    bound = DiskBound()
+    return DiskBound(
+        _bytes("REINA_DISK_MB", bound.most_bytes)(),
+        _bytes("REINA_DISK_PER_SENDER_MB", bound.most_bytes_of_sender)(),
+        _count("REINA_SESSIONS_PER_SENDER", bound.most_sessions_of_sender, "sessions"),
+    )
+
+
+def days(text: str, name: str = "--end-unseen") -> float:
+    """A number of days, 0 for never.
+
+    Raises:
+        InputError: It is none.
+    """
+    try:
+        number = float(text or 0)
+    except ValueError:
+        number = math.nan
+    if not 0 <= number < math.inf:
+        raise InputError(f"{name} is a number of days, 0 for never, not {text!r}")
+    return number
+
+
+def _end_unseen_s() -> float:
+    return days(os.environ.get("REINA_END_UNSEEN_DAYS", ""), "REINA_END_UNSEEN_DAYS") * DAY_S
+
+
+def _upload_password_file() -> Path | None:
+    named = os.environ.get("REINA_UPLOAD_PASSWORD_FILE")
+    return Path(named) if named else None
+
+
+def _folder(variable: str, default: Callable[[], Path]) -> Path:
+    named = os.environ.get(variable)
+    return Path(named) if named else default()
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Everything that a server is started with; each has a default that works in the repository.
+    """Everything that a server is started with; each has a default that works in a checkout and installed.
 
     Attributes:
+        database: The address of the database that sessions are kept in; one in the data directory when empty.
+        files: What keeps the large files: ``s3://…`` or a folder; a folder of the data directory when None.
         data_dir: Sessions and rendered songs.
         rigs_dir: One folder a rig.
         examples_dir: The bundled pieces.
         page_dir: The built page.
         song_cache_bytes: How large the songs that were rendered may be together.
+        memory_bytes: How many bytes the sessions in memory may weigh together.
+        staging_bytes: How large what is being sent may be together.
+        disk: How much may be kept.
+        end_unseen_s: How long after it was seen last a session is ended, seconds; 0 for never.
         allowed_hosts: Host names that the server answers to, without ports.
         allowed_origins: Origins beside the server's own that may write and open streams
             (``http://localhost:5173``, where the page is being developed).
+        trusted_proxies: Addresses and networks of proxies that are believed who asks.
+        rates: How many requests of a kind one address has in a minute, as `REINA_RATES` says it.
         lab: Whether the laboratory is there.
+        page: Whether the page is to be there.
+        log_requests: Whether each request is a line in the log.
+        upload_password_file: Holds the passwords of those who may upload; None: everybody may.
+        user_header: What a trusted proxy tells in who is signed in there; empty: nothing.
     """
 
-    data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", "data"))
-    rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", "rigs"))
-    examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", "examples"))
-    page_dir: Path = field(default_factory=lambda: _folder("REINA_PAGE", "web/dist"))
-    song_cache_bytes: int = field(default_factory=_song_cache_bytes)
+    database: str = field(default_factory=lambda: os.environ.get("REINA_DATABASE", ""))
+    files: str | None = field(default_factory=lambda: os.environ.get("REINA_FILES") or None)
+    data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", default_data_dir))
+    rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", lambda: bundled("rigs")))
+    examples_dir: Path = field(default_factory=lambda: _folder("REINA_EXAMPLES", lambda: bundled("examples")))
+    page_dir: Path = field(default_factory=lambda: _folder("REINA_PAGE", lambda: bundled("page")))
+    song_cache_bytes: int = field(default_factory=_bytes("REINA_SONG_CACHE_MB", SONG_CACHE_BYTES))
+    memory_bytes: int = field(default_factory=_bytes("REINA_MEMORY_MB", MEMORY_BYTES))
+    staging_bytes: int = field(default_factory=_bytes("REINA_STAGING_MB", STAGING_BYTES))
+    disk: DiskBound = field(default_factory=_disk)
+    end_unseen_s: float = field(default_factory=_end_unseen_s)
     allowed_hosts: frozenset[str] = LOCAL_HOSTS
     allowed_origins: frozenset[str] = frozenset()
+    trusted_proxies: tuple[str, ...] = ()
+    rates: str = field(default_factory=lambda: os.environ.get("REINA_RATES", ""))
     lab: bool = True
+    page: bool = True
+    log_requests: bool = False
+    upload_password_file: Path | None = field(default_factory=_upload_password_file)
+    user_header: str = field(default_factory=lambda: os.environ.get("REINA_USER_HEADER", ""))
+
+
+def settings_of(data_dir: Path | None, database: str | None) -> Settings:
+    """The settings with what a command names; None leaves as it is."""
+    named = {"data_dir": data_dir, "database": database}
+    return replace(Settings(), **{name: value for name, value in named.items() if value is not None})
 
 
 def require_page(settings: Settings) -> None:
@@ -69,6 +148,24 @@ def require_page(settings: Settings) -> None:
         )
 
 
+def require_sign_in(settings: Settings) -> None:
+    """See that what is said of signing in can be used.
+
+    Raises:
+        InputError: A person's header that nobody may send, or one that is no header.
+    """
+    header = settings.user_header
+    if header and not settings.trusted_proxies:
+        raise InputError(
+            f"REINA_USER_HEADER={header} needs REINA_TRUSTED_PROXY, the address of the proxy that sends it: "
+            "from anybody else it means nothing"
+        )
+    if header and not re.fullmatch(r"[A-Za-z0-9-]+", header):
+        raise InputError(f"REINA_USER_HEADER is the name of a header, X-Forwarded-User say, not {header!r}")
+    if settings.upload_password_file is not None:
+        Accounts.read(settings.upload_password_file)
+
+
 def require_writable(data_dir: Path) -> None:
     """Make the data directory, and see that files can be made in it.
 
@@ -76,7 +173,7 @@ def require_writable(data_dir: Path) -> None:
         InputError: They cannot.
     """
     try:
-        data_dir.mkdir(parents=True, exist_ok=True)
+        data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
         with tempfile.TemporaryFile(dir=data_dir):
             pass
     except OSError as error:

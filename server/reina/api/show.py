@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 
 from reina.api.http.access import Controlled, Store, Watched
+from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.body import BoundedRoute
 from reina.api.http.conditions import IfMatch, IfNoneMatch, named, not_modified, validated
 from reina.api.show_change import ShowChange
@@ -38,7 +39,7 @@ EXAMPLE: Document = {
 }
 
 
-@router.get("/sessions/{session_id}/show", response_model=ShowDocument)
+@router.get("/sessions/{session_id}/show", response_model=ShowDocument, dependencies=[LARGE_ANSWER])
 async def get_show(
     session: Watched,
     if_none_match: IfNoneMatch = None,

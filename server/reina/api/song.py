@@ -1,6 +1,6 @@
 """A session's sound."""
 
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Annotated, Literal
 
 import numpy as np
@@ -10,7 +10,7 @@ from starlette.concurrency import run_in_threadpool
 
 from reina.api.http.access import Store, Watched
 from reina.api.http.files import IMMUTABLE, ServedFile
-from reina.api.http.problems import ProblemError
+from reina.api.http.problems import ProblemError, storage_full
 from reina.protocol.messages import SongState
 from reina.protocol.timeline import SongPeaks
 from reina.sessions.session import Session
@@ -18,6 +18,7 @@ from reina.sessions.song import Song
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, WAV_MEDIA_TYPE, wav_of
 from reina.sound.hearing import AS_WRITTEN, MOST_SEMITONES, Hearing, Stem
 from reina.sound.recording.probe import media_type_of
+from reina.sound.renderer import NoRoomError
 
 router = APIRouter(tags=["song"])
 
@@ -26,8 +27,11 @@ PEAK_DIGITS = 4
 SEGMENT_PATIENCE_S = 1.0
 """How long a request waits for a segment that is not there yet; then it is told how far the rendering is."""
 # What was uploaded as sound is never to be taken for a page.
-NOSNIFF = {"X-Content-Type-Options": "nosniff"}
-HEADERS = {"Cache-Control": "no-cache", **NOSNIFF}
+ATTACHED = {"Content-Disposition": "attachment"}
+HEADERS = {"Cache-Control": "no-cache", **ATTACHED}
+
+
+TOLD_APART = "Tells the renderings apart; what is sent is always the song of what is played now."
 
 
 def _hearing(
@@ -68,9 +72,19 @@ def _hearing(
 Heard = Annotated[Hearing, Depends(_hearing)]
 
 
+def _rendering(
+    sequence: Annotated[int | None, Query(description=TOLD_APART)] = None,
+    part: Annotated[list[int] | None, Query(description=TOLD_APART)] = None,
+    transposition: Annotated[list[int] | None, Query(description=TOLD_APART)] = None,
+    joined_parts: Annotated[list[str] | None, Query(description=TOLD_APART)] = None,
+) -> None:
+    """What the links of rendered songs say, so that each has an address of its own."""
+
+
 @router.get(
     "/sessions/{session_id}/song",
     response_class=FileResponse,
+    dependencies=[Depends(_rendering)],
     responses={
         200: {"content": {"audio/*": {}}, "description": "The song; ranges may be asked for, but of a WAV."},
         202: {"model": SongState, "description": "It is still being made."},
@@ -102,9 +116,14 @@ async def get_song(
                 f"it was uploaded as {song.media_type} and is sent as it came: leave `format` out",
             )
         return await run_in_threadpool(_as_wav, path)
-    if format == "original" and (original := store.original_song(session)) is not None:
-        return ServedFile(original, media_type=media_type_of(original.suffix), headers=HEADERS)
-    return ServedFile(path, media_type=song.media_type, headers=HEADERS)
+    record, is_original = session.record.song, format == "original"
+    if record is None:
+        return ServedFile(path, media_type=song.media_type, headers=HEADERS)
+    uploaded = await store.song_file(session, is_original=is_original)
+    media_type = record.media_type
+    if is_original and record.original is not None:
+        media_type = media_type_of(PurePath(record.original).suffix)
+    return ServedFile(uploaded or path, media_type=media_type, headers=HEADERS)
 
 
 @router.get("/sessions/{session_id}/song/state")
@@ -149,9 +168,9 @@ async def get_segment(session: Watched, rendering: str, number: int) -> Response
         if request.given_up:
             return _under_way(session)
         if request.error is not None:
-            raise _no_song(str(request.error))
+            raise _no_song(str(request.error), lacks_room=isinstance(request.error, NoRoomError))
         return _under_way(session, hearing)
-    return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=NOSNIFF)
+    return ServedFile(path, media_type=SEGMENT_MEDIA_TYPE, caching=IMMUTABLE, headers=ATTACHED)
 
 
 @router.get(
@@ -170,7 +189,8 @@ async def get_peaks(
     """The sound's shape, to be drawn: its lowest and highest sample in each of many equal stretches."""
     _, path = _song_and_path(session)
     if path is not None:
-        peaks = await store.decoder.peaks(path)
+        uploaded = session.record.song is not None
+        peaks = await (store.peaks(session) if uploaded else store.decoder.peaks(path))
         if peaks is None:
             return Response(status_code=204)
     else:
@@ -200,11 +220,13 @@ def _song_and_path(session: Session, hearing: Hearing = AS_WRITTEN) -> tuple[Son
         session.renew_song()
         song = session.song
     if song.error is not None:
-        raise _no_song(song.error)
+        raise _no_song(song.error, lacks_room=song.lacks_room)
     return song, song.path
 
 
-def _no_song(why: str) -> ProblemError:
+def _no_song(why: str, *, lacks_room: bool) -> ProblemError:
+    if lacks_room:
+        return storage_full(why)
     return ProblemError(502, "no-song", "There is no sound", f"no song could be made: {why}")
 
 

@@ -9,7 +9,8 @@ from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
 from reina.api.http.access import unknown_session
-from reina.api.http.problems import ProblemError
+from reina.api.http.problems import ProblemError, problem_of_input
+from reina.errors import InputError
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.messages import Lead, Pong, StreamError, viewer_message
 from reina.sessions.viewer import Viewer
@@ -60,22 +61,30 @@ async def stream(
     """Refuse before the handshake ends, or send until either side goes."""
     store: SessionStore = socket.app.state.store
     now: Callable[[], float] = socket.app.state.now
-    session = await store.get(session_id)
+    session, problem = await _found(store, session_id)
     size = SIZES.get(frames_per_message)
-    problem: ProblemError | None = None
-    if session is None:
-        problem = unknown_session(session_id)
-    elif SUBPROTOCOL not in socket.scope["subprotocols"]:
+    if session is not None and SUBPROTOCOL not in socket.scope["subprotocols"]:
         offered = ", ".join(socket.scope["subprotocols"]) or "none"
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
-    elif size is None:
+    elif session is not None and (unknown := set(socket.query_params) - {"frames_per_message"}):
+        detail = f"the stream may be asked for frames_per_message, not for {', '.join(sorted(unknown))[:100]}"
+        problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
+    elif session is not None and size is None:
         detail = f"frames_per_message is 1 to {MAX_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     if problem or session is None or size is None:
         if problem:
             await socket.send_denial_response(problem.response())
         return
+    with session.asked():
+        await _send_until_the_end(socket, session, size, now)
+    store.sightings.note(session.id)
+
+
+async def _send_until_the_end(
+    socket: WebSocket, session: "Session", size: int, now: Callable[[], float]
+) -> None:
     await socket.accept(subprotocol=SUBPROTOCOL)
     viewer = Viewer(WebSocketConnection(socket), frames_per_message=size)
     await session.ready()
@@ -91,6 +100,15 @@ async def stream(
             # Whoever leaves does so in the middle of a message: that is no error.
             with contextlib.suppress(asyncio.CancelledError, WebSocketDisconnect, OSError):
                 await task
+
+
+async def _found(store: "SessionStore", session_id: str) -> "tuple[Session | None, ProblemError | None]":
+    """A session, or why it cannot be watched."""
+    try:
+        session = await store.get(session_id)
+    except InputError as error:
+        return None, problem_of_input(error)
+    return session, unknown_session(session_id) if session is None else None
 
 
 async def _receive(socket: WebSocket, viewer: Viewer, session: "Session", now: Callable[[], float]) -> None:

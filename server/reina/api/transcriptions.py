@@ -1,16 +1,17 @@
 """The notes of a recording alone: looked for in the background, and taken as MIDI."""
 
 import asyncio
-import shutil
+from functools import partial
 from pathlib import Path as FilePath
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Path, Query, Request, Response
 
 from reina.api.export import attachment
-from reina.api.http.access import Store
+from reina.api.http.access import Store, Uploader
 from reina.api.http.body import BoundedRoute
 from reina.api.http.problems import ProblemError
+from reina.api.http.proxies import client_address
 from reina.api.http.upload_limits import FILE_LIMITS, MEGABYTE
 from reina.api.upload import Upload, receive_upload
 from reina.instruments import INSTRUMENTS
@@ -75,6 +76,7 @@ async def transcribe(
     response: Response,
     store: Store,
     known: Known,
+    _: Uploader,
     title: Annotated[
         str | None,
         Query(max_length=LONGEST_TITLE, description="What the score is called; else as the file."),
@@ -92,12 +94,14 @@ async def transcribe(
     """
     known.require()
     line = _line(instrument)
-    folder = await store.staging_folder()
+    folder = await store.staging_folder(client_address(request.scope))
+    discard = partial(store.discard_staged, folder)
     try:
-        song, filename = _song(await receive_upload(request, folder))
-        work = known.begin(folder, song, line, title or FilePath(filename or "").stem or "Transcription")
+        upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
+        song, filename = _song(upload)
+        work = known.begin(song, line, title or FilePath(filename or "").stem or "Transcription", discard)
     except BaseException:
-        await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+        await asyncio.shield(discard())
         raise
     answer = work.resource()
     response.headers["Location"] = answer.links.self

@@ -14,6 +14,7 @@ from reina.api.http.problems import ProblemError
 from reina.api.http.upload_limits import FIELD_LIMITS, LIMITS, MEGABYTE
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from python_multipart.multipart import MultipartCallbacks
@@ -40,8 +41,15 @@ class Upload:
     fields: dict[str, str] = field(default_factory=dict[str, str])
 
 
-async def receive_upload(request: Request, folder: Path) -> Upload:
+async def receive_upload(
+    request: Request, folder: Path, grow: Callable[[int], None] = lambda _: None
+) -> Upload:
     """Write the parts of a multipart request into a folder, each under its own name.
+
+    Args:
+        request: What comes in.
+        folder: Where its files go.
+        grow: Told of bytes before they are written, on any thread; what it raises is raised on.
 
     Raises:
         ProblemError: 415 when it is no multipart form, 400 when it is malformed, 413 when a part is too
@@ -56,7 +64,7 @@ async def receive_upload(request: Request, folder: Path) -> Upload:
             "Unsupported Media Type",
             "send a multipart/form-data form with the file `score`, and `song` and `show` if there are any",
         )
-    writer = _PartWriter(folder)
+    writer = _PartWriter(folder, grow)
     try:
         parser = MultipartParser(boundary, writer.callbacks())
     except FormParserError as error:
@@ -86,7 +94,8 @@ def _malformed(why: str) -> ProblemError:
 class _PartWriter:
     """The parser's callbacks: headers in pieces, then data in pieces."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, grow: Callable[[int], None]) -> None:
+        self._grow = grow
         self.upload = Upload()
         self.complete = False
         self._folder = folder
@@ -147,6 +156,7 @@ class _PartWriter:
             detail = f"{self._name} is larger than {shown}"
             raise ProblemError(413, f"{self._name}-too-large", "Content Too Large", detail)
         if self._file:
+            self._grow(len(data))
             self._file.write(data)
         elif self._text is not None:
             self._text += data

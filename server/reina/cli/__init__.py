@@ -7,9 +7,14 @@ from collections.abc import Sequence
 
 COMMANDS = {
     "serve": ("reina.cli.serve", "start the server and print its address"),
+    "migrate": ("reina.cli.migrate", "take over the sessions that an earlier version kept"),
     "inspect": ("reina.cli.inspect", "say what is in a score and how it is fingered"),
     "align": ("reina.cli.align", "say where a score is heard in a recording"),
     "transcribe": ("reina.cli.transcribe", "find the notes of a recording of one line"),
+    "doctor": ("reina.cli.doctor", "look whether all is there that the server needs"),
+    "backup": ("reina.cli.backup", "copy what the server keeps, while it runs"),
+    "restore": ("reina.cli.restore", "put back what was backed up"),
+    "password": ("reina.cli.password", "make a line for the file that says who may upload"),
     "film": ("reina.cli.film", "make a film of a score, without a window"),
 }
 """Each command's module, which is imported when it is asked for, and what it does."""

@@ -27,7 +27,17 @@ OPENING_MS = 120_000
 UPLOAD_MS = 600_000
 DECODING_S, LOOK_EVERY_MS = 60.0, 200
 """How long the page may take to decode a recording that the server does not."""
-OPEN = "() => window.reina?.session || document.querySelector('[role=alert]')"
+OPEN = """
+async (patience) => {
+  const end = performance.now() + patience;
+  while (!window.reina?.session && document.querySelector("[role=alert]") === null) {
+    if (performance.now() > end) throw new Error("it says nothing");
+    await new Promise((done) => setTimeout(done, 100));
+  }
+}
+"""
+"""Is over once a session is open, or the page has said why none is. It waits in the page, which may not be
+made to evaluate a text again and again."""
 FILM = """
 async (commission) => {
   const toText = (bytes) => new Promise((resolve, reject) => {
@@ -125,7 +135,7 @@ class FilmPage:
             control = f"#control={self._session['control_token']}" if self._is_decoded_here else ""
             address = f"{self._address}/s/{self._session['id']}?clean=1&tier=low{control}"
             self._page.goto(address, timeout=OPENING_MS)
-            self._page.wait_for_function(OPEN, timeout=OPENING_MS)
+            self._page.evaluate(OPEN, OPENING_MS)
         except Error as error:
             raise InputError(
                 f"the page at {self._address} does not open: {error.message.splitlines()[0]}"

@@ -29,7 +29,7 @@ def listen(host: str, port: int) -> list[socket.socket]:
         InputError: The host has no address here, or the port cannot be had.
     """
     if not 0 <= port <= 65535:
-        raise InputError(f"ports are 0 to 65535, not {port}; choose another with --port")
+        raise _no_port(port, "--port")
     try:
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
     except socket.gaierror as error:
@@ -45,7 +45,7 @@ def listen(host: str, port: int) -> list[socket.socket]:
                 continue
             for opened in sockets:
                 opened.close()
-            raise _explained(error, host, port) from error
+            raise explained(error, host, port) from error
     if not sockets:
         raise InputError(f"this machine has no address of the host {host!r}; try --host 127.0.0.1")
     return sockets
@@ -74,12 +74,28 @@ def _bound(family: int, kind: int, protocol: int, address: tuple[str | int, ...]
     return listening
 
 
-def _explained(error: OSError, host: str, port: int) -> InputError:
+def _no_port(port: int, option: str) -> InputError:
+    return InputError(f"ports are 0 to 65535, not {port}; choose another with {option}")
+
+
+def explained(error: OSError | OverflowError, host: str, port: int, *, option: str = "--port") -> InputError:
+    """Why nothing can listen there, and what would help.
+
+    Args:
+        error: What the system says.
+        host: The host that was asked for.
+        port: The port that was asked for.
+        option: What chooses another.
+    """
+    if isinstance(error, OverflowError):
+        return _no_port(port, option)
     reasons = {
-        errno.EADDRINUSE: f"port {port} is in use: stop what listens there, or choose another with --port "
+        errno.EADDRINUSE: f"port {port} is in use: stop what listens there, or choose another with {option} "
         "(0 picks a free one)",
-        errno.EACCES: f"port {port} needs more rights than this user has: choose one from 1024 on by --port",
-        errno.EADDRNOTAVAIL: f"this machine has no address {host}; try --host 127.0.0.1",
+        errno.EACCES: f"port {port} needs more rights than this user has: choose one from 1024 on "
+        f"by {option}",
+        errno.EADDRNOTAVAIL: f"this machine has no address {host}; "
+        f"try {option.replace('port', 'host')} 127.0.0.1",
     }
     return InputError(
         reasons.get(error.errno or 0, f"cannot listen on {host}, port {port}: {error.strerror}")

@@ -13,7 +13,6 @@ from reina.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-PROGRAM = "import sys; from reina.cli import main; sys.exit(main())"
 ENDING_S = 10
 
 
@@ -25,7 +24,7 @@ def own_server() -> Generator[str]:
         InputError: It does not start.
     """
     with tempfile.TemporaryDirectory(prefix="reina-") as data_dir, tempfile.TemporaryFile("w+") as said:
-        command = [sys.executable, "-c", PROGRAM, "serve", "--port", "0", "--data-dir", data_dir]
+        command = [sys.executable, "-P", "-m", "reina", "serve", "--port", "0", "--data-dir", data_dir]
         process = subprocess.Popen(  # noqa: S603 - this very program
             command,
             stdout=subprocess.PIPE,

@@ -2,15 +2,50 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.protocol import State
+
+from reina.cli.connections import Outflow
+from reina.cli.server_config import connections_of
+
+if TYPE_CHECKING:
+    import uvicorn
+    from uvicorn.server import ServerState
 
 NO_TEXT = 1007
 """RFC 6455, 7.4.1: data that is not what its type says."""
 
 
 class TextProtocol(WebSocketsSansIOProtocol):
-    """Closes on text that is no UTF-8, where uvicorn writes a traceback of it."""
+    """Closes on text that is no UTF-8, where uvicorn writes a traceback of it.
+
+    A viewer that answers no ping is sent away by uvicorn; it is let go though it reads nothing of that.
+    """
+
+    def __init__(self, config: uvicorn.Config, server_state: ServerState, app_state: dict[str, Any]) -> None:
+        super().__init__(config, server_state, app_state)
+        self.outflow = Outflow()
+        self._all = connections_of(config)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """The viewer has gone."""
+        super().connection_lost(exc)
+        self._all.closed(self)
+
+    def resume_writing(self) -> None:
+        """What was sent has been taken."""
+        self.outflow.resumed = True
+        super().resume_writing()
+
+    def overdue(self, now: float) -> bool:  # noqa: ARG002 - its pings have timers of their own
+        """Never: who is silent is pinged."""
+        return False
+
+    def drop(self) -> None:
+        """End it at once."""
+        self.transport.abort()
 
     def send_receive_event_to_app(self) -> None:
         """Pass a whole message on, if it is one."""

@@ -219,6 +219,30 @@ class MusicClock:
         """Return the state at a server time, now by default; it depends on the last change and `at` alone."""
         return self._changed.at(self._now() if at is None else at)
 
+    def resume(self, state: ClockState) -> ClockState:
+        """Go on from a state that another clock was in; what of it does not fit this song is let go.
+
+        Args:
+            state: Its server time is this clock's, and may lie before this clock was made: song time has run
+                since. The epoch here is a greater one. Its duration is not looked at.
+        """
+        duration_s = self.duration_s
+        loop = state.loop
+        if loop is not None and not (loop[0] >= 0 and loop[0] + SHORTEST_LOOP_S <= loop[1] <= duration_s):
+            loop = None
+        counted = state.loop_count_in_s if loop else 0.0
+        then = replace(
+            state,
+            song_time_s=min(max(state.song_time_s, 0.0), duration_s),
+            rate=min(max(state.rate, SLOWEST_RATE), FASTEST_RATE),
+            loop=loop,
+            loop_count_in_s=min(max(counted, 0.0), LONGEST_COUNT_IN_S),
+            count_in_s=min(max(state.count_in_s, 0.0), LONGEST_COUNT_IN_S) if state.playing else 0.0,
+            duration_s=duration_s,
+        )
+        self._changed = replace(then.at(self._now()), epoch=max(state.epoch, self._changed.epoch) + 1)
+        return self._changed
+
     def play(self, count_in_s: float = 0.0) -> ClockState:
         """Let song time run; from the beginning if it stands at the end.
 

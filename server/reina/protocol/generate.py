@@ -40,6 +40,8 @@ SENT: tuple[type[BaseModel], ...] = (
     resources.Session,
     resources.CreatedSession,
     resources.SessionList,
+    resources.ControlToken,
+    resources.SignIn,
     resources.Score,
     alignment.Alignment,
     resources.Cast,
@@ -73,6 +75,7 @@ RECEIVED: tuple[type[BaseModel], ...] = (
     *FROM_VIEWER,
     *COMMANDS,
     resources.SessionChange,
+    resources.Password,
     resources.CastFields,
     alignment.AlignmentCorrections,
 )

@@ -41,6 +41,8 @@ class Problem(WireModel):
     detail: str
     errors: list[Fault] = Field(default_factory=list[Fault])
     """Each fault, where there are several; else empty."""
+    instance: str | None = None
+    """`urn:reina:request:` and the id of the request, which the server's log has too."""
 
 
 class Warned(WireModel):
@@ -167,7 +169,11 @@ class Session(WireModel):
     alignment: AlignmentState
     stances: list[Stance]
     """Its own, in the order of the choices of `player/stance`."""
+    ends_at: str | None = None
+    """When it will be ended unless somebody sees it before, ISO 8601, UTC; null unless that is near."""
     links: SessionLinks
+    mine: bool = False
+    """Whether who asks is signed in as the person who made it, and controls it without its token."""
 
 
 class CreatedSession(Session):
@@ -175,6 +181,33 @@ class CreatedSession(Session):
 
     control_token: str
     """What changes the session needs: `Authorization: Bearer <control_token>`."""
+
+
+class ControlToken(WireModel):
+    """A session's control token, as it is told once."""
+
+    control_token: str
+
+
+class SignIn(WireModel):
+    """Who asks, and whether the server wants to know."""
+
+    needed: bool
+    """Whether only who is signed in may upload."""
+    asks: Literal["password", "name-and-password", "proxy"] | None
+    """By what one signs in; null where nobody does. `proxy`: at the proxy before the server, not here."""
+    signed_in: bool
+    name: str | None
+    """Who it is; null where that is not known, as where all have one password."""
+    by: Literal["password", "proxy"] | None
+
+
+class Password(RequestModel):
+    """What somebody signs in by."""
+
+    name: Annotated[str, Field(min_length=1, max_length=200)] | None = None
+    """Whose password it is; where all have one it is left out."""
+    password: Annotated[str, Field(min_length=1, max_length=200)]
 
 
 class SessionSummary(WireModel):
@@ -683,12 +716,31 @@ class ExampleList(WireModel):
     examples: list[Example]
 
 
+class Unready(WireModel):
+    """One thing without which the server is not ready."""
+
+    reason: Literal[
+        "starting",
+        "data-directory",
+        "data-full",
+        "database",
+        "workers",
+        "soundfont",
+        "page",
+        "event-loop",
+        "ending",
+    ]
+    detail: str
+
+
 class Health(WireModel):
     """Liveness and readiness."""
 
     status: str
-    """`ok` once it can play."""
+    """`ok` while it can play, else `not-ready`."""
     ready: bool
+    not_ready: list[Unready] = Field(default_factory=list[Unready])
+    """What keeps it from being ready."""
     version: str
     streams: list[str]
     """The subprotocols that it speaks."""

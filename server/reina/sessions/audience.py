@@ -11,6 +11,7 @@ from reina.protocol.messages import StreamError
 from reina.sessions.broadcast import LEAD_S, Broadcast
 from reina.sessions.description import transport_message
 from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR
+from reina.system.metrics import tally
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -172,6 +173,8 @@ class Audience:
 
     def _send_due(self, now: float) -> None:
         for viewers, broadcast in self._by_lead():
+            if overdue := broadcast.overdue(now):
+                tally.frames_late += sum(overdue.get(viewer.frames_per_message, 0) for viewer in viewers)
             self._send(viewers, broadcast.until(now, _sizes(viewers)))
 
     def _send(self, viewers: list[Viewer], messages: dict[int, list[bytes]]) -> None:

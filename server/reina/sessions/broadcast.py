@@ -66,6 +66,23 @@ class Broadcast:
             messages[size] = self._messages(schedule, size, now + self.lead_s)
         return messages
 
+    def overdue(self, now: float) -> dict[int, int]:
+        """How many frames `until` would give out after they were due, by the number of frames in a message.
+
+        Args:
+            now: Server time, seconds.
+        """
+        overdue: dict[int, int] = {}
+        for size, schedule in self._schedules.items():
+            if schedule.next and schedule.next.due_time_s < now:
+                behind = copy.copy(schedule)
+                count = 0
+                while behind.next and behind.next.due_time_s < now:
+                    behind.take(1)
+                    count += 1
+                overdue[size] = count
+        return overdue
+
     def frames_until(self, now: float, sizes: set[int]) -> set[int]:
         """The frames that `until` would read; nothing is given out."""
         frames: set[int] = set()

@@ -9,10 +9,12 @@ import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from reina.protocol import FrameFlag, encode_block, join, stamp
+from reina.system.metrics import EVALUATION
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -24,8 +26,50 @@ if TYPE_CHECKING:
 
 FRAMES_PER_BLOCK = 60
 BLOCKS_KEPT = 8
+FEWEST_KEPT = 3
+"""The block that is sent, the next, and one before: so many are kept in any case."""
+KEPT_BYTES = 200_000_000
+"""How large the blocks of all performances may be together beyond those."""
 _EVALUATING = ThreadPoolExecutor(1, thread_name_prefix="frames")
 """Blocks are evaluated ahead here: on the event loop, which sends them, and would else have to wait."""
+
+
+class KeptBytes:
+    """Counts the bytes of the blocks that several `EncodedFrames` keep. For several threads.
+
+    Args:
+        most: How many are kept gladly.
+    """
+
+    def __init__(self, most: int = KEPT_BYTES) -> None:
+        self._most = most
+        self._counting = threading.Lock()
+        self._bytes: WeakKeyDictionary[EncodedFrames, int] = WeakKeyDictionary()
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all keep more than that together."""
+        with self._counting:
+            return sum(self._bytes.values()) > self._most
+
+    def of(self, frames: EncodedFrames) -> int:
+        """How many one has."""
+        with self._counting:
+            return self._bytes.get(frames, 0)
+
+    def add(self, frames: EncodedFrames, count: int) -> None:
+        """One has so many more, or less."""
+        with self._counting:
+            self._bytes[frames] = self._bytes.get(frames, 0) + count
+
+    def drop(self, frames: EncodedFrames) -> None:
+        """One has none any more."""
+        with self._counting:
+            self._bytes.pop(frames, None)
+
+
+ALL_KEPT = KeptBytes()
+"""Of the whole process."""
 
 
 class EncodedFrames:
@@ -34,10 +78,26 @@ class EncodedFrames:
     Frames are always evaluated by whole aligned blocks: floating point differs in the last bit between a
     block and a row of it, and a frame's bytes are to be the same however it was reached.
 
+    All of them together keep so many bytes; whoever evaluates another block beyond that lets go of its own.
+
     May be used by several threads.
+
+    Args:
+        performance: What is evaluated.
+        manifest: What its frames hold.
+        kept: How many blocks are kept at most.
+        together: Where the bytes of all are counted.
     """
 
-    def __init__(self, performance: Performance, manifest: Manifest, *, kept: int = BLOCKS_KEPT) -> None:
+    def __init__(
+        self,
+        performance: Performance,
+        manifest: Manifest,
+        *,
+        kept: int = BLOCKS_KEPT,
+        together: KeptBytes | None = None,
+    ) -> None:
+        self._together = together or ALL_KEPT
         self.manifest = manifest
         self._performance = performance
         self._kept = kept
@@ -78,11 +138,14 @@ class EncodedFrames:
         with self._evaluating:
             frames = self._kept_block(number)
             if frames is None:
-                frames = encode_block(self.manifest, self._performance.evaluate(number))
+                with EVALUATION.time():
+                    frames = encode_block(self.manifest, self._performance.evaluate(number))
                 frames.flags.writeable = False
                 self._blocks[number] = frames
-                while len(self._blocks) > self._kept:
-                    self._blocks.popitem(last=False)
+                self._together.add(self, frames.nbytes)
+                while len(self._blocks) > self._most_kept():
+                    _, gone = self._blocks.popitem(last=False)
+                    self._together.add(self, -gone.nbytes)
             return frames
 
     def span(self, first: int, last: int) -> Frames:
@@ -111,6 +174,15 @@ class EncodedFrames:
     def forget(self) -> None:
         """Drop every block: what an idle session need not keep."""
         self._blocks.clear()
+        self._together.drop(self)
+
+    @property
+    def weight(self) -> int:
+        """How many bytes the blocks that are kept have."""
+        return self._together.of(self)
+
+    def _most_kept(self) -> int:
+        return min(self._kept, FEWEST_KEPT) if self._together.is_over else self._kept
 
     def _kept_block(self, number: int) -> Frames | None:
         frames = self._blocks.get(number)

@@ -5,12 +5,16 @@ from __future__ import annotations
 import re
 import secrets
 from datetime import UTC, datetime
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from reina.instruments import Cast  # noqa: TC001 - pydantic reads it
 from reina.protocol.resources import Warned  # noqa: TC001 - pydantic reads it
+from reina.sessions.kept_clock import KeptClock
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 SESSION_ID = re.compile(r"[A-Za-z0-9_-]{22}")
 """128 random bits, base64url."""
@@ -59,8 +63,21 @@ class StanceRecord(BaseModel):
     """As `reina.skeleton.pose_numbers` has it."""
 
 
+class FileRecord(BaseModel):
+    """A file of a session, as the file store keeps it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    """What the session calls it: ``score``, ``song.flac``, ``song.peaks``."""
+    digest: str
+    """SHA-256 of its content, hexadecimal."""
+    size: int
+    """Bytes."""
+
+
 class SessionRecord(BaseModel):
-    """session.json."""
+    """What is known of a session, as it is kept: JSON in the database."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -69,16 +86,33 @@ class SessionRecord(BaseModel):
     public: bool
     created_at: str
     token_sha256: str
+    """Of the control token, which itself is not kept."""
+    owner: str | None = None
+    """Who made it, where the server knows people; controls it without the token."""
     cast: Cast
     """Who plays what."""
     score_filename: str | None
     """The name that the score was uploaded under."""
     song: SongRecord | None
     """None: the server renders the score."""
+    files: tuple[FileRecord, ...] = ()
+    """What it has in the file store."""
     stances: tuple[StanceRecord, ...] = ()
     """Its own stances, in the order of the show's choices."""
-    song_time_s: float = 0.0
-    """Where the clock stood when the session was last unloaded."""
+    clock: KeptClock = KeptClock()
+    """The clock, at some time; where it is now follows from that."""
+    sender: str = ""
+    """Who sent it, as far as that was known: an address, which is told to nobody."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_a_clock_that_stood(cls, fields: object) -> object:
+        """Records of before clocks were kept have nothing but where it stood."""
+        if not isinstance(fields, dict) or "song_time_s" not in fields:
+            return cast("object", fields)
+        rest = dict(cast("dict[str, Any]", fields))
+        stood_s = rest.pop("song_time_s")
+        return rest | {"clock": {"song_time_s": stood_s}}
 
     @model_validator(mode="before")
     @classmethod
@@ -89,6 +123,12 @@ class SessionRecord(BaseModel):
         rest = dict(cast("dict[str, Any]", fields))
         casting = {name: rest.pop(name) for name in CASTING_FIELDS if name in rest}
         return rest | {"cast": {"sequence": rest.pop("sequence", None), "castings": [casting]}}
+
+
+def with_files(record: SessionRecord, files: Iterable[FileRecord]) -> SessionRecord:
+    """A record with further files; one of a name that it has already takes its place."""
+    named = {file.name: file for file in (*record.files, *files)}
+    return record.model_copy(update={"files": tuple(named.values())})
 
 
 def new_id() -> str:

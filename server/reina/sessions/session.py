@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import time
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,6 +30,7 @@ from reina.sessions.description import (
 )
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.heard_songs import HeardSongs
+from reina.sessions.kept_clock import KeptClock
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.show_fit import show_warnings
 from reina.sessions.show_revision import changed_paths
@@ -36,7 +39,7 @@ from reina.sessions.song_alignment import SongAlignment
 from reina.sound.hearing import AS_WRITTEN
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Generator
 
     from reina.protocol.messages import SongState
     from reina.protocol.transport import TransportCommand
@@ -67,7 +70,9 @@ class Session:
         song: Makes its sound; called when the rest is ready, and whenever the sound is another.
         heard: Makes what somebody wants to hear instead of a song that is made from the score.
         now: Server time, seconds; never goes back.
+        wall: The present, seconds since 1970.
         alignment: What is known of where the score is heard in the song.
+        clock_changed: Called whenever the clock has been changed.
     """
 
     def __init__(
@@ -80,9 +85,14 @@ class Session:
         heard: Callable[[Session, Hearing], RenderedSong],
         *,
         now: Callable[[], float],
+        wall: Callable[[], float] = time.time,
         alignment: Alignment | None = None,
+        clock_changed: Callable[[Session], None] = lambda _: None,
     ) -> None:
         self.record = record
+        self._wall = wall
+        self._clock_changed = clock_changed
+        self._asking = 0
         self.alignment = SongAlignment(alignment, is_heard=record.song is None or record.song.is_heard)
         self.production = production
         self.show_revision = show_revision
@@ -90,8 +100,9 @@ class Session:
         """Held while an edit is planned, so that edits do not overtake one another."""
         self._controlling = asyncio.Lock()
         self.clock = MusicClock(now, self._duration_s())
-        if 0 < record.song_time_s < self.clock.duration_s:
-            self.clock.seek(record.song_time_s)
+        if record.clock != KeptClock():
+            self.clock.resume(record.clock.state(now(), wall()))
+        self._kept_epoch = self.clock.epoch
         frames = EncodedFrames(production.performance, production.manifest)
         self.audience = Audience(frames, self.clock, notes, now=now)
         self._make_song = song
@@ -105,11 +116,38 @@ class Session:
 
     @property
     def is_idle(self) -> bool:
-        """Whether it can be unloaded: nobody watches or edits, no search is on, nothing plays but a loop."""
-        clock = self.clock.state()
-        plays_on = clock.playing and clock.loop is None
-        busy = self.editing.locked() or self.alignment.is_searching
-        return not len(self.audience) and not busy and not plays_on
+        """Whether it can be unloaded: nobody watches, asks or edits, and no search is on.
+
+        A clock that runs needs nobody to run it: where it is follows from what is kept of it.
+        """
+        busy = self._asking or self.editing.locked() or self.alignment.is_searching
+        return not len(self.audience) and not busy
+
+    @property
+    def weight(self) -> int:
+        """About how many bytes it takes in memory."""
+        return self.production.weight + self.show_revision.weight + self.audience.frames.weight
+
+    @contextmanager
+    def asked(self) -> Generator[None]:
+        """While something that was asked of it is answered, it stays loaded."""
+        self._asking += 1
+        try:
+            yield
+        finally:
+            self._asking -= 1
+
+    def kept(self) -> SessionRecord:
+        """The record with the clock as it is now, where it was changed since it was kept."""
+        if self._kept_epoch == self.clock.epoch:
+            return self.record
+        clock = KeptClock.of(self.clock.state(), self._wall())
+        return self.record.model_copy(update={"clock": clock})
+
+    def is_kept(self, record: SessionRecord) -> None:
+        """A record that `kept` gave has been written."""
+        self.record = record
+        self._kept_epoch = record.clock.epoch
 
     def close(self) -> None:
         """End what is under way: viewers and the rendering of the song."""
@@ -269,6 +307,7 @@ class Session:
                     raise ClockError("a loop has a start and an end; null both to end it", location="loop")
                 self.clock.set_loop(start_s, end_s, count_in_s)
         self.audience.restart()
+        self._clock_changed(self)
         return self.transport()
 
     async def change_show(self, production: Production, show_revision: ShowRevision) -> None:
@@ -363,6 +402,7 @@ class Session:
         self.production = production
         self.clock.touch()
         self.audience.restart(frames, notes)
+        self._clock_changed(self)
 
     def _duration_s(self) -> float:
         uploaded = self.record.song.duration_s if self.record.song else None

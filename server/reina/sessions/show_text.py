@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from reina.show import Show, Track
 from reina.show.show_writer import track_text
-from reina.system.json_text import Written, json_text
+from reina.system.json_text import json_text, with_list
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -65,8 +65,9 @@ class ShowText:
     def text(self, parameters: Iterable[str] | None = None) -> bytes:
         """The show as JSON with the tracks of some parameters alone; with all of them when None."""
         paths = self.tracks if parameters is None else dict.fromkeys(parameters)
-        tracks = [Written(self.tracks[path].text) for path in paths if path in self.tracks]
-        return json_text({**self.head, "tracks": tracks})
+        return with_list(
+            self.head, "tracks", [self.tracks[path].text for path in paths if path in self.tracks]
+        )
 
     def track_etag(self, path: str) -> str:
         """The validator of a parameter's track; `NO_TRACK_ETAG` where there is none."""

@@ -11,7 +11,7 @@ from reina.protocol.messages import SongSegments, SongState
 from reina.sound.encode import SEGMENT_MEDIA_TYPE, SONG_MEDIA_TYPE
 from reina.sound.events import SAMPLE_RATE
 from reina.sound.hearing import AS_WRITTEN
-from reina.sound.renderer import SongRenderer, SongRequest, SoundError
+from reina.sound.renderer import NoRoomError, SongRenderer, SongRequest, SoundError
 from reina.sound.segments import OVERLAP, SEGMENT
 
 if TYPE_CHECKING:
@@ -23,18 +23,27 @@ if TYPE_CHECKING:
     from reina.sound.hearing import Hearing
     from reina.sound.plan import PlayedParts
 
+ROOM_LOOKED_FOR_S = 2.0
+"""How often it is looked whether there is room for a song, where there was none."""
+
 _log = logging.getLogger(__name__)
 
 
 class UploadedSong:
-    """A song that came with the score."""
+    """A song that came with the score.
+
+    Args:
+        path: Its file.
+        record: What is known of it.
+    """
 
     source: Literal["uploaded", "rendered"] = "uploaded"
     error: str | None = None
+    lacks_room = False
     request: SongRequest | None = None
 
-    def __init__(self, folder: Path, record: SongRecord) -> None:
-        self.path: Path | None = folder / record.file
+    def __init__(self, path: Path, record: SongRecord) -> None:
+        self.path: Path | None = path
         self.media_type = record.media_type
         self.duration_s = record.duration_s
         self.progress = 1.0
@@ -51,6 +60,7 @@ class RenderedSong:
         score: From this.
         played: What the players play.
         hearing: What of it is to be heard.
+        owner: For whom; renderings go round by owner.
         ready: Called when it can be fetched, or has failed.
     """
 
@@ -65,13 +75,16 @@ class RenderedSong:
         played: Sequence[PlayedParts],
         *,
         hearing: Hearing = AS_WRITTEN,
+        owner: str,
         ready: Callable[[], None],
     ) -> None:
         self.path: Path | None = None
         self.error: str | None = None
+        self.lacks_room = False
+        """Whether there will be one once there is room on the disk: the error is only for now."""
         self.request: SongRequest | None = None
         """What is there of it; None until it is planned."""
-        self._making = asyncio.create_task(self._make(renderer, score, played, hearing, ready))
+        self._making = asyncio.create_task(self._make(renderer, score, played, hearing, owner, ready))
 
     @property
     def progress(self) -> float:
@@ -88,14 +101,19 @@ class RenderedSong:
         score: Score,
         played: Sequence[PlayedParts],
         hearing: Hearing,
+        owner: str,
         ready: Callable[[], None],
     ) -> None:
         try:
-            self.request = await renderer.request(score, played, hearing)
-            self.path = await self.request.wait()
+            while self.path is None:
+                try:
+                    self.request = await renderer.request(score, played, hearing, owner=owner)
+                    self.path = await self.request.wait()
+                except NoRoomError as error:
+                    await self._wait_for_room(renderer, str(error), ready)
         except (SoundError, InputError) as error:
             self.error = str(error)
-            _log.warning("no song for the score %r: %s", score.title, error)
+            _log.warning("no song for a score: %s", error)
         except asyncio.CancelledError:
             if self.request:
                 self.request.cancel()
@@ -103,8 +121,19 @@ class RenderedSong:
         except Exception as error:
             # Whoever waits for the song is to hear that there will be none, whatever went wrong.
             self.error = "the server made a mistake while it planned the sound, and has noted it"
-            _log.error("no song for the score %r: %r", score.title, error)
+            _log.error("no song for a score", exc_info=error)
         ready()
+
+    async def _wait_for_room(self, renderer: SongRenderer, why: str, ready: Callable[[], None]) -> None:
+        """Say that there is no sound for now, and wait until there may be."""
+        self.error, self.lacks_room = why, True
+        ready()
+        _log.warning("no song for now: %s", why)
+        has_room = False
+        while not has_room:
+            await asyncio.sleep(ROOM_LOOKED_FOR_S)
+            has_room = await asyncio.to_thread(renderer.has_room)
+        self.error, self.lacks_room = None, False
 
 
 Song = UploadedSong | RenderedSong

@@ -67,7 +67,7 @@ class SongAlignment:
     def search(
         self,
         aligner: Aligner,
-        song: Path,
+        song: Callable[[], Path],
         score: Score,
         *,
         found: Callable[[Alignment], Awaitable[None]],
@@ -77,7 +77,7 @@ class SongAlignment:
 
         Args:
             aligner: Does it.
-            song: The recording.
+            song: Where the recording is; called on a thread.
             score: As it is written.
             found: Called with what was found.
             tell: Called when there is more to tell: progress, and the end.
@@ -95,7 +95,7 @@ class SongAlignment:
 
         async def run() -> None:
             try:
-                await found(await aligner.align(song, score, follow))
+                await found(await aligner.align(await asyncio.to_thread(song), score, follow))
             except InputError as error:
                 self.error = str(error)
 

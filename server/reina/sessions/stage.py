@@ -53,6 +53,12 @@ class Stage:
     kinds: Mapping[str, Instrument]
     parameters: tuple[Parameter, ...] = tuple(stage_registry())
 
+    @property
+    def parts(self) -> tuple[object, ...]:
+        """What it consists of, one by one: what sessions refer to and share."""
+        parts = (*self.rigs.values(), *self.holds.values(), *self.kinds.values())
+        return (self.rigs, self.holds, self.kinds, self.parameters, *parts, *self.parameters)
+
     @classmethod
     def load(cls, rigs_dir: Path) -> Stage:
         """Read the rigs; whoever has a hold on an instrument can play it.

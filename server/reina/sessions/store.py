@@ -1,4 +1,4 @@
-"""All sessions of a server: a bounded number in memory, all of them on disk."""
+"""All sessions of a server: a bounded number in memory, all of them in storage."""
 
 from __future__ import annotations
 
@@ -6,22 +6,31 @@ import asyncio
 import contextlib
 import logging
 import shutil
+import time
 from collections import OrderedDict
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from reina.errors import InputError
 from reina.instruments import Cast
 from reina.music import ScoreError
+from reina.sessions.clock_keeping import ClockKeeping
 from reina.sessions.description import warned
 from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, Role, role_of
 from reina.sessions.file_role import SHOW as SHOW_DOCUMENT
-from reina.sessions.folders import SCORE, SHOW, SessionFolders
+from reina.sessions.memory_bound import MEMORY_BYTES, MemoryBound
 from reina.sessions.record import SessionRecord, SongRecord, StanceRecord, created_now, new_id
 from reina.sessions.session import Session, note_messages
 from reina.sessions.show_revision import ShowRevision
+from reina.sessions.sightings import Sightings, near_end
+from reina.sessions.sleeping_show import known_tracks, wake
 from reina.sessions.song import RenderedSong, Song, UploadedSong
+from reina.sessions.staging import STAGING_BYTES, StagingRoom
+from reina.sessions.storage.errors import DatabaseError, SessionDamagedError, SessionGoneError
+from reina.sessions.storage.session_storage import UNCHANGED, SessionStorage, ShowChange
+from reina.sessions.usage import DiskBound
 from reina.sessions.workers.reader import Reader
 from reina.show import ShowError
 from reina.skeleton import pose_of
@@ -29,27 +38,29 @@ from reina.sound.alignment.aligner_process import Aligner
 from reina.sound.alignment.alignment import Alignment, MapPoint
 from reina.sound.recording.as_flac import SUFFIX as FLAC_SUFFIX
 from reina.sound.recording.decoder import SongDecoder
-from reina.sound.recording.peaks import peaks_path
+from reina.sound.recording.peaks import Peaks, peaks_path, read_peaks
 from reina.sound.recording.probe import Conversion
-from reina.system.atomic_write import write_atomically
 from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable
-    from pathlib import Path
+    from collections.abc import AsyncGenerator, Awaitable, Callable, Coroutine, Generator, Iterable
 
     from reina.sessions.note_messages import NoteMessages
     from reina.sessions.production import Production
-    from reina.sessions.session_index import Entry
     from reina.sessions.stage import Stage
-    from reina.show import ShowHistory
+    from reina.sessions.storage.session_storage import Listed
+    from reina.sessions.usage import Usage
+    from reina.show import Show, ShowHistory
     from reina.sound.hearing import Hearing
     from reina.sound.recording.probe import AudioInfo
     from reina.sound.renderer import SongRenderer
 
-SONG_CACHE_BYTES = 2_000_000_000
-"""How large the rendered songs may be together; beyond that, those that were asked for least recently go."""
+SHARED_GRACE_S = 600.0
+"""Where other servers write to the same database, a file that no session has is left for so long."""
+SCORE = "score"
+"""What a session calls its score's file."""
 
+T = TypeVar("T")
 Stances = tuple[StanceRecord, ...]
 
 HEARD_TOLERANCE_S, HEARD_TOLERANCE = 1.0, 0.01
@@ -84,6 +95,7 @@ class Draft:
         cast: Who plays what.
         in_time: Whether the score's seconds are the song's already, so that it need not be looked for.
         sender: Who sent it, as far as that is known; what is read of senders is read in turn.
+        owner: The person whose it is, where people are known; controls it without a token.
     """
 
     folder: Path
@@ -96,6 +108,20 @@ class Draft:
     cast: Cast = field(default_factory=Cast)
     in_time: bool = False
     sender: str = ""
+    owner: str | None = None
+
+
+@dataclass(frozen=True)
+class _Read:
+    """What a session is made of."""
+
+    record: SessionRecord
+    production: Production
+    revision: ShowRevision
+    notes: NoteMessages
+    alignment: Alignment | None
+    song: Path | None
+    """The recording, where there is one."""
 
 
 class SessionStore:
@@ -105,12 +131,15 @@ class SessionStore:
     loop.
 
     Args:
-        data_dir: Where sessions and rendered songs are kept.
+        storage: Keeps them; or the data directory, in which they are kept by an embedded database.
         stage: Who plays on what.
         renderer: Makes songs for scores that come without.
         now: Server time, seconds; never goes back.
         loaded: How many sessions are kept in memory.
-        song_cache_bytes: How large the rendered songs may be together.
+        memory_bytes: How many bytes the sessions in memory may weigh together.
+        disk: How much may be kept.
+        staging_bytes: How large what is being sent may be together.
+        wall: The present, seconds since 1970.
         decoder: Tells what uploaded songs are.
         reader: Reads scores and shows.
         aligner: Finds scores in uploaded songs.
@@ -118,13 +147,16 @@ class SessionStore:
 
     def __init__(
         self,
-        data_dir: Path,
+        storage: SessionStorage | Path,
         stage: Stage,
         renderer: SongRenderer,
         *,
         now: Callable[[], float],
         loaded: int = LOADED,
-        song_cache_bytes: int = SONG_CACHE_BYTES,
+        memory_bytes: int = MEMORY_BYTES,
+        disk: DiskBound | None = None,
+        staging_bytes: int = STAGING_BYTES,
+        wall: Callable[[], float] = time.time,
         decoder: SongDecoder | None = None,
         reader: Reader | None = None,
         aligner: Aligner | None = None,
@@ -132,34 +164,122 @@ class SessionStore:
         self.stage = stage
         self.reader = reader or Reader(stage)
         self.decoder = decoder or SongDecoder()
-        self._folders = SessionFolders(data_dir)
+        self.storage = storage if isinstance(storage, SessionStorage) else SessionStorage.open(storage)
+        """Everything that is kept of them."""
         self._renderer = renderer
+        renderer.cache.in_use = self._listened_to
         self._aligner = aligner or Aligner()
         self._now = now
-        self._most_loaded = loaded
-        self._song_cache_bytes = song_cache_bytes
+        self._wall = wall
+        self._bound = MemoryBound(loaded, memory_bytes)
+        self._coming = 0
+        self._disk = disk or DiskBound()
+        self.staged = StagingRoom(staging_bytes)
+        """What is being sent."""
+        self._clocks = ClockKeeping(self._keep_clock)
+        self.sightings = Sightings(self.storage, wall=wall)
+        """When sessions were seen."""
         self._pruning: set[asyncio.Task[None]] = set()
         self._sessions: OrderedDict[str, Session] = OrderedDict()
         self._loading: dict[str, asyncio.Task[Session | None]] = {}
         self._putting_away: dict[str, asyncio.Task[None]] = {}
+        self._collecting: asyncio.Task[None] | None = None
+
+    def begin(self) -> None:
+        """Begin what goes on in the background: what an earlier server left half done is removed."""
+        self._collecting = asyncio.create_task(self._remove_orphans())
 
     @property
     def loaded(self) -> int:
         """How many sessions are in memory."""
         return len(self._sessions)
 
+    @property
+    def viewers(self) -> int:
+        """How many streams are open."""
+        return sum(len(session.audience) for session in list(self._sessions.values()))
+
+    @property
+    def weight(self) -> int:
+        """About how many bytes they take."""
+        return sum(session.weight for session in self._sessions.values())
+
+    async def check(self) -> None:
+        """See that what keeps the sessions answers.
+
+        Raises:
+            DatabaseError: It does not.
+        """
+        await asyncio.to_thread(self.storage.check)
+
+    async def ends_at(self, session: Session, after_s: float) -> str | None:
+        """When a session will be ended that nobody sees, if that is near: ISO 8601, UTC.
+
+        Args:
+            session: Which.
+            after_s: How long after it was seen last sessions are ended; 0 for never.
+        """
+        if not after_s or len(session.audience):
+            return None
+        ends_s = await self.sightings.ends_s(session.id, after_s)
+        return None if ends_s is None else near_end(ends_s, self._wall(), after_s)
+
+    @property
+    def watched(self) -> list[str]:
+        """The ids of those that somebody watches."""
+        return [session.id for session in self._sessions.values() if len(session.audience)]
+
+    async def end_unseen(self, after_s: float) -> int:
+        """End the sessions that nobody has seen for so long, seconds; returns how many."""
+        await self.sightings.keep(self.watched)
+        ended, since_s = 0, self._wall() - after_s
+        for session_id in await asyncio.to_thread(self.storage.unseen_since, since_s):
+            loaded = self._sessions.get(session_id)
+            if loaded is None and session_id not in self._loading:
+                await _to_the_end(asyncio.to_thread(self.storage.remove, session_id))
+            elif loaded is not None and loaded.is_idle:
+                await self.delete(loaded)
+            else:
+                continue
+            ended += 1
+        return ended
+
     @asynccontextmanager
-    async def staging(self) -> AsyncGenerator[Path]:
-        """A new folder for a draft's files; what is not made a session of is removed at the end."""
-        folder = await asyncio.to_thread(self._folders.stage)
+    async def staging(self, sender: str = "") -> AsyncGenerator[Path]:
+        """A new folder for a draft's files; what is not made a session of is removed at the end.
+
+        Args:
+            sender: Who sends them; `staged` counts them.
+        """
+        folder = await self.staging_folder(sender)
         try:
             yield folder
         finally:
-            await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+            await self.discard_staged(folder)
 
-    async def staging_folder(self) -> Path:
-        """A new folder; whoever asked for it removes it."""
-        return await asyncio.to_thread(self._folders.stage)
+    async def staging_folder(self, sender: str = "") -> Path:
+        """A new folder; whoever asked for it has it discarded."""
+        folder = await asyncio.to_thread(self.storage.stage)
+        self.staged.begin(folder, sender)
+        return folder
+
+    async def discard_staged(self, folder: Path) -> None:
+        """Remove a folder of `staging_folder`, if it is still there."""
+        await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+        self.staged.end(folder)
+
+    async def usage(self, sender: str | None) -> Usage:
+        """How many sessions came from a sender, or from all (None), and how large they are."""
+        return await asyncio.to_thread(self.storage.usage, sender)
+
+    async def require_disk(self, sender: str, adding: int = 0) -> None:
+        """See that another session of a sender may be kept; what the sender is sending counts too.
+
+        Raises:
+            LimitError: It may not.
+        """
+        sending = self.staged.of(sender) if sender else 0
+        await asyncio.to_thread(self._disk.require, self.storage.usage, sender, max(adding, sending))
 
     async def create(self, draft: Draft) -> tuple[Session, str]:
         """Make a session.
@@ -171,6 +291,7 @@ class SessionStore:
             InputError: Score, song or show cannot be used; nothing of the draft is kept then.
         """
         token = new_token()
+        await self.require_disk(draft.sender, self.staged.size(draft.folder))
         try:
             production = await self._plan(
                 draft.folder / draft.score, draft.score_filename, draft.cast, owner=draft.sender
@@ -192,21 +313,34 @@ class SessionStore:
                 raise ShowError(f"this is {sent.name}, not a show") from error
             await asyncio.to_thread(show_file.unlink)
             production = await asyncio.to_thread(production.with_show, show)
-        made = await asyncio.to_thread(self._make, draft, production, song, hash_token(token))
+        kept = await asyncio.to_thread(ShowRevision.begin, production.show)
+        in_time: Alignment | None = None
         if draft.in_time and song is not None and song.duration_s is not None:
             in_time = _in_time(production.score.duration_s, song.duration_s)
-            await asyncio.to_thread(self._folders.write_alignment, made[0].id, in_time)
-            return self._admit(*made, in_time), token
-        session = self._admit(*made)
-        self.search_alignment(session)
+
+        async def make() -> Session:
+            await self._clocks.written()
+            with self._room_for(production.weight + kept.weight):
+                token_sha256 = hash_token(token)
+                made = await asyncio.to_thread(
+                    self._make, draft, production, kept, song, in_time, token_sha256
+                )
+            return self._admit(made)
+
+        session = await _to_the_end(make())
+        if in_time is None:
+            self.search_alignment(session)
         return session, token
 
     async def get(self, session_id: str) -> Session | None:
-        """A session, loaded if need be; None where there is none."""
+        """A session, loaded if need be; None where there is none.
+
+        Raises:
+            SessionDamagedError: It is kept, and cannot be read.
+            DatabaseAwayError: What keeps it does not answer.
+        """
         session = self._sessions.get(session_id)
         if session is None:
-            if session_id not in self._folders:
-                return None
             # Those who ask at the same time share one loading.
             loading = self._loading.get(session_id)
             if loading is None:
@@ -220,9 +354,19 @@ class SessionStore:
         self._sessions.move_to_end(session_id)
         return session
 
-    def listed(self, limit: int, after: str | None = None) -> tuple[list[Entry], str | None]:
-        """Some of the sessions that are listed, newest first; see `SessionIndex.page`."""
-        return self._folders.index.page(limit, after)
+    async def listed(
+        self, limit: int, after: str | None = None, *, owner: str | None = None
+    ) -> tuple[list[Listed], str | None]:
+        """Some of the sessions that are listed, or of a person's, newest first; see `SessionStorage.page`."""
+        return await asyncio.to_thread(self.storage.page, limit, after, owner=owner)
+
+    async def renew_token(self, session: Session) -> str:
+        """Give a session another control token, in place of the one before; returns it, which is not kept."""
+        token = new_token()
+        async with self._edit(session):
+            record = session.record.model_copy(update={"token_sha256": hash_token(token)})
+            await self._keep(session, record)
+        return token
 
     async def change(
         self,
@@ -250,27 +394,31 @@ class SessionStore:
         asked = {"title": title, "public": public}
         changes = {field: value for field, value in asked.items() if value is not None}
         async with self._edit(session):
-            record, kept = session.record.model_copy(update=changes), session.show_revision
+            record, before = session.record.model_copy(update=changes), session.show_revision
             wanted = recast(record.cast) if recast else record.cast
             stances = restance(record.stances) if restance else record.stances
-            if wanted != record.cast or stances != record.stances:
-                another_piece = wanted.sequence not in {None, session.production.score.sequence}
-                # Another piece is heard elsewhere, if at all.
-                alignment = None if another_piece else session.alignment.alignment
-                production, kept = await self._plan_other(session, wanted, alignment, stances)
-                before, after = session.production.score.title, production.score.title
-                titled = {"title": after} if title is None and record.title == before else {}
-                record = record.model_copy(update={"cast": production.cast, "stances": stances, **titled})
+            if wanted == record.cast and stances == record.stances:
+                # Neither frames nor sound know of it.
+                await self._keep(session, record)
+                return
+            another_piece = wanted.sequence not in {None, session.production.score.sequence}
+            # Another piece is heard elsewhere, if at all.
+            alignment = None if another_piece else session.alignment.alignment
+            production, kept = await self._plan_other(session, wanted, alignment, stances)
+            titles = session.production.score.title, production.score.title
+            titled = {"title": titles[1]} if title is None and record.title == titles[0] else {}
+            record = record.model_copy(update={"cast": production.cast, "stances": stances, **titled})
+
+            async def show(record: SessionRecord) -> None:
                 await session.change_cast(record, production)
-                if kept is not session.show_revision:
+                if kept is not before:
                     await session.change_show(production, kept)
-                    await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
                 if another_piece:
                     session.alignment.alignment = None
-                    await asyncio.to_thread(self._folders.write_alignment, session.id, None)
                     self.search_alignment(session)
-            session.record = record
-            await asyncio.to_thread(self._folders.write_record, record)
+
+            heard = None if another_piece else UNCHANGED
+            await self._keep(session, record, kept, heard, show=show)
 
     async def change_alignment(self, session: Session, step: Callable[[Alignment | None], Alignment]) -> None:
         """Say anew where a session's score is heard in its song; edits of a session follow one another.
@@ -286,17 +434,20 @@ class SessionStore:
                 return
             if (before is None or not before.moves) and not alignment.moves:
                 # Nothing is heard elsewhere than before.
-                session.alignment.alignment = alignment
-                session.tell_alignment()
-            else:
-                production, kept = await self._plan_other(
-                    session, session.record.cast, alignment, session.record.stances
-                )
-                other_show = kept is not session.show_revision
+                async def tell(_: SessionRecord) -> None:
+                    session.alignment.alignment = alignment
+                    session.tell_alignment()
+
+                await self._keep(session, session.record, alignment=alignment, show=tell)
+                return
+            production, kept = await self._plan_other(
+                session, session.record.cast, alignment, session.record.stances
+            )
+
+            async def show(_: SessionRecord) -> None:
                 await session.change_alignment(production, kept, alignment)
-                if other_show:
-                    await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
-            await asyncio.to_thread(self._folders.write_alignment, session.id, alignment)
+
+            await self._keep(session, session.record, kept, alignment, show=show)
 
     def search_alignment(self, session: Session) -> bool:
         """Look for a session's score in its song, in the background.
@@ -324,7 +475,7 @@ class SessionStore:
 
         session.alignment.search(
             self._aligner,
-            self._folders.folder(session.id) / (song.heard or song.file),
+            lambda: self.storage.file(session.record, song.heard or song.file),
             session.production.written_score,
             found=found,
             tell=session.tell_alignment,
@@ -350,20 +501,43 @@ class SessionStore:
             if song is None:
                 raise InputError("the session has no recording")
             _check_heard(info, song)
-            folder = self._folders.folder(session.id)
             record = session.record.model_copy(
                 update={"song": song.model_copy(update={"heard": heard.name, "duration_s": info.duration_s})}
             )
 
-            def keep() -> None:
-                heard.replace(folder / heard.name)
-                peaks_path(sent).replace(peaks_path(folder / song.file))
-                self._folders.write_record(record)
+            async def show(record: SessionRecord) -> None:
+                session.alignment.is_heard = True
+                await session.change_cast(record, session.production)
 
-            await asyncio.to_thread(keep)
-            session.alignment.is_heard = True
-            await session.change_cast(record, session.production)
+            staged = {heard.name: heard, _peaks_name(song): peaks_path(sent)}
+            await self._keep(session, record, staged=staged, show=show)
         self.search_alignment(session)
+
+    async def peaks(self, session: Session) -> Peaks | None:
+        """The peaks of a session's recording, decoded where they are not kept; None where they cannot be.
+
+        Raises:
+            InputError: It cannot be decoded any more.
+        """
+        song = session.record.song
+        if song is None:
+            return None
+        name = _peaks_name(song)
+        with contextlib.suppress(SessionDamagedError):
+            return await asyncio.to_thread(lambda: read_peaks(self.storage.file(session.record, name)))
+        if not song.is_heard:
+            return None
+        async with self.staging() as folder:
+            # What is decoded is written beside what looks like the file.
+            link = folder / (song.heard or song.file)
+            path = await asyncio.to_thread(self.storage.file, session.record, link.name)
+            await asyncio.to_thread(link.symlink_to, path.absolute())
+            await self.decoder.probe(link)
+            peaks = await asyncio.to_thread(read_peaks, peaks_path(link))
+            if peaks is not None:
+                async with self._edit(session):
+                    await self._keep(session, session.record, staged={name: peaks_path(link)})
+        return peaks
 
     async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Take a session's show one step on or back, and keep it; edits of a session follow one another.
@@ -374,22 +548,37 @@ class SessionStore:
                 nothing is changed then.
         """
         async with self._edit(session):
+            await self._wake(session)
             kept = await asyncio.to_thread(session.show_revision.then, step)
             if kept is not session.show_revision:
                 production = await asyncio.to_thread(session.production.with_show, kept.show)
-                # Seen first, then kept: the answer waits for both.
-                await session.change_show(production, kept)
-                await asyncio.to_thread(_write_show, self._folders.folder(session.id), kept)
+                self._make_room(kept.weight - session.show_revision.weight, staying=session)
+
+                async def show(_: SessionRecord) -> None:
+                    await session.change_show(production, kept)
+
+                await self._keep(session, session.record, kept, show=show)
         return kept
 
-    def original_song(self, session: Session) -> Path | None:
-        """The recording as it was sent; None where there is none."""
-        song = session.record.song
-        return None if song is None else self._folders.folder(session.id) / (song.original or song.file)
+    async def song_file(self, session: Session, *, is_original: bool = False) -> Path | None:
+        """The recording of a session, or what it was sent as; None where there is none.
 
-    def score_file(self, session: Session) -> Path:
-        """The file that a session was made of, as it was sent."""
-        return self._folders.folder(session.id) / SCORE
+        Raises:
+            SessionDamagedError: The file is lost.
+        """
+        song = session.record.song
+        if song is None:
+            return None
+        name = (song.original or song.file) if is_original else song.file
+        return await asyncio.to_thread(self.storage.file, session.record, name)
+
+    async def score_file(self, session: Session) -> Path:
+        """The file that a session was made of, as it was sent.
+
+        Raises:
+            SessionDamagedError: It is lost.
+        """
+        return await asyncio.to_thread(self.storage.file, session.record, SCORE)
 
     async def delete(self, session: Session) -> None:
         """End a session and remove everything of it.
@@ -398,26 +587,37 @@ class SessionStore:
         not will have it rendered anew.
         """
         async with self._edit(session):
-            del self._sessions[session.id]
-            songs = session.heard.paths
-            session.close()
-            doomed = await asyncio.to_thread(self._folders.take_out, session.id)
-        await asyncio.to_thread(shutil.rmtree, doomed, ignore_errors=True)
+
+            async def remove() -> set[Path]:
+                await asyncio.to_thread(self.storage.remove, session.id)
+                return self._forget(session)
+
+            songs = await _to_the_end(remove())
         if session.record.song is None and session.song.path is not None:
             songs.add(session.song.path)
         for path in songs - self.songs_in_use():
             await asyncio.to_thread(self._renderer.discard, path)
 
+    async def delete_damaged(self, damaged: SessionDamagedError) -> None:
+        """End a session that cannot be read, and remove everything of it."""
+        await _to_the_end(asyncio.to_thread(self.storage.remove, damaged.session_id))
+
     async def prune_songs(self) -> None:
         """Remove the rendered songs that were not asked for the longest until the rest is small enough."""
-        freed = await asyncio.to_thread(
-            self._renderer.prune, self._song_cache_bytes, in_use=self.songs_in_use()
-        )
+        freed = await asyncio.to_thread(self._renderer.prune, in_use=self._listened_to())
         if freed:
             _log.info("removed %.0f MB of rendered songs", freed / 1e6)
 
     async def aclose(self) -> None:
         """Put every session away."""
+        if self._collecting is not None:
+            self._collecting.cancel()
+            await asyncio.wait([self._collecting])
+        await self._clocks.aclose()
+        try:
+            await self.sightings.keep(self.watched)
+        except InputError as error:
+            _log.warning("when sessions were seen is not kept: %s", error)
         for session in list(self._sessions.values()):
             self._unload(session)
         await self._renderer.aclose()
@@ -426,7 +626,20 @@ class SessionStore:
         for tasks in (self._pruning, self._putting_away.values()):
             if tasks:
                 await asyncio.wait(tasks)
-        await asyncio.to_thread(self._folders.write_index)
+        await asyncio.to_thread(self.storage.close)
+
+    async def _remove_orphans(self) -> None:
+        try:
+            orphans = await asyncio.to_thread(self.storage.orphans)
+            if orphans and self.storage.is_shared:
+                # Another server may be about to name them.
+                await asyncio.sleep(SHARED_GRACE_S)
+            removed = await asyncio.to_thread(self.storage.remove_files, orphans)
+        except InputError as error:
+            _log.warning("files that no session has are not looked for: %s", error)
+            return
+        if removed:
+            _log.info("removed %d files that no session has", removed)
 
     async def _keep_song(self, uploaded: Path) -> SongRecord:
         """Have a song decoded, and give it the name that its format has; its peaks stand beside it.
@@ -446,23 +659,37 @@ class SessionStore:
         )
 
     def _make(
-        self, draft: Draft, production: Production, song: SongRecord | None, token_sha256: str
-    ) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages]:
-        (draft.folder / draft.score).rename(draft.folder / SCORE)
-        kept = ShowRevision.begin(production.show)
-        _write_show(draft.folder, kept)
+        self,
+        draft: Draft,
+        production: Production,
+        kept: ShowRevision,
+        song: SongRecord | None,
+        alignment: Alignment | None,
+        token_sha256: str,
+    ) -> _Read:
+        notes = note_messages(production)
         record = SessionRecord(
             id=new_id(),
             title=draft.title or production.score.title,
             public=draft.public,
             created_at=created_now(),
             token_sha256=token_sha256,
+            owner=draft.owner,
             cast=production.cast,
             score_filename=draft.score_filename,
             song=song,
+            sender=draft.sender,
         )
-        self._folders.adopt(draft.folder, record)
-        return record, production, kept, note_messages(production)
+        staged = {SCORE: draft.folder / draft.score}
+        if song is not None:
+            names = (song.file, song.original, _peaks_name(song))
+            files = {name: draft.folder / name for name in names if name is not None}
+            staged |= {name: file for name, file in files.items() if file.is_file()}
+        record = self.storage.add(record, staged, kept.text, alignment)
+        return _Read(record, production, kept, notes, alignment, self._song_path(record))
+
+    def _song_path(self, record: SessionRecord) -> Path | None:
+        return None if record.song is None else self.storage.file(record, record.song.file)
 
     @asynccontextmanager
     async def _edit(self, session: Session) -> AsyncGenerator[None]:
@@ -476,41 +703,133 @@ class SessionStore:
                 raise SessionEndedError(f"the session {session.id!r} was ended meanwhile")
             yield
 
+    async def _keep(
+        self,
+        session: Session,
+        record: SessionRecord,
+        revision: ShowRevision | None = None,
+        alignment: Alignment | Literal["unchanged"] | None = UNCHANGED,
+        *,
+        staged: dict[str, Path] | None = None,
+        show: Callable[[SessionRecord], Awaitable[None]] | None = None,
+    ) -> None:
+        """Keep what a session is to be, then let it be seen: what is refused is seen by nobody.
+
+        Args:
+            session: Which; it is held by `_edit`.
+            record: Its record.
+            revision: Its show.
+            alignment: Where its score is heard.
+            staged: Further files.
+            show: Lets it be seen; called with the record as it is kept.
+
+        Raises:
+            SessionEndedError: It is not there any more.
+        """
+        before = session.show_revision
+        change = None if revision is None or revision is before else ShowChange(before, revision)
+
+        def write() -> SessionRecord:
+            return self.storage.change(record, show=change, alignment=alignment, staged=staged)
+
+        async def keep() -> None:
+            kept = await asyncio.to_thread(write)
+            if show is not None:
+                await show(kept)
+            session.record = kept
+
+        try:
+            await _to_the_end(keep())
+        except SessionGoneError as error:
+            self._forget(session)
+            raise SessionEndedError(str(error)) from error
+
+    def _forget(self, session: Session) -> set[Path]:
+        """Let a session go that is not kept any more; returns the songs that were made for its viewers."""
+        self._sessions.pop(session.id, None)
+        songs = session.heard.paths
+        session.close()
+        return songs
+
+    async def _wake(self, session: Session) -> None:
+        """Have the states at hand that undo and redo lead to; the session is held by `_edit`."""
+        kept = session.show_revision
+        if kept.earlier and not kept.history.past:
+            earlier = await self._beside(session, -1)
+            if earlier is None:
+                kept = replace(kept, earlier=0, weights=kept.weights[kept.earlier :])
+            else:
+                kept = kept.with_earlier(earlier)
+        if kept.later and not kept.history.future:
+            later = await self._beside(session, 1)
+            if later is None:
+                kept = replace(kept, later=0, weights=kept.weights[: kept.done])
+            else:
+                kept = kept.with_later(later)
+        session.show_revision = kept
+
+    async def _beside(self, session: Session, steps: int) -> Show | None:
+        """The state of a show before or after the present one; None where it cannot be read."""
+        text, registry = session.show_revision.text, session.production.registry
+        try:
+            known = await asyncio.to_thread(known_tracks, text)
+            for at_hand in (known, {}):
+                data, digests = await asyncio.to_thread(
+                    self.storage.state_beside, session.record, steps, at_hand
+                )
+                read = await self.reader.show(data, registry, owner=session.id)
+                # Tracks say the unit of their times only where it is not the show's.
+                if read.time == text.show.time or not at_hand:
+                    return await asyncio.to_thread(wake, read, digests if at_hand else (), text)
+        except (SessionDamagedError, ShowError) as error:
+            _log.warning("session %s: what its show was is not to be had any more: %s", session.id, error)
+        return None
+
     async def _load(self, session_id: str) -> Session | None:
         # What was kept of it last is what is read.
         if session_id in self._putting_away:
             await asyncio.wait([self._putting_away[session_id]])
         try:
             read = await self._read(session_id)
-        except FileNotFoundError:
-            if session_id in self._folders:
+        except SessionDamagedError:
+            if await asyncio.to_thread(self.storage.__contains__, session_id):
                 raise
+            # Nothing is damaged: it was ended meanwhile.
             return None
+        await self._clocks.written()
         # Ended while it was read: it must not come back.
-        if session_id not in self._folders:
+        if read is None or not await asyncio.to_thread(self.storage.__contains__, session_id):
             return None
-        record, production, kept, notes, alignment = read
-        session = self._admit(record, production, kept, notes, alignment)
-        if alignment is None:
+        session = self._admit(read)
+        if read.alignment is None:
             # It was still being looked for when the server ended.
             self.search_alignment(session)
         return session
 
-    async def _read(
-        self, session_id: str
-    ) -> tuple[SessionRecord, Production, ShowRevision, NoteMessages, Alignment | None]:
-        folder = self._folders.folder(session_id)
-        record = await asyncio.to_thread(self._folders.record, session_id)
-        alignment = await asyncio.to_thread(self._folders.alignment, session_id)
-        planned = await self._plan(
-            folder / SCORE, record.score_filename, record.cast, alignment, record.stances, owner=session_id
-        )
-        data = await asyncio.to_thread((folder / SHOW).read_bytes)
-        show = await self.reader.show(data, planned.registry, owner=session_id)
+    async def _read(self, session_id: str) -> _Read | None:
+        kept = await asyncio.to_thread(self.storage.read, session_id)
+        if kept is None:
+            return None
+        record, alignment = kept.record, kept.alignment
+        try:
+            song = await asyncio.to_thread(self._song_path, record)
+            score = await asyncio.to_thread(self.storage.file, record, SCORE)
+            planned = await self._plan(
+                score, record.score_filename, record.cast, alignment, record.stances, owner=session_id
+            )
+            show = await self.reader.show(kept.show.text, planned.registry, owner=session_id)
+        except (DatabaseError, SessionDamagedError):
+            raise
+        except InputError as error:
+            # It was fine when it was made.
+            raise SessionDamagedError(session_id, str(error), record.token_sha256) from error
 
-        def prepared() -> tuple[SessionRecord, Production, ShowRevision, NoteMessages, Alignment | None]:
+        def prepared() -> _Read:
             production = planned.with_show(show)
-            return record, production, ShowRevision.begin(show), note_messages(production), alignment
+            revision = ShowRevision.begin(
+                show, earlier=kept.show.earlier, later=kept.show.later, weights=kept.show.weights
+            )
+            return _Read(record, production, revision, note_messages(production), alignment, song)
 
         return await asyncio.to_thread(prepared)
 
@@ -542,9 +861,13 @@ class SessionStore:
     ) -> tuple[Production, ShowRevision]:
         """Plan another cast, or the same heard elsewhere or with other stances, in place of the session's."""
         before, kept = session.production, session.show_revision
-        path = self._folders.folder(session.id) / SCORE
         planned = await self._plan(
-            path, session.record.score_filename, wanted, alignment, stances, owner=session.id
+            await self.score_file(session),
+            session.record.score_filename,
+            wanted,
+            alignment,
+            stances,
+            owner=session.id,
         )
         another = (
             planned.score.sequence != before.score.sequence
@@ -555,35 +878,48 @@ class SessionStore:
             planned = await asyncio.to_thread(planned.with_show, before.show)
         if planned.show is not kept.show:
             kept = await asyncio.to_thread(kept.then, lambda history: history.then(planned.show))
+        growing = planned.weight + kept.weight - before.weight - session.show_revision.weight
+        self._make_room(growing, staying=session)
         return planned, kept
 
-    def _admit(
-        self,
-        record: SessionRecord,
-        production: Production,
-        kept: ShowRevision,
-        notes: NoteMessages,
-        alignment: Alignment | None = None,
-    ) -> Session:
+    def _admit(self, read: _Read) -> Session:
+        self._make_room(read.production.weight + read.revision.weight)
         session = Session(
-            record, production, kept, notes, self._song, self._heard, now=self._now, alignment=alignment
+            read.record,
+            read.production,
+            read.revision,
+            read.notes,
+            lambda session: self._song(session, read.song),
+            self._heard,
+            now=self._now,
+            wall=self._wall,
+            alignment=read.alignment,
+            clock_changed=self._clocks.note,
         )
         self._sessions[session.id] = session
-        self._make_room()
         return session
 
-    def _song(self, session: Session) -> Song:
+    def _song(self, session: Session, uploaded: Path | None) -> Song:
         record, production = session.record, session.production
-        if record.song:
-            return UploadedSong(self._folders.folder(record.id), record.song)
+        if record.song is not None and uploaded is not None:
+            return UploadedSong(uploaded, record.song)
         return RenderedSong(
-            self._renderer, production.score, production.sounding, ready=lambda: self._song_made(session)
+            self._renderer,
+            production.score,
+            production.sounding,
+            owner=record.sender or record.id,
+            ready=lambda: self._song_made(session),
         )
 
     def _heard(self, session: Session, hearing: Hearing) -> RenderedSong:
         production = session.production
         return RenderedSong(
-            self._renderer, production.score, production.sounding, hearing=hearing, ready=self._prune_soon
+            self._renderer,
+            production.score,
+            production.sounding,
+            hearing=hearing,
+            owner=session.record.sender or session.id,
+            ready=self._prune_soon,
         )
 
     def _song_made(self, session: Session) -> None:
@@ -597,24 +933,66 @@ class SessionStore:
 
     def songs_in_use(self) -> set[Path]:
         """Files of songs that sessions have open, as everybody and as single viewers hear them."""
-        sessions = self._sessions.values()
-        own = {session.song.path for session in sessions if session.song.path is not None}
-        return own.union(*(session.heard.paths for session in sessions))
+        return self._songs_of(self._sessions.values())
 
-    def _make_room(self) -> None:
-        *others, _ = self._sessions.values()
-        idle = [session for session in others if session.is_idle]
-        for session in idle[: max(0, len(self._sessions) - self._most_loaded)]:
+    def _listened_to(self) -> set[Path]:
+        """Files of songs of sessions that somebody watches."""
+        return self._songs_of(session for session in self._sessions.values() if len(session.audience))
+
+    @staticmethod
+    def _songs_of(sessions: Iterable[Session]) -> set[Path]:
+        paths: set[Path] = set()
+        for session in sessions:
+            paths |= session.heard.paths
+            if session.song.path is not None:
+                paths.add(session.song.path)
+        return paths
+
+    def _make_room(self, adding: int, *, staying: Session | None = None) -> None:
+        """Unload what is idle, so that something more fits.
+
+        Raises:
+            LimitError: It does not, with all that is watched.
+        """
+        loaded = self._sessions.values()
+        for session in self._bound.leaving(loaded, adding, coming=self._coming, staying=staying):
             self._unload(session)
+
+    @contextmanager
+    def _room_for(self, weight: int) -> Generator[None]:
+        """Have room for a session that is being made.
+
+        Raises:
+            LimitError: There is none.
+        """
+        self._make_room(weight)
+        self._coming += weight
+        try:
+            yield
+        finally:
+            self._coming -= weight
+
+    async def _keep_clock(self, session: Session) -> None:
+        async with session.editing:
+            if self._sessions.get(session.id) is session:
+                record = session.kept()
+                await asyncio.to_thread(self.storage.change, record)
+                session.is_kept(record)
 
     def _unload(self, session: Session) -> None:
         del self._sessions[session.id]
-        record = session.record.model_copy(update={"song_time_s": session.clock.state().song_time_s})
+        record = session.kept()
         session.close()
         if record != session.record:
-            writing = asyncio.create_task(asyncio.to_thread(self._folders.write_record, record))
+            writing = asyncio.create_task(self._put_away(record))
             self._putting_away[session.id] = writing
             writing.add_done_callback(lambda _: self._putting_away.pop(session.id, None))
+
+    async def _put_away(self, record: SessionRecord) -> None:
+        try:
+            await asyncio.to_thread(self.storage.change, record)
+        except InputError as error:
+            _log.warning("session %s: where its clock stood is not kept: %s", record.id, error)
 
 
 def _check_heard(info: AudioInfo, song: SongRecord) -> None:
@@ -648,8 +1026,23 @@ def _in_time(score_duration_s: float, song_duration_s: float) -> Alignment:
     return Alignment(points, score_duration_s, song_duration_s)
 
 
-def _write_show(folder: Path, kept: ShowRevision) -> None:
-    write_atomically(folder / SHOW, kept.text.text())
+def _peaks_name(song: SongRecord) -> str:
+    """What a session calls the peaks of its recording."""
+    return peaks_path(Path(song.file).with_stem("song")).name
+
+
+async def _to_the_end(work: Coroutine[Any, Any, T]) -> T:
+    """Have something done that must not stop half-way: whoever gives up waits for its end, too."""
+    task = asyncio.ensure_future(work)
+    try:
+        return await asyncio.shield(task)
+    except asyncio.CancelledError:
+        while not task.done():
+            with contextlib.suppress(asyncio.CancelledError):
+                await asyncio.wait([task])
+        if not task.cancelled():
+            task.exception()
+        raise
 
 
 def _role_of_file(path: Path) -> Role | None:

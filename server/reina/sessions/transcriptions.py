@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import shutil
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
@@ -17,6 +16,7 @@ from reina.sound.transcription.transcribe import MixError
 from reina.sound.transcription.transcriber import Transcriber
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
     from pathlib import Path
 
     from reina.sound.transcription.transcribe import Line
@@ -87,14 +87,16 @@ class Transcriptions:
         self._transcriber = transcriber or Transcriber()
         self._all: dict[str, TranscriptionWork] = {}
 
-    def begin(self, folder: Path, song: Path, line: Line, title: str) -> TranscriptionWork:
+    def begin(
+        self, song: Path, line: Line, title: str, discard: Callable[[], Awaitable[None]]
+    ) -> TranscriptionWork:
         """Look for the notes of a recording, in the background.
 
         Args:
-            folder: Holds the recording, and is removed at the end.
             song: The recording's file.
             line: What is looked for.
             title: What the score is to be called.
+            discard: Removes the recording; called at the end.
 
         Raises:
             NoRuntimeError: What listens is not installed.
@@ -103,7 +105,7 @@ class Transcriptions:
         self.require()
         work = TranscriptionWork(title)
         self._all[work.id] = work
-        work.task = asyncio.create_task(self._find(work, folder, song, line))
+        work.task = asyncio.create_task(self._find(work, song, line, discard))
         for oldest in list(self._all)[:-MOST_KEPT]:
             self.end(oldest)
         return work
@@ -141,7 +143,9 @@ class Transcriptions:
             await asyncio.wait(tasks)
         await self._transcriber.aclose()
 
-    async def _find(self, work: TranscriptionWork, folder: Path, song: Path, line: Line) -> None:
+    async def _find(
+        self, work: TranscriptionWork, song: Path, line: Line, discard: Callable[[], Awaitable[None]]
+    ) -> None:
         def follow(share: float) -> None:
             work.progress = share
 
@@ -153,4 +157,4 @@ class Transcriptions:
         except InputError as error:
             work.error = error
         finally:
-            await asyncio.shield(asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True))
+            await asyncio.shield(discard())

@@ -9,6 +9,7 @@ from collections import deque
 from typing import Protocol
 
 from reina.sessions.broadcast import LEAD_S
+from reina.system.metrics import limit_hit, tally
 
 GOING_AWAY = 1001
 INTERNAL_ERROR = 1011
@@ -65,6 +66,7 @@ class Viewer:
     def post_text(self, text: str) -> None:
         """Queue a control message; it goes out before any frames that wait."""
         if len(self._texts) >= MESSAGES_WAITING:
+            limit_hit("viewer-messages")
             self.end(TRY_AGAIN_LATER, "too many messages wait; connect again")
             return
         self._texts.append(text)
@@ -82,6 +84,7 @@ class Viewer:
         """Queue a binary message, in place of the oldest when too many wait."""
         if len(self._frames) == self._frames.maxlen:
             self.dropped += 1
+            tally.frames_lost += self.frames_per_message
         self._frames.append(message)
         self._posted.set()
 
@@ -128,4 +131,7 @@ class Viewer:
                 if self._texts:
                     await self._connection.send_text(self._texts.popleft())
                 else:
-                    await self._connection.send_bytes(self._frames.popleft())
+                    message = self._frames.popleft()
+                    await self._connection.send_bytes(message)
+                    tally.frames_sent += self.frames_per_message
+                    tally.stream_bytes += len(message)

@@ -24,7 +24,7 @@ class ShowKeyframe(ShowModel):
 
     model_config = ConfigDict(extra="allow")
 
-    key: Annotated[str, Field(pattern="^([A-Za-z0-9_-]{1,64})?$")] = ""
+    key: Annotated[str, Field(pattern="^[A-Za-z0-9_-]{1,64}$")] = ""
     """Its name within the track; the next free one where it is not given."""
     time: Number
     """In the track's unit."""

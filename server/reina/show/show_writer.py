@@ -9,7 +9,7 @@ from reina.curves.keyframe import Keyframe
 from reina.curves.options import options_of
 from reina.show.time_map import TimeUnit
 from reina.show.track import Track
-from reina.system.json_text import Written, json_text
+from reina.system.json_text import json_text, with_list
 
 _TEXT = "_json_text"
 """Where a keyframe keeps its text."""
@@ -47,9 +47,9 @@ def keyframe_text(keyframe: Keyframe[Any]) -> bytes:
 
 def track_text(track: Track, default_time: TimeUnit) -> bytes:
     """`track_document` as JSON text."""
-    document = track_document(replace(track, keyframes=()), default_time)
-    document["keyframes"] = [Written(keyframe_text(keyframe)) for keyframe in track.keyframes]
-    return json_text(document)
+    head = track_document(replace(track, keyframes=()), default_time)
+    del head["keyframes"]
+    return with_list(head, "keyframes", [keyframe_text(keyframe) for keyframe in track.keyframes])
 
 
 def track_document(track: Track, default_time: TimeUnit) -> dict[str, Any]:

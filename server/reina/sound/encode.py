@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from reina.sound.events import SAMPLE_RATE
 from reina.sound.recording.wav import wav_header
+from reina.system.checked_file import checked_file
 
 SEGMENT_MEDIA_TYPE = "audio/ogg"
 SONG_MEDIA_TYPE = "audio/flac"
@@ -30,8 +31,15 @@ def opus(samples: Samples) -> bytes:
 
 
 def write_flac(path: Path, pieces: Iterable[Samples]) -> None:
-    """Write samples at 48 kHz, each piece (F, 2), as FLAC: without loss."""
-    with soundfile.SoundFile(path, "w", SAMPLE_RATE, 2, subtype="PCM_16", format="FLAC") as file:
+    """Write samples at 48 kHz, each piece (F, 2), as FLAC: without loss.
+
+    Raises:
+        OSError: The disk does not take it.
+    """
+    with (
+        checked_file(path) as written,
+        soundfile.SoundFile(written, "w", SAMPLE_RATE, 2, subtype="PCM_16", format="FLAC") as file,
+    ):
         for piece in pieces:
             file.write(piece)
 

@@ -7,10 +7,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from reina.errors import ReinaError
+from reina.system.resources import default_data_dir
 
 SOUNDFONT_VARIABLE = "REINA_SOUNDFONT"
 FILE_NAME = "soundfont.sf2"
-REPOSITORY = Path(__file__).resolve().parents[3]
 
 
 class SoundError(ReinaError):
@@ -22,7 +22,7 @@ class MissingSoundfontError(SoundError):
 
 
 def find_soundfont(data_dir: Path, *, environment: Mapping[str, str] | None = None) -> Path:
-    """Return the soundfont that REINA_SOUNDFONT names, else the data folder's, else the repository's.
+    """Return the soundfont that REINA_SOUNDFONT names, else the data folder's, else the usual data folder's.
 
     Args:
         data_dir: The server's data folder.
@@ -35,16 +35,22 @@ def find_soundfont(data_dir: Path, *, environment: Mapping[str, str] | None = No
     if named:
         check_soundfont(Path(named))
         return Path(named)
-    candidates = (data_dir / FILE_NAME, REPOSITORY / "data" / FILE_NAME)
+    candidates = places_of_soundfonts(data_dir)
     for candidate in candidates:
         if candidate.is_file():
             check_soundfont(candidate)
             return candidate
-    places = " and ".join(str(candidate) for candidate in dict.fromkeys(candidates))
+    places = " and ".join(map(str, candidates))
     raise MissingSoundfontError(
         f"there is no soundfont to make sound with (looked for {places}): "
-        f"run `make setup`, or set {SOUNDFONT_VARIABLE} to an SF2 file"
+        f"`reina serve` unpacks the one that it comes with, in a checkout after `make setup`; "
+        f"or set {SOUNDFONT_VARIABLE} to an SF2 file"
     )
+
+
+def places_of_soundfonts(data_dir: Path) -> tuple[Path, ...]:
+    """Where a soundfont is looked for, the first place first."""
+    return tuple(dict.fromkeys((data_dir / FILE_NAME, default_data_dir() / FILE_NAME)))
 
 
 def check_soundfont(path: Path) -> None:
@@ -60,7 +66,8 @@ def check_soundfont(path: Path) -> None:
         raise MissingSoundfontError(f"the soundfont {path} cannot be read: {error.strerror}") from error
     if head[:4] != b"RIFF" or head[8:12] != b"sfbk":
         raise MissingSoundfontError(
-            f"{path} is no SF2 soundfont: set {SOUNDFONT_VARIABLE} to one, or run `make setup`"
+            f"{path} is no SF2 soundfont: remove it, so that `reina serve` unpacks another, "
+            f"or set {SOUNDFONT_VARIABLE} to one"
         )
 
 

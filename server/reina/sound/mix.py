@@ -1,5 +1,6 @@
 """Adds rendered passages up, in whatever order they come."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
@@ -12,20 +13,25 @@ CHANNELS = 2
 FADE = SAMPLE_RATE // 4
 """The end of each passage is faded out."""
 FRAME_BYTES = CHANNELS * np.dtype(np.float32).itemsize
+CHUNK = 10 * SAMPLE_RATE
+"""Samples in a file."""
 
 Samples = NDArray[np.float32]
 
 
 class Mix:
-    """The sum of passages: a file of 32-bit floats, so that memory does not grow with the song.
+    """The sum of passages: 32-bit floats in files, so that memory does not grow with the song.
+
+    A file holds some seconds, so that what has been written to the song for good can be let go of: song and
+    mix together never take more of the disk than the mix alone.
 
     Args:
-        scratch: Path of that file; it is removed at the end.
+        scratch: What their names end with; they are removed at the end.
     """
 
     def __init__(self, scratch: Path) -> None:
         self._scratch = scratch
-        self._file = scratch.open("wb+")
+        self._there: set[int] = set()
 
     def __enter__(self) -> "Mix":
         return self
@@ -33,8 +39,8 @@ class Mix:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._file.close()
-        self._scratch.unlink(missing_ok=True)
+        for chunk in list(self._there):
+            self._remove(chunk)
 
     def add(self, start: int, samples: Samples) -> None:
         """Add a passage.
@@ -46,15 +52,39 @@ class Mix:
         fade = min(FADE, len(samples))
         samples[len(samples) - fade :] *= np.linspace(1, 0, fade, dtype=np.float32)[:, None]
         samples += self.read(start, start + len(samples))
-        self._file.seek(start * FRAME_BYTES)
-        self._file.write(samples.tobytes())
+        for chunk, first, end in _chunks(start, start + len(samples)):
+            with self._path(chunk).open("rb+" if chunk in self._there else "wb+") as file:
+                file.seek((first - chunk * CHUNK) * FRAME_BYTES)
+                file.write(samples[first - start : end - start].tobytes())
+            self._there.add(chunk)
 
     def read(self, first: int, end: int) -> Samples:
         """The sum so far from one sample to before another, (F, 2); silence where nothing was added."""
         found = np.zeros((end - first, CHANNELS), dtype=np.float32)
-        begin = max(first, 0)
-        self._file.seek(begin * FRAME_BYTES)
-        held = np.frombuffer(self._file.read((end - begin) * FRAME_BYTES), dtype=np.float32)
-        held = held.reshape(-1, CHANNELS)
-        found[begin - first : begin - first + len(held)] = held
+        for chunk, begin, until in _chunks(max(first, 0), end):
+            if chunk not in self._there:
+                continue
+            with self._path(chunk).open("rb") as file:
+                file.seek((begin - chunk * CHUNK) * FRAME_BYTES)
+                held = np.frombuffer(file.read((until - begin) * FRAME_BYTES), dtype=np.float32)
+            held = held.reshape(-1, CHANNELS)
+            found[begin - first : begin - first + len(held)] = held
         return found
+
+    def forget(self, end: int) -> None:
+        """Let go of what lies before a sample: it is not read again."""
+        for chunk in [chunk for chunk in self._there if (chunk + 1) * CHUNK <= end]:
+            self._remove(chunk)
+
+    def _path(self, chunk: int) -> Path:
+        return self._scratch.with_name(f"{chunk}-{self._scratch.name}")
+
+    def _remove(self, chunk: int) -> None:
+        self._there.discard(chunk)
+        self._path(chunk).unlink(missing_ok=True)
+
+
+def _chunks(first: int, end: int) -> Iterator[tuple[int, int, int]]:
+    """The files that hold a span, each with the samples of it that it holds."""
+    for chunk in range(first // CHUNK, -(-end // CHUNK)):
+        yield chunk, max(first, chunk * CHUNK), min(end, (chunk + 1) * CHUNK)

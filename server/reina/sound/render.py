@@ -6,7 +6,7 @@ The plan's arrays (NOTES and CONTROLS rows) come on standard input, and a byte a
 heard. After them come numbers of segments, one a line, each of which is to be made next, with what follows
 it. When standard input is closed, the one who asked is gone, and the process ends. On standard output it
 tells, one JSON object a line, ``{"progress": 0.25}``, ``{"segment": 3, "peaks": "..."}`` when that segment
-lies in FOLDER, and at the end ``{"done": true}`` or ``{"error": "..."}``.
+lies in FOLDER, and at the end ``{"done": true}`` or ``{"error": "...", "is_disk_full": false}``.
 """
 
 import json
@@ -30,7 +30,9 @@ from reina.sound.passages import BLOCK, Passage, cut_into_passages, write_passag
 from reina.sound.recording.peaks import peaks_path, write_peaks
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.segments import OVERLAP, SEGMENT, cut_into_segments
-from reina.system.own_process import follow_parent, read_from_parent, yield_to_server
+from reina.system.disk_room import is_disk_full
+from reina.system.durable import put_in_place, sync
+from reina.system.own_process import complain_in_a_line, follow_parent, read_from_parent, yield_to_server
 
 GAINS = (1.0, 1 / 4, 1 / 16, 1 / 64)
 """How loud a passage is rendered: the first at which it does not reach full scale, where the synthesizer
@@ -113,6 +115,9 @@ def render_plan(
                 tell({"segment": number, "peaks": told})
             tell({"progress": round(done / all_work * RENDERING, 4)})
         write_peaks(peaks_path(song), peaks.peaks())
+        # Where the whole is, everything else is taken for whole too, after a power cut as well.
+        for number in range(segments.count):
+            sync(segment_path(song, number))
         _put_whole(song, _pieces(mix, segments.frames, gain))
     tell({"progress": 1.0})
 
@@ -145,6 +150,7 @@ def _render_passage(plan: SoundPlan, passage: Passage, soundfont: bytes) -> Samp
 def _pieces(mix: Mix, frames: int, gain: float) -> Iterator[np.ndarray[tuple[int, int], np.dtype[np.int16]]]:
     """The whole as the segments have it, without their overlaps."""
     for first in range(0, frames, SEGMENT):
+        mix.forget(first)
         yield levelled(mix.read(first, min(first + SEGMENT, frames)), gain)
 
 
@@ -162,13 +168,14 @@ def _put(path: Path, data: bytes) -> None:
 def _put_whole(song: Path, pieces: Iterator[np.ndarray[tuple[int, int], np.dtype[np.int16]]]) -> None:
     partial = _partial(song, song.name)
     write_flac(partial, pieces)
-    partial.replace(song)
+    put_in_place(partial, song)
 
 
 def main() -> int:
     """Read the plan and render it."""
     soundfont, folder = Path(sys.argv[1]), Path(sys.argv[2])
     note_count, control_count = int(sys.argv[3]), int(sys.argv[4])
+    complain_in_a_line()
     yield_to_server()
     plan = SoundPlan(
         notes=np.frombuffer(read_from_parent(note_count * NOTE_DTYPE.itemsize), dtype=NOTE_DTYPE),
@@ -181,7 +188,7 @@ def main() -> int:
     try:
         render_plan(plan, soundfont.read_bytes(), folder / SONG, _tell, wanted, heard)
     except (RenderError, OSError) as error:
-        _tell({"error": str(error)})
+        _tell({"error": str(error), "is_disk_full": is_disk_full(error)})
         return 1
     _tell({"done": True})
     return 0

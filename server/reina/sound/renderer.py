@@ -11,10 +11,10 @@ import hashlib
 import json
 import logging
 import os
-import shutil
 import sys
 from asyncio.subprocess import PIPE, Process
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Hashable, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -30,25 +30,40 @@ from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.recording.peaks import Peaks
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.segments import SEGMENT, Segments, cut_into_segments
+from reina.sound.song_cache import SONG_CACHE_BYTES, SongCache, most_bytes_of, remove_song
+from reina.system.disk_room import has_room, is_disk_full
+from reina.system.metrics import in_queue
+from reina.system.turns import Turns
 
 __all__ = [
     "MissingSoundfontError",
+    "NoRoomError",
     "SongRenderer",
     "SongRequest",
     "SoundError",
     "find_soundfont",
 ]
 
+NO_ROOM = "there is no room on the server's disk for the sound; it is made as soon as there is"
 RENDERING_VERSION = "2"
 """Raised with every change of how a plan becomes sound, so that songs rendered before are not taken for new
 ones."""
 
 RENDERING_ID_LENGTH = 16
 TIMEOUT_S = 900.0
+LONG_S = 600.0
+"""Longer music is rendered one piece at a time, whoever it is for."""
 STDERR_TOLD = 400
-"""How many characters of a crashed renderer's complaint are passed on, from its end."""
+"""How many characters at the end of a crashed renderer's complaint its last line is looked for in."""
 
 log = logging.getLogger(__name__)
+
+
+class NoRoomError(SoundError):
+    """There is no room for a song now; there may be later."""
+
+    def __init__(self) -> None:
+        super().__init__(NO_ROOM)
 
 
 class SongRequest:
@@ -115,6 +130,8 @@ class SongRequest:
         if self._rendering.task.cancelled():
             return SoundError("the rendering was cancelled")
         error = self._rendering.task.exception()
+        if error is not None and is_disk_full(error):
+            return NoRoomError()
         return error if error is None or isinstance(error, SoundError) else SoundError(str(error))
 
     async def wait(self) -> Path:
@@ -151,6 +168,7 @@ class _Rendering:
     """
 
     def __init__(self, segments: Segments) -> None:
+        self.frames = segments.frames
         self.progress = 0.0
         self.askers = 0
         self.there: set[int] = set()
@@ -196,7 +214,9 @@ class SongRenderer:
     Args:
         data_dir: The server's data folder.
         soundfont: An SF2 file; by default what `find_soundfont` finds at the first request.
-        most_at_once: How many renderings run at once; others wait for their turn.
+        most_at_once: How many renderings run at once; others wait for their turn, which goes round by owner,
+            and long ones go one at a time, so that there is always one that a short one soon gets.
+        most_bytes: How large the songs may be together, those that are being made with all that this takes.
         timeout_s: How long one may take before it is stopped.
     """
 
@@ -206,18 +226,27 @@ class SongRenderer:
         *,
         soundfont: Path | None = None,
         most_at_once: int = 2,
+        most_bytes: int = SONG_CACHE_BYTES,
         timeout_s: float = TIMEOUT_S,
     ) -> None:
         self._data_dir = data_dir
         self._songs = data_dir / "songs"
         self._soundfont = soundfont
         self._timeout_s = timeout_s
-        self._turns = asyncio.Semaphore(most_at_once)
+        self._turns = Turns(most_at_once)
+        self._long_turns = Turns(max(1, most_at_once - 1))
+        self.cache = SongCache(self._songs, most_bytes, is_made=self._is_made)
+        """The songs that are there."""
         self._renderings: dict[Path, _Rendering] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def request(
-        self, score: Score, played: Sequence[PlayedParts] = (), hearing: Hearing = AS_WRITTEN
+        self,
+        score: Score,
+        played: Sequence[PlayedParts] = (),
+        hearing: Hearing = AS_WRITTEN,
+        *,
+        owner: Hashable = None,
     ) -> SongRequest:
         """Ask for a score's song, which is then made in the background unless it is there already.
 
@@ -225,6 +254,7 @@ class SongRenderer:
             score: The score; time 0 of the song is its time 0.
             played: What the players play.
             hearing: What of it is to be heard.
+            owner: For whom; renderings that wait go round by owner, the short ones of each first.
 
         Raises:
             InputError: The score is longer than an hour, or nothing of it is a pitch.
@@ -244,12 +274,16 @@ class SongRenderer:
             before = rendering.task if rendering else None
             rendering = self._renderings[path] = _Rendering(segments)
             rendering.task = asyncio.create_task(
-                self._render(rendering, plan, heard, soundfont, path, before)
+                self._render_in_turn(rendering, plan, heard, soundfont, path, before, owner)
             )
             self._tasks.add(rendering.task)
             rendering.task.add_done_callback(functools.partial(self._ended, path, rendering))
         rendering.askers += 1
         return SongRequest(path, segments, rendering)
+
+    def has_room(self) -> bool:
+        """Whether there is room on the disk for a song to be begun; blocks as long as the disk takes."""
+        return has_room(self._data_dir)
 
     async def aclose(self) -> None:
         """Stop every rendering and wait until its process is gone."""
@@ -260,38 +294,17 @@ class SongRenderer:
         if self._tasks:
             await asyncio.wait(self._tasks)
 
-    def prune(self, most_bytes: int, *, in_use: Collection[Path] = ()) -> int:
-        """Remove the songs that were not asked for the longest until the rest fits; return the bytes freed.
-
-        What is no whole song and is not being rendered goes in any case: what a server that was killed, or an
-        earlier version, has left.
-
-        Args:
-            most_bytes: How large the rendered songs may be together.
-            in_use: Songs that stay in any case.
-        """
-        songs: list[tuple[float, int, Path]] = []
-        freed = 0
-        for entry in self._songs.iterdir() if self._songs.is_dir() else ():
-            with contextlib.suppress(FileNotFoundError, NotADirectoryError):  # removed meanwhile
-                song = entry / SONG
-                if song.is_file():
-                    songs.append((song.stat().st_mtime, _size(entry), song))
-                elif song not in self._renderings:
-                    freed += _size(entry)
-                    _remove(entry)
-        total = sum(size for _, size, _ in songs)
-        for _, size, song in sorted(songs):
-            if total > most_bytes and song not in in_use:
-                self.discard(song)
-                total -= size
-                freed += size
-        return freed
+    def prune(self, *, in_use: Collection[Path] = ()) -> int:
+        """Remove songs until the rest fits; see `SongCache.prune`."""
+        return self.cache.prune(in_use=in_use)
 
     def discard(self, path: Path | None) -> None:
         """Remove a song that nobody needs any more; None, and one that is gone already, are no error."""
         if path is not None:
-            _remove(path.parent)
+            remove_song(path.parent)
+
+    def _is_made(self, path: Path) -> bool:
+        return path in self._renderings
 
     def _ended(self, path: Path, rendering: _Rendering, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)
@@ -301,6 +314,19 @@ class SongRenderer:
         if not task.cancelled() and (error := task.exception()) is not None:
             log.error("rendering %s failed: %s", path.parent.name, error)
 
+    async def _render_in_turn(
+        self,
+        rendering: _Rendering,
+        plan: SoundPlan,
+        heard: NDArray[np.bool_],
+        soundfont: Path,
+        path: Path,
+        before: asyncio.Task[None] | None,
+        owner: Hashable,
+    ) -> None:
+        with in_queue("renderings"):
+            await self._render(rendering, plan, heard, soundfont, path, before, owner)
+
     async def _render(
         self,
         rendering: _Rendering,
@@ -309,11 +335,15 @@ class SongRenderer:
         soundfont: Path,
         path: Path,
         before: asyncio.Task[None] | None,
+        owner: Hashable,
     ) -> None:
         if before is not None:
             # One that was given up still has the folder.
             await asyncio.wait([before])
-        async with self._turns:
+        length_s = plan.duration_s
+        long = self._long_turns.of(owner, length_s) if length_s > LONG_S else nullcontext()
+        needed = most_bytes_of(rendering.frames)
+        async with long, self._turns.of(owner, length_s), self.cache.room(needed):
             path.parent.mkdir(parents=True, exist_ok=True)
             try:
                 async with asyncio.timeout(self._timeout_s):
@@ -358,9 +388,11 @@ class SongRenderer:
             for partial in path.parent.glob(f"*.{process.pid}.partial"):
                 partial.unlink(missing_ok=True)
         if error is not None:
-            raise SoundError(f"the score could not be rendered: {error}")
+            raise error
         if status != 0:
-            raise SoundError(f"the renderer ended with status {status}: {complaint[-STDERR_TOLD:].strip()}")
+            lines = complaint[-STDERR_TOLD:].strip().splitlines()
+            log.warning("the renderer ended with status %d: %s", status, lines[-1] if lines else "")
+            raise SoundError(f"the renderer ended with status {status}; the server has noted why")
 
 
 def _plan(
@@ -372,21 +404,9 @@ def _plan(
     return plan, cut_into_segments(cut_into_passages(plan)), heard_notes(plan, parts, hearing.stem)
 
 
-def _size(entry: Path) -> int:
-    files = entry.iterdir() if entry.is_dir() else (entry,)
-    return sum(file.stat().st_size for file in files)
-
-
-def _remove(entry: Path) -> None:
-    if entry.is_dir():
-        shutil.rmtree(entry, ignore_errors=True)
-    else:
-        entry.unlink(missing_ok=True)
-
-
 def _remove_unfinished(song: Path) -> None:
     if not song.is_file():
-        _remove(song.parent)
+        remove_song(song.parent)
 
 
 async def _send(process: Process, rendering: _Rendering, data: bytes) -> None:
@@ -402,9 +422,9 @@ async def _read(process: Process) -> str:
     return "" if process.stderr is None else (await process.stderr.read()).decode(errors="replace")
 
 
-async def _follow(process: Process, rendering: _Rendering) -> str | None:
+async def _follow(process: Process, rendering: _Rendering) -> SoundError | None:
     """Keep what is there until the process is done; return its complaint if it has one."""
-    error: str | None = None
+    error: SoundError | None = None
     while process.stdout is not None and (line := await process.stdout.readline()):
         message: dict[str, object] = json.loads(line)
         match message:
@@ -413,8 +433,10 @@ async def _follow(process: Process, rendering: _Rendering) -> str | None:
                 rendering.progress = min(share, 0.99)
             case {"segment": int(number), "peaks": str(peaks)}:
                 rendering.add(number, peaks)
+            case {"is_disk_full": True}:
+                error = NoRoomError()
             case {"error": str(complaint)}:
-                error = complaint
+                error = SoundError(f"the score could not be rendered: {complaint}")
             case _:
                 pass
     return error

@@ -3,7 +3,10 @@
 import os
 import sys
 from collections.abc import Callable
+from types import TracebackType
 from typing import BinaryIO
+
+from reina.system.failure import failure_of
 
 NICENESS = 5
 """They yield to the server, whose frames are due."""
@@ -15,6 +18,17 @@ def yield_to_server() -> None:
         os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
     if hasattr(os, "nice"):
         os.nice(NICENESS)
+
+
+def complain_in_a_line() -> None:
+    """Say what ends the process in one line on standard error, which the server reads."""
+    sys.excepthook = _complain
+
+
+def _complain(kind: type[BaseException], error: BaseException, _trace: TracebackType | None) -> None:
+    failure = failure_of(error)
+    if not issubclass(kind, KeyboardInterrupt):
+        print(f"{failure.kind}: {failure.message} ({failure.place})", file=sys.stderr)  # noqa: T201
 
 
 def end_with_parent() -> None:

@@ -22,11 +22,13 @@ class ToldProcesses:
     end any other object, which is the outcome.
 
     Args:
+        queue: What this work is called in the metrics.
         timeout_s: How long one may take before it is stopped.
         most_at_once: How many run at once; others wait for their turn.
     """
 
-    def __init__(self, *, timeout_s: float, most_at_once: int = 1) -> None:
+    def __init__(self, *, queue: str, timeout_s: float, most_at_once: int = 1) -> None:
+        self._queue = queue
         self._timeout_s = timeout_s
         self._turns = asyncio.Semaphore(most_at_once)
         self._under_way: set[asyncio.Future[object]] = set()

@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING
 from tests.unit.api.asking import ask
 
 from reina.api.app import create_app
-from reina.api.settings import REPOSITORY, Settings
+from reina.api.settings import Settings
+from reina.system.resources import bundled
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     import pytest
 
-TAPS = REPOSITORY / "examples" / "scores" / "taps.mid"
+TAPS = bundled("examples") / "scores" / "taps.mid"
 
 
 def test_a_file_that_cannot_be_read_hides_no_other(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:

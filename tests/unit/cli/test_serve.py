@@ -76,6 +76,28 @@ def test_a_song_cache_that_is_no_number(
     assert "REINA_SONG_CACHE_MB" in refusal(capsys)
 
 
+@pytest.mark.parametrize(
+    ("variable", "value"),
+    [
+        ("REINA_LAB", "maybe"),
+        ("REINA_TRUSTED_PROXY", "10.0.0.1 proxy"),
+        ("REINA_RATES", "uploads"),
+        ("REINA_MOST_CONNECTIONS", "0"),
+        ("REINA_HEADER_S", "soon"),
+    ],
+)
+def test_settings_that_cannot_be(
+    variable: str,
+    value: str,
+    page: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv(variable, value)
+    line = refusal(capsys, "--port", "0")
+    assert value.split()[-1] in line
+
+
 def test_a_port_that_is_no_number(
     page: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

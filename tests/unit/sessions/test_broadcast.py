@@ -105,3 +105,13 @@ def test_the_next_time_is_a_lead_before_the_next_frame() -> None:
     broadcast = Broadcast(encoded(), state())
     broadcast.until(1000.0, {1})
     assert broadcast.next_time() == pytest.approx(1000.0 + 7 * FRAME - LEAD_S)
+
+
+def test_frames_that_are_given_out_after_they_were_due_are_counted() -> None:
+    broadcast = Broadcast(encoded(), state())
+    broadcast.until(1000.0, {1, 3})
+    # Sent are frames 0 to 6 one by one, and 0 to 8 in threes; due is a frame every 60th.
+    assert broadcast.overdue(1000.0 + 7 * FRAME - 1e-6) == {}
+    assert broadcast.overdue(1000.0 + 10.5 * FRAME) == {1: 4, 3: 2}
+    broadcast.until(1000.0 + 10.5 * FRAME, {1, 3})
+    assert broadcast.overdue(1000.0 + 10.5 * FRAME) == {}

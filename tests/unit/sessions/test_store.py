@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import asyncio
-import shutil
 import threading
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 from tests.integration.scores import duet, scale, song
+from tests.kept import kept, sql
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
-from reina.protocol.transport import Pause, Play, Seek
-from reina.sessions.folders import SessionFolders
+from reina.protocol.transport import Play, Seek, SetLoop, SetRate
+from reina.sessions.clock_keeping import ClockKeeping
+from reina.sessions.limit_errors import NoRoomError, PieceTooLargeError, SenderLimitError, ServerBusyError
+from reina.sessions.sightings import DAY_S
 from reina.sessions.stage import Stage
+from reina.sessions.storage.errors import SessionDamagedError
+from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import Draft, SessionEndedError, SessionStore
+from reina.sessions.usage import DiskBound
 from reina.show import Show
 from reina.sound.renderer import SongRenderer
 
@@ -37,10 +43,19 @@ def stage() -> Stage:
 class Desk:
     """A store, and drafts for it."""
 
-    def __init__(self, data_dir: Path, stage: Stage, loaded: int = 32) -> None:
+    def __init__(self, data_dir: Path, stage: Stage, **options: Any) -> None:
         self.now = HandClock()
+        self.wall = HandClock(0.0)
+        """What the calendar is ahead of server time."""
         self.data_dir = data_dir
-        self.store = SessionStore(data_dir, stage, SongRenderer(data_dir), now=self.now, loaded=loaded)
+        self.store = SessionStore(
+            data_dir,
+            stage,
+            SongRenderer(data_dir),
+            now=self.now,
+            wall=lambda: self.wall() + self.now(),
+            **options,
+        )
 
     async def create(self, score: bytes, **options: Any) -> Session:
         async with self.store.staging() as folder:
@@ -76,7 +91,7 @@ def test_a_session_is_found_again_by_another_store(tmp_path: Path, stage: Stage)
         await first.store.aclose()
         found = await Desk(tmp_path, stage).get(made.id)
         assert found is not made
-        assert found.record == made.record.model_copy(update={"song_time_s": 0.75})
+        assert found.record == made.record.model_copy(update={"clock": found.record.clock})
         assert found.transport().song_time_s == 0.75
         assert found.production.performance.evaluate(0).rotations.tobytes() == (
             made.production.performance.evaluate(0).rotations.tobytes()
@@ -97,37 +112,212 @@ def test_idle_sessions_beyond_the_bound_are_unloaded_and_come_back(tmp_path: Pat
     run(scenario)
 
 
-def test_a_session_that_plays_is_not_unloaded(tmp_path: Path, stage: Stage) -> None:
+def test_a_session_that_plays_unwatched_is_unloaded_and_goes_on(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         desk = Desk(tmp_path, stage, loaded=1)
-        playing = await desk.create(scale(4))
-        playing.control(Play(action="play"))
-        other = await desk.create(scale(4))
-        assert await desk.get(playing.id) is playing
-        playing.control(Pause(action="pause"))
-        await desk.get(other.id)
+        playing = await desk.create(scale(40))
+        playing.control(SetRate(action="rate", rate=0.5))
+        before = playing.control(Play(action="play"))
         await desk.create(scale(4))
         assert desk.store.loaded == 1
-        assert await desk.get(playing.id) is not playing
+        desk.now.time_s += 5.0
+        found = await desk.get(playing.id)
+        assert found is not playing
+        after = found.transport()
+        assert (after.playing, after.rate) == (True, 0.5)
+        assert after.song_time_s == pytest.approx(2.5)
+        assert after.epoch > before.epoch
 
     run(scenario)
+
+
+def test_what_is_asked_of_a_session_keeps_it_loaded(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, loaded=1)
+        asked = await desk.create(scale(4))
+        with asked.asked():
+            await desk.create(scale(4))
+            assert await desk.get(asked.id) is asked
+        await desk.create(scale(4))
+        assert await desk.get(asked.id) is not asked
+
+    run(scenario)
+
+
+def test_another_server_goes_on_where_the_clock_is(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        made = await desk.create(scale(16))
+        made.control(SetLoop(action="loop", start_s=1.0, end_s=3.0))
+        made.control(Seek(action="seek", song_time_s=1.0))
+        epoch = made.control(Play(action="play")).epoch
+        await desk.store.aclose()
+        again = Desk(tmp_path, stage)
+        # Server time begins anew, the calendar goes on.
+        again.now.time_s = 3.0
+        again.wall.time_s = desk.wall.time_s + desk.now.time_s + 4.5 - again.now.time_s
+        found = (await again.get(made.id)).transport()
+        assert (found.playing, found.song_time_s) == (True, pytest.approx(1.5))
+        assert found.epoch > epoch
+
+    run(scenario)
+
+
+def test_a_song_that_has_ended_meanwhile_stands_at_its_end(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        made = await desk.create(scale(4))
+        made.control(Play(action="play"))
+        await desk.store.aclose()
+        again = Desk(tmp_path, stage)
+        again.wall.time_s = desk.wall.time_s + 1e6
+        found = await again.get(made.id)
+        assert not found.transport().playing
+        assert found.transport().song_time_s == found.clock.duration_s
+
+    run(scenario)
+
+
+def test_a_clock_is_kept_once_for_all_that_it_is_told(
+    tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written: list[SessionRecord] = []
+    write = SessionStorage.change
+
+    def counted(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
+        written.append(record)
+        return write(storage, record)
+
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        session = await desk.create(scale(40))
+        monkeypatch.setattr(SessionStorage, "change", counted)
+        for number in range(60):
+            session.control(Seek(action="seek", song_time_s=number / 30))
+        for _ in range(600):
+            if written:
+                break
+            await asyncio.sleep(0.01)
+        assert [record.clock.song_time_s for record in written] == [pytest.approx(59 / 30)]
+        await desk.store.aclose()
+        assert len(written) == 1, "it has not changed since"
+
+    run(scenario)
+
+
+def test_sessions_that_play_unwatched_stay_within_the_bytes(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        one = await Desk(tmp_path / "one", stage).create(scale(400))
+        desk = Desk(tmp_path / "many", stage, memory_bytes=int(3.5 * one.weight))
+        made = [await desk.create(scale(400)) for _ in range(6)]
+        for session in made:
+            (await desk.get(session.id)).control(Play(action="play"))
+            assert desk.store.weight <= 3.5 * one.weight
+        assert desk.store.loaded == 3
+        desk.now.time_s += 20.0
+        for session in made:
+            found = await desk.get(session.id)
+            assert found.transport().song_time_s == pytest.approx(20.0)
+
+    run(scenario)
+
+
+def test_what_does_not_fit_beside_what_is_asked_is_refused_and_not_kept(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        one = await Desk(tmp_path / "one", stage).create(scale(400))
+        desk = Desk(tmp_path / "many", stage, memory_bytes=int(1.5 * one.weight))
+        asked = await desk.create(scale(400))
+        with asked.asked():
+            with pytest.raises(ServerBusyError, match="try again") as refused:
+                await desk.create(scale(400))
+            assert refused.value.retry_after_s
+            assert desk.store.storage.usage().sessions == 1
+        await desk.create(scale(400))
+        with pytest.raises(PieceTooLargeError, match="REINA_MEMORY_MB"):
+            await desk.create(scale(1600))
+
+    run(scenario)
+
+
+def test_one_sender_keeps_so_much(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        disk = DiskBound(most_bytes=0, most_bytes_of_sender=0, most_sessions_of_sender=2)
+        desk = Desk(tmp_path, stage, disk=disk)
+        made = [await desk.create(scale(4), sender="one") for _ in range(2)]
+        with pytest.raises(SenderLimitError, match="2 sessions came from your address, and 2 is the most"):
+            await desk.create(scale(4), sender="one")
+        await desk.create(scale(4), sender="other")
+        await desk.store.delete(made[0])
+        await desk.create(scale(4), sender="one")
+        # Another server knows who sent them.
+        again = Desk(tmp_path, stage, disk=disk)
+        with pytest.raises(SenderLimitError):
+            await again.store.require_disk("one")
+        await again.store.require_disk("nobody")
+
+    run(scenario)
+
+
+def test_all_together_keep_so_many_bytes(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        most = 1_000_000
+        desk = Desk(tmp_path, stage, disk=DiskBound(most, 0, 0))
+        made = await desk.create(scale(4))
+        taken = await desk.store.usage(None)
+        assert taken.sessions == 1
+        assert {file.name for file in made.record.files} == {"score", "song.wav", "song.peaks"}
+        assert taken.bytes > sum(file.size for file in made.record.files), "the show counts too"
+        await desk.store.require_disk("", most - taken.bytes)
+        with pytest.raises(NoRoomError, match=r"the server keeps 1\.0 MB at most"):
+            await desk.store.require_disk("", most - taken.bytes + 1)
+
+    run(scenario)
+
+
+def test_sessions_that_nobody_sees_are_ended(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        desk.wall.time_s = time.time()
+        seen, unseen, idle = [await desk.create(scale(4)) for _ in range(3)]
+        # As after a restart, when two of three are not loaded.
+        await desk.store.aclose()
+        again = Desk(tmp_path, stage)
+        again.wall.time_s = desk.wall.time_s + 9 * DAY_S
+        loaded = await again.get(idle.id)
+        told = await again.store.ends_at(loaded, 10 * DAY_S)
+        assert told is not None
+        assert await again.store.ends_at(loaded, 30 * DAY_S) is None, "that is far"
+        assert await again.store.ends_at(loaded, 0.0) is None
+        again.store.sightings.note(seen.id)
+        assert await again.store.end_unseen(10 * DAY_S) == 0
+        again.wall.time_s += 2 * DAY_S
+        assert await again.store.end_unseen(10 * DAY_S) == 2
+        assert sql(tmp_path, "SELECT id FROM sessions") == [(seen.id,)]
+        assert await again.store.get(unseen.id) is None
+
+    run(scenario)
+
+
+def _nothing(*_: object) -> None:
+    """In place of what is not to be done."""
 
 
 def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     writing = threading.Event()
-    write = SessionFolders.write_record
+    write = SessionStorage.change
 
-    def slowly(folders: SessionFolders, record: SessionRecord) -> None:
+    def slowly(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
         writing.wait(5)
-        write(folders, record)
+        return write(storage, record)
 
     async def scenario() -> None:
+        monkeypatch.setattr(ClockKeeping, "note", _nothing)
         desk = Desk(tmp_path, stage, loaded=1)
         first = await desk.create(scale(8))
         first.control(Seek(action="seek", song_time_s=0.75))
-        monkeypatch.setattr(SessionFolders, "write_record", slowly)
+        monkeypatch.setattr(SessionStorage, "change", slowly)
         await desk.create(scale(4))
         asking = asyncio.create_task(desk.get(first.id))
         await asyncio.sleep(0.05)
@@ -176,7 +366,7 @@ def test_an_ended_session_is_gone_from_disk(tmp_path: Path, stage: Stage) -> Non
         assert await desk.store.get(session.id) is None
 
     run(scenario)
-    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+    assert kept(tmp_path) == []
 
 
 def test_whoever_comes_too_late_to_end_or_change_a_session_is_told_so(tmp_path: Path, stage: Stage) -> None:
@@ -203,7 +393,7 @@ def test_a_session_ended_while_it_is_read_does_not_come_back(tmp_path: Path, sta
         desk = Desk(tmp_path, stage)
         asked = asyncio.create_task(desk.store.get(made.id))
         await asyncio.sleep(0)
-        shutil.rmtree(tmp_path / "sessions" / made.id)
+        await asyncio.to_thread(desk.store.storage.remove, made.id)
         assert await asked is None
         assert desk.store.loaded == 0
 
@@ -227,9 +417,14 @@ def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage
         desk = Desk(tmp_path, stage)
         whole = await desk.create(scale(4), public=True)
         damaged = await desk.create(scale(4), public=True)
-        (tmp_path / "sessions" / damaged.id / "session.json").write_text("{")
-        entries, following = Desk(tmp_path, stage).store.listed(10)
-        assert [entry.id for entry in entries] == [whole.id]
+        sql(tmp_path, "UPDATE sessions SET record = '{' WHERE id = ?", damaged.id)
+        again = Desk(tmp_path, stage)
+        entries, following = await again.store.listed(10)
+        assert {entry.id for entry in entries} == {whole.id, damaged.id}
         assert following is None
+        for _ in range(2):
+            with pytest.raises(SessionDamagedError, match=f"{damaged.id!r} is kept and cannot be read"):
+                await again.store.get(damaged.id)
+        assert (await again.get(whole.id)).record == whole.record
 
     run(scenario)

@@ -8,17 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.integration.scores import duet, relay, scale, show, song
+from tests.kept import kept
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
 from reina.show import Show
+from reina.sound.events import SAMPLE_RATE
 from reina.sound.hearing import AS_WRITTEN, Hearing
 from reina.sound.renderer import SongRenderer, SongRequest
+from reina.sound.song_cache import SONG_CACHE_BYTES, most_bytes_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Sequence
+    from collections.abc import Callable, Coroutine, Hashable, Sequence
 
     from reina.music import Score
     from reina.sessions.session import Session
@@ -36,21 +39,26 @@ def stage() -> Stage:
 class HandRenderer(SongRenderer):
     """Renders when it is let, a thousand zeros each time, and remembers what it was asked for."""
 
-    def __init__(self, data_dir: Path) -> None:
+    def __init__(self, data_dir: Path, most_bytes: int) -> None:
         soundfont = data_dir / "font.sf2"
         soundfont.write_bytes(b"a soundfont")
-        super().__init__(data_dir, soundfont=soundfont)
+        super().__init__(data_dir, soundfont=soundfont, most_bytes=most_bytes)
         self.asked: list[tuple[int, int]] = []
         self.hearings: list[Hearing] = []
         self.let = asyncio.Event()
         self.let.set()
 
     async def request(
-        self, score: Score, played: Sequence[PlayedParts] = (), hearing: Hearing = AS_WRITTEN
+        self,
+        score: Score,
+        played: Sequence[PlayedParts] = (),
+        hearing: Hearing = AS_WRITTEN,
+        *,
+        owner: Hashable = None,
     ) -> SongRequest:
         self.asked.append((played[0].parts[0], played[0].transposition))
         self.hearings.append(hearing)
-        return await super().request(score, played, hearing)
+        return await super().request(score, played, hearing, owner=owner)
 
     async def _run(self, rendering: object, plan: object, heard: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
@@ -74,9 +82,11 @@ class Page:
 class Desk:
     """A store with a renderer that is held in hand."""
 
-    def __init__(self, data_dir: Path, stage: Stage, **options: Any) -> None:
+    def __init__(
+        self, data_dir: Path, stage: Stage, *, song_cache_bytes: int = SONG_CACHE_BYTES, **options: Any
+    ) -> None:
         self.data_dir = data_dir
-        self.renderer = HandRenderer(data_dir)
+        self.renderer = HandRenderer(data_dir, song_cache_bytes)
         self.store = SessionStore(data_dir, stage, self.renderer, now=HandClock(), **options)
 
     async def create(self, score: bytes, *, with_song: bool = False, **options: Any) -> Session:
@@ -218,18 +228,21 @@ def test_an_uploaded_song_stays_as_it_is(tmp_path: Path, stage: Stage) -> None:
     run(scenario)
 
 
-def test_songs_beyond_the_bound_go_unless_a_session_needs_them(tmp_path: Path, stage: Stage) -> None:
+def test_songs_beyond_the_bound_go_and_those_that_are_listened_to_go_last(
+    tmp_path: Path, stage: Stage
+) -> None:
     async def scenario() -> None:
-        desk = Desk(tmp_path, stage, song_cache_bytes=2 * SONG_BYTES)
+        desk = Desk(tmp_path, stage, song_cache_bytes=most_bytes_of(20 * SAMPLE_RATE))
         session = await desk.create(duet())
         kept = await ready(session)
+        session.join(Viewer(Page()))
         other = await desk.create(scale(4))
         for transposition in range(1, 6):
             await choose(desk.store, other, transposition=transposition)
             await ready(other)
-        await until(lambda: len(desk.songs()) == 2)
-        assert kept in desk.songs()
-        assert other.song.path in desk.songs()
+        desk.renderer.cache.most_bytes = SONG_BYTES
+        await desk.store.prune_songs()
+        assert desk.songs() == [kept]
         await desk.store.aclose()
         again = Desk(tmp_path, stage, song_cache_bytes=0)
         await again.store.prune_songs()
@@ -249,7 +262,7 @@ def test_ending_a_session_removes_its_song_unless_another_has_the_same(tmp_path:
         await desk.store.aclose()
 
     run(scenario)
-    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["font.sf2"]
+    assert kept(tmp_path) == ["font.sf2"]
 
 
 def test_a_session_without_a_show_gets_one_written_for_its_music(tmp_path: Path, stage: Stage) -> None:
@@ -293,8 +306,7 @@ def test_what_a_viewer_hears_instead_of_the_song_is_their_own(tmp_path: Path, st
         assert len(paths | {own}) == 4
         assert session.song_state() == state_of_all, "for everybody else nothing has changed"
         # What is heard is in use; once another part is played, it is not.
-        await asyncio.to_thread(desk.renderer.prune, 0, in_use=desk.store.songs_in_use())
-        assert all(path.is_file() for path in paths)
+        assert paths | {own} == desk.store.songs_in_use()
         await choose(desk.store, session, transposition=2)
         assert session.heard.paths == set()
         await desk.store.delete(session)

@@ -1,8 +1,10 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 
 from reina.sessions.viewer import FRAMES_WAITING, MESSAGES_WAITING, TRY_AGAIN_LATER, Viewer
+from reina.system.metrics import tally
 
 
 class Line:
@@ -130,3 +132,22 @@ def test_a_session_that_ends_says_so() -> None:
         return line.closed
 
     assert asyncio.run(scenario()) == (1001, "the session has ended")
+
+
+def test_what_is_sent_and_what_is_lost_is_counted() -> None:
+    async def scenario() -> None:
+        line = Line()
+        line.open.clear()
+        viewer = Viewer(line, frames_per_message=3)
+        running = asyncio.create_task(viewer.run())
+        for _ in range(5):
+            viewer.post_frames(b"123")
+        line.open.set()
+        await _settle()
+        running.cancel()
+
+    before = replace(tally)
+    asyncio.run(scenario())
+    assert tally.frames_sent - before.frames_sent == 4 * 3
+    assert tally.frames_lost - before.frames_lost == 3
+    assert tally.stream_bytes - before.stream_bytes == 4 * 3

@@ -141,3 +141,24 @@ def test_a_worker_ends_when_its_server_is_gone() -> None:
     process.stdin.close()
     assert process.wait(20) == 2
     process.stdout.close()
+
+
+def test_a_pool_knows_whether_its_processes_start() -> None:
+    async def works(pool: WorkerPool) -> None:
+        with pytest.raises(InputError, match="has ended"):
+            await pool.run(os._exit, 3)
+        assert pool.fails, "its first work was its end"
+        assert await pool.run(divmod, 7, 2) == (3, 1)
+        assert not pool.fails
+        with pytest.raises(InputError, match="has ended"):
+            await pool.run(os._exit, 3)
+        assert not pool.fails, "it had worked before"
+
+    async def starts_not(pool: WorkerPool) -> None:
+        with pytest.raises(InputError):
+            await pool.run(os.getpid)
+        assert pool.fails
+
+    with_pool(works)
+    with_pool(starts_not, program=(sys.executable, "-c", "pass"))
+    with_pool(starts_not, program=("/nowhere/python",))

@@ -75,7 +75,7 @@ def write_click_soundfont(path: Path) -> Path:
     """Write an SF2 whose only preset is 0.2 s of 1 kHz on key 60 that begins at once, at full scale."""
     wave = np.cos(2 * np.pi * CLICK_HZ * np.arange(CLICK_LENGTH) / CLICK_RATE)
     samples = np.concatenate((np.rint(wave * 32000), np.zeros(46))).astype("<i2").tobytes()
-    info = _list(
+    info = riff_list(
         b"INFO", [(b"ifil", struct.pack("<HH", 2, 1)), (b"isng", b"EMU8000\0"), (b"INAM", b"Click\0")]
     )
     end = b"\0" * 4
@@ -95,12 +95,13 @@ def write_click_soundfont(path: Path) -> Path:
         (b"igen", struct.pack("<HH", 53, 0) + end),
         (b"shdr", sample + struct.pack("<20sIIIIIBbHH", b"EOS", 0, 0, 0, 0, 0, 0, 0, 0, 0)),
     ]
-    body = b"sfbk" + info + _list(b"sdta", [(b"smpl", samples)]) + _list(b"pdta", hydra)
+    body = b"sfbk" + info + riff_list(b"sdta", [(b"smpl", samples)]) + riff_list(b"pdta", hydra)
     path.write_bytes(struct.pack("<4sI", b"RIFF", len(body)) + body)
     return path
 
 
-def _list(kind: bytes, chunks: Iterable[tuple[bytes, bytes]]) -> bytes:
+def riff_list(kind: bytes, chunks: Iterable[tuple[bytes, bytes]]) -> bytes:
+    """A list of chunks, as RIFF has it."""
     body = kind + b"".join(
         struct.pack("<4sI", name, len(data)) + data + b"\0" * (len(data) % 2) for name, data in chunks
     )

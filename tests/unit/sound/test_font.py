@@ -9,14 +9,14 @@ from reina.sound.renderer import MissingSoundfontError, find_soundfont
 
 
 @pytest.fixture(autouse=True)
-def _an_empty_repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
-    monkeypatch.setattr(sound_font, "REPOSITORY", tmp_path / "repository")
-    (tmp_path / "repository" / "data").mkdir(parents=True)
+def _an_empty_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+    monkeypatch.setattr(sound_font, "default_data_dir", lambda: tmp_path / "usual")
+    (tmp_path / "usual").mkdir()
     (tmp_path / "data").mkdir()
 
 
-def test_looks_in_the_data_folder_before_the_repository(tmp_path: Path) -> None:
-    shared = write_click_soundfont(tmp_path / "repository" / "data" / "soundfont.sf2")
+def test_looks_in_the_data_folder_before_the_usual_one(tmp_path: Path) -> None:
+    shared = write_click_soundfont(tmp_path / "usual" / "soundfont.sf2")
     assert find_soundfont(tmp_path / "data", environment={}) == shared
     own = write_click_soundfont(tmp_path / "data" / "soundfont.sf2")
     assert find_soundfont(tmp_path / "data", environment={}) == own

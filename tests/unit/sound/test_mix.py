@@ -28,7 +28,13 @@ def test_overlapping_passages_add_up_at_their_places_in_any_order(
         for index in order:
             mix.add(starts[index], passages[index].copy())
         np.testing.assert_allclose(mix.read(0, len(expected)), expected, atol=1e-7)
-    assert not (tmp_path / "mix").exists()
+        assert len(list(tmp_path.iterdir())) == 2, "a file for every ten seconds"
+        mix.forget(12 * SAMPLE_RATE)
+        np.testing.assert_allclose(
+            mix.read(10 * SAMPLE_RATE, len(expected)), expected[10 * SAMPLE_RATE :], atol=1e-7
+        )
+        assert len(list(tmp_path.iterdir())) == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_around_the_sound_there_is_silence(tmp_path: Path) -> None:

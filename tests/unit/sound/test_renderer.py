@@ -14,19 +14,20 @@ from tests.unit.sound.material import CLICK_HZ, Row, a_score, write_click_soundf
 from reina.errors import InputError
 from reina.music import Score
 from reina.sound.encode import wav_of
-from reina.sound.events import SAMPLE_RATE
-from reina.sound.recording.peaks import read_peaks
+from reina.sound.events import SAMPLE_RATE, SoundPlan
+from reina.sound.recording.peaks import peaks_path, read_peaks
 from reina.sound.recording.probe import probe_recording
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.renderer import MissingSoundfontError, SongRenderer, SongRequest, SoundError
 from reina.sound.segments import OVERLAP, SEGMENT
+from reina.sound.song_cache import most_bytes_of
 
 SHORT = a_score([(0, 0.5, 0.15, 60, 1.0), (0, 1.25, 0.15, 60, 1.0)])
 
 
 def long_score(first_pitch: int = 60) -> Score:
-    """An hour in which all channels sound, which takes long to render."""
-    rows: list[Row] = [(0, at * 0.2, 0.2, first_pitch + at % 12, 0.5) for at in range(5 * 3590)]
+    """Minutes in which something always sounds, which take long to render; two may be rendered at once."""
+    rows: list[Row] = [(0, at * 0.2, 0.2, first_pitch + at % 12, 0.5) for at in range(5 * 590)]
     return a_score(rows)
 
 
@@ -217,11 +218,95 @@ def test_prune_removes_what_was_not_asked_for_the_longest(tmp_path: Path, soundf
         ]
         sizes = [size(path) for path in paths]
         await renderer.request(a_score([(0, 0.5, 0.1, 60, 0.3)]))
-        freed = renderer.prune(sizes[0] + sizes[2], in_use=[paths[2]])
-        assert freed == sizes[1]
+        small = SongRenderer(tmp_path, soundfont=soundfont, most_bytes=sizes[0] + sizes[2])
+        assert small.prune(in_use=[paths[2]]) == sizes[1]
         assert [path.exists() for path in paths] == [True, False, True]
+        # The bound holds for what is listened to as well, which goes last.
+        small = SongRenderer(tmp_path, soundfont=soundfont, most_bytes=sizes[2])
+        assert small.prune(in_use=[paths[2]]) == sizes[0]
+        assert SongRenderer(tmp_path, soundfont=soundfont, most_bytes=0).prune(in_use=[paths[2]]) == sizes[2]
 
     with_renderer(tmp_path, soundfont, use)
+
+
+class CountedRenderer(SongRenderer):
+    """Renders when it is let, as large as it may become, and remembers what was there meanwhile."""
+
+    def __init__(self, data_dir: Path, soundfont: Path, **options: int) -> None:
+        super().__init__(data_dir, soundfont=soundfont, **options)
+        self.begun: list[float] = []
+        self.largest = 0
+        self.let = asyncio.Semaphore(0)
+
+    async def _run(
+        self, rendering: object, plan: SoundPlan, heard: object, soundfont: Path, path: Path
+    ) -> None:
+        self.begun.append(round(plan.duration_s))
+        path.with_name("mix").write_bytes(bytes(most_bytes_of(round(plan.duration_s * SAMPLE_RATE)) // 100))
+        self.largest = max(self.largest, sum(map(size, path.parent.parent.glob(f"*/{SONG}"))))
+        await self.let.acquire()
+        path.with_name("mix").unlink()
+        await asyncio.to_thread(path.write_bytes, bytes(1_000_000))
+
+
+async def until(met: Callable[[], bool]) -> None:
+    for _ in range(3000):
+        if met():
+            return
+        await asyncio.sleep(0.01)
+    raise TimeoutError
+
+
+def lasting(seconds: int, pitch: int = 60) -> Score:
+    return a_score([(0, seconds - 0.5, 0.5, pitch, 0.5)])
+
+
+def test_an_honest_song_does_not_wait_behind_many_long_ones(tmp_path: Path, soundfont: Path) -> None:
+    async def run() -> list[float]:
+        renderer = CountedRenderer(tmp_path, soundfont)
+        for pitch in range(40):
+            await renderer.request(lasting(3500, 40 + pitch), owner="many")
+        await until(lambda: len(renderer.begun) == 1)
+        await renderer.request(lasting(180), owner="one")
+        await until(lambda: len(renderer.begun) == 2)
+        await renderer.request(lasting(300), owner="many")
+        await renderer.request(lasting(200), owner="many")
+        await renderer.request(lasting(3400), owner="one")
+        for count in range(3, 6):
+            renderer.let.release()
+            await until(lambda count=count: len(renderer.begun) == count)
+        for _ in range(2):
+            renderer.let.release()
+        await until(lambda: len(renderer.begun) == 6)
+        begun = list(renderer.begun)
+        await renderer.aclose()
+        return begun
+
+    # Of long ones one is made at a time, so there is room for a short one; of one owner's the short go first;
+    # the long ones go round by owner.
+    assert asyncio.run(run()) == [3500, 180, 200, 300, 3500, 3400]
+
+
+def test_the_bound_holds_while_songs_are_made(tmp_path: Path, soundfont: Path) -> None:
+    most = most_bytes_of(60 * SAMPLE_RATE) + 3_000_000
+
+    async def run() -> int:
+        renderer = CountedRenderer(tmp_path, soundfont, most_bytes=most)
+        requests = [await renderer.request(lasting(50, 40 + pitch)) for pitch in range(8)]
+        for number in range(8):
+            # Two turns there are, and room for the making of one.
+            await until(lambda number=number: len(renderer.begun) == number + 1)
+            renderer.let.release()
+        for request in requests:
+            await request.wait()
+        with pytest.raises(SoundError, match="REINA_SONG_CACHE_MB"):
+            await (await renderer.request(lasting(120))).wait()
+        await renderer.aclose()
+        return renderer.largest
+
+    needed = most_bytes_of(50 * SAMPLE_RATE)
+    assert 0 < asyncio.run(run()) <= most - needed
+    assert sum(map(size, tmp_path.glob(f"songs/*/{SONG}"))) <= most
 
 
 def size(song: Path) -> int:
@@ -232,14 +317,17 @@ def test_prune_removes_what_is_no_whole_song_but_nothing_that_is_being_rendered(
     tmp_path: Path, soundfont: Path
 ) -> None:
     songs = tmp_path / "songs"
-    (songs / "half").mkdir(parents=True)
-    for left in ("half/0.opus", "earlier.wav", "earlier.peaks"):
-        (songs / left).write_bytes(b"12345")
+
+    def leave() -> None:
+        (songs / "half").mkdir(parents=True)
+        for left in ("half/0.opus", "earlier.wav", "earlier.peaks"):
+            (songs / left).write_bytes(b"12345")
 
     async def use(renderer: SongRenderer) -> None:
         request = await renderer.request(long_score())
         await until_it_runs(request)
-        assert renderer.prune(0) == 15
+        leave()
+        assert renderer.prune() == 15
         assert [entry.name for entry in songs.iterdir()] == [request.path.parent.name]
         request.cancel()
 
@@ -299,7 +387,7 @@ def test_segments_in_any_order_are_the_whole(tmp_path: Path, soundfont: Path) ->
     two = with_renderer(tmp_path / "2", soundfont, onwards)
     assert one.read_bytes() == two.read_bytes()
     whole, _ = soundfile.read(one)
-    peaks = read_peaks(one)
+    peaks = read_peaks(peaks_path(one))
     assert peaks is not None
     assert peaks.duration_s == len(whole) / SAMPLE_RATE
     assert peaks.highest.max() == pytest.approx(whole.max(), abs=1e-4)

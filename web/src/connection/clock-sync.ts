@@ -33,6 +33,7 @@ export class ClockSync {
   readonly #window: ClockProbe[] = [];
   readonly #windowLength: number;
   #probes = 0;
+  #doubted = false;
   #estimate = 0;
   #roundTrip = Infinity;
   /** What was given out at a time of the page's clock; from there it goes towards the estimate. */
@@ -52,6 +53,7 @@ export class ClockSync {
       this.#window.length = 0;
       this.#probes = 0;
     }
+    this.#doubted = false;
     this.#window.push(probe);
     if (this.#window.length > this.#windowLength) this.#window.shift();
     this.#probes += 1;
@@ -63,9 +65,14 @@ export class ClockSync {
     return true;
   }
 
-  /** Whether a probe has come back yet. */
+  /** Whether the clock is known: a probe has come back, and none is awaited that may say that it is another clock. */
   get ready(): boolean {
-    return this.#window.length > 0;
+    return this.#window.length > 0 && !this.#doubted;
+  }
+
+  /** There may be another clock: a server that was started again counts from its own beginning. The next probe says. */
+  doubt(): void {
+    this.#doubted = true;
   }
 
   /** Seconds to add to the page's clock to get the server's, as far as is known; 0 until the first probe. */
@@ -95,7 +102,7 @@ export class ClockSync {
   }
 
   #contradicts({ sentAt, receivedAt, serverTime }: ClockProbe): boolean {
-    if (!this.ready) return false;
+    if (this.#window.length === 0) return false;
     const least = serverTime - receivedAt - CONTRADICTION_S;
     const most = serverTime - sentAt + CONTRADICTION_S;
     return this.#estimate < least || this.#estimate > most;

@@ -45,6 +45,14 @@ describe("LeadControl", () => {
     expect(asked).toEqual([0.1]);
   });
 
+  it("forgets what was late before the server was started again, and its clock with it", () => {
+    const control = begun();
+    watched(control, 101, [0.01, 0.5, 0.01], NEAR);
+    control.forgetAsked();
+    control.begin(3);
+    expect(watched(control, 4, Array<number>(1000).fill(0.01), NEAR).at(-1)).toBe(0.1);
+  });
+
   it("does not take for late what could not be sent sooner, nor what a sleep held up", () => {
     const control = begun();
     control.arrived(100.05, 100.3);

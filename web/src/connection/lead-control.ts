@@ -47,7 +47,8 @@ export class LeadControl {
   arrived(due: number, serverTime: number): void {
     const took = this.#asked - (due - serverTime);
     if (due < this.#judgedFrom || took > ABSURD_S) return;
-    if (serverTime - this.#turnedAt > REMEMBERED_S) {
+    // A server that was started again counts from its own beginning.
+    if (Math.abs(serverTime - this.#turnedAt) > REMEMBERED_S) {
       this.#slowestBefore = this.#slowest;
       this.#slowest = 0;
       this.#turnedAt = serverTime;

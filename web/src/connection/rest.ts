@@ -2,6 +2,7 @@ import type {
   Cast,
   CastFields,
   CastingFields,
+  ControlToken,
   CreatedSession,
   Example,
   ExampleList,
@@ -10,11 +11,14 @@ import type {
   InstrumentList,
   LightMood,
   LightMoodList,
+  Password,
   Score,
   Session,
   SessionChange,
+  SessionList,
   ShowParameter,
   ShowParameterList,
+  SignIn,
   Stance,
   TransportCommand,
   Transcription,
@@ -22,7 +26,8 @@ import type {
 } from "../generated/protocol";
 import type { ShowTrack } from "../generated/show";
 import type { ClockProbe } from "./clock-sync";
-import { problemOf, unreachable } from "./problem";
+import { ProblemError, problemOf, unreachable } from "./problem";
+import { send, type Sending } from "./sending";
 
 /** What a new session is made of. */
 export interface SessionFiles {
@@ -42,18 +47,42 @@ const BEGINNING_BYTES = 65_536;
 /** A probe of the clock that is answered later than this is worth nothing. */
 const PROBE_MS = 3000;
 
+/** What a request may have beside its method and address. */
+export interface RequestOptions extends Sending {
+  readonly json?: unknown;
+  readonly body?: XMLHttpRequestBodyInit;
+  readonly token?: string;
+  readonly ifMatch?: string;
+  readonly keepalive?: boolean;
+  readonly cache?: RequestCache;
+  /** Whether a busy server is asked again; by default for what changes nothing. */
+  readonly again?: boolean;
+}
+
 /** The server's calls, typed. Each throws ProblemError when the server refuses or does not answer. */
 export class ReinaApi {
+  /** Waits until a busy server may be asked again; rejects where the person gives it up. */
+  whenBusy: ((problem: ProblemError, signal?: AbortSignal) => Promise<void>) | null = null;
+  /** Asks the person to sign in, where an upload needs it; resolves to whether that went well. */
+  askSignIn: () => Promise<boolean> = () => Promise.resolve(false);
+
   readonly #base: string;
   readonly #fetch: typeof fetch;
+  readonly #send: typeof send;
 
   /**
    * @param base where the API stands, without a slash at its end
    * @param fetchFunction for tests
+   * @param sendFunction for tests, too: sends what is told of while it goes
    */
-  constructor(base = "/api/v1", fetchFunction: typeof fetch = (...request) => fetch(...request)) {
+  constructor(
+    base = "/api/v1",
+    fetchFunction: typeof fetch = (...request) => fetch(...request),
+    sendFunction: typeof send = send,
+  ) {
     this.#base = base;
     this.#fetch = fetchFunction;
+    this.#send = sendFunction;
   }
 
   /**
@@ -64,7 +93,8 @@ export class ReinaApi {
   async clockProbe(number: number): Promise<ClockProbe> {
     const path = `${this.#base}/health?probe=${number}`;
     const sentAt = performance.now();
-    const response = await this.request("GET", path, { cache: "no-store", signal: AbortSignal.timeout(PROBE_MS) });
+    const signal = AbortSignal.timeout(PROBE_MS);
+    const response = await this.request("GET", path, { cache: "no-store", signal, again: false });
     const receivedAt = performance.now();
     const { server_time_s: serverTime } = (await response.json()) as Health;
     const noted = timingOf(response.url);
@@ -75,7 +105,8 @@ export class ReinaApi {
     };
   }
 
-  createSession(files: SessionFiles): Promise<CreatedSession> {
+  /** @param options how its files are sent; without `sent` they are bundled ones */
+  createSession(files: SessionFiles, options: RequestOptions = {}): Promise<CreatedSession> {
     const form = new FormData();
     form.append("score", files.score);
     if (files.song !== undefined) form.append("song", files.song);
@@ -83,14 +114,39 @@ export class ReinaApi {
     if (files.title !== undefined) form.append("title", files.title);
     if (files.inTime === true) form.append("in_time", "true");
     if (files.cast !== undefined) form.append("cast", JSON.stringify(castFields(files.cast)));
-    return this.#json("POST", `${this.#base}/sessions`, { body: form });
+    return this.#upload(() => this.#json("POST", `${this.#base}/sessions`, { ...options, body: form }));
+  }
+
+  /** Whether uploads need a sign-in, by what, and who is signed in. */
+  signInState(): Promise<SignIn> {
+    return this.#json("GET", `${this.#base}/sign-in`);
+  }
+
+  /** Sign in by a password; the browser keeps that in a cookie, which no page can read. */
+  signInBy(given: Pick<Password, "password"> & Partial<Password>): Promise<SignIn> {
+    return this.#json("POST", `${this.#base}/sign-in`, { json: given });
+  }
+
+  async signOut(): Promise<void> {
+    await this.request("DELETE", `${this.#base}/sign-in`);
+  }
+
+  /** The sessions of who is signed in, the newest first. */
+  mySessions(): Promise<SessionList> {
+    return this.#json("GET", `${this.#base}/sessions?mine=true&limit=1000`);
+  }
+
+  /** Make a session's token anew; the one before controls nothing any more. */
+  async renewToken(id: string, token: string): Promise<string> {
+    const path = this.sessionPath(id, "control_token");
+    return (await this.#json<ControlToken>("POST", path, { token })).control_token;
   }
 
   /** Have the server look for the notes of a recording of one line. */
-  transcribe(song: File): Promise<Transcription> {
+  transcribe(song: File, sending: Sending = {}): Promise<Transcription> {
     const form = new FormData();
     form.append("song", song);
-    return this.#json("POST", `${this.#base}/transcriptions`, { body: form });
+    return this.#upload(() => this.#json("POST", `${this.#base}/transcriptions`, { ...sending, body: form }));
   }
 
   transcription(id: string): Promise<Transcription> {
@@ -108,12 +164,12 @@ export class ReinaApi {
     await this.request("DELETE", this.#transcriptionPath(id));
   }
 
-  session(id: string): Promise<Session> {
-    return this.#json("GET", this.#sessionPath(id));
+  session(id: string, options: Pick<RequestOptions, "again"> = {}): Promise<Session> {
+    return this.#json("GET", this.#sessionPath(id), options);
   }
 
   changeSession(id: string, change: SessionChange, token: string): Promise<Session> {
-    return this.#json("PATCH", this.#sessionPath(id), { json: change, token });
+    return this.#json("PATCH", this.#sessionPath(id), { json: change, token, again: true });
   }
 
   async deleteSession(id: string, token: string, options: { keepalive?: boolean } = {}): Promise<void> {
@@ -135,13 +191,18 @@ export class ReinaApi {
   }
 
   changeCast(id: string, fields: CastFields, token: string): Promise<Cast> {
-    return this.#json("PUT", this.sessionPath(id, "cast"), { json: fields, token });
+    return this.#json("PUT", this.sessionPath(id, "cast"), { json: fields, token, again: true });
   }
 
   /** Make a stance of a frame of a motion file. */
-  makeStance(id: string, name: string, file: File, time_s: number, token: string): Promise<Stance> {
+  makeStance(
+    id: string,
+    { name, file, time_s }: { readonly name: string; readonly file: File; readonly time_s: number },
+    token: string,
+    sending: Sending = {},
+  ): Promise<Stance> {
     const query = new URLSearchParams({ name, time_s: String(time_s), filename: file.name.slice(0, 200) });
-    return this.#json("POST", `${this.sessionPath(id, "stances")}?${query}`, { body: file, token });
+    return this.#json("POST", `${this.sessionPath(id, "stances")}?${query}`, { ...sending, body: file, token });
   }
 
   /** What a show chooses throughout by a parameter: its one keyframe; undefined without a track, null if it changes. */
@@ -156,7 +217,7 @@ export class ReinaApi {
   /** Let a show choose the same by a parameter throughout; one step that can be undone. */
   async choose(id: string, path: string, value: unknown, token: string): Promise<void> {
     const json = { parameter: path, keyframes: [{ time: 0, value }] };
-    await this.request("PUT", this.sessionPath(id, `show/tracks/${path}`), { json, token });
+    await this.request("PUT", this.sessionPath(id, `show/tracks/${path}`), { json, token, again: true });
   }
 
   /** What a cast can be made of. */
@@ -167,7 +228,8 @@ export class ReinaApi {
   /** What a file is, by its content. */
   fileRole(file: File): Promise<FileRole> {
     const path = `${this.#base}/files/role?filename=${encodeURIComponent(file.name)}`;
-    return this.#json("POST", path, { body: file.slice(0, BEGINNING_BYTES, "application/octet-stream") });
+    const body = file.slice(0, BEGINNING_BYTES, "application/octet-stream");
+    return this.#json("POST", path, { body, again: true });
   }
 
   transport(id: string): Promise<TransportState> {
@@ -203,21 +265,23 @@ export class ReinaApi {
   }
 
   /** Make a request; a response that is not 2xx is thrown as ProblemError. */
-  async request(
-    method: string,
-    path: string,
-    options: {
-      json?: unknown;
-      body?: BodyInit;
-      token?: string;
-      ifMatch?: string;
-      signal?: AbortSignal;
-      keepalive?: boolean;
-      cache?: RequestCache;
-    } = {},
-  ): Promise<Response> {
+  async request(method: string, path: string, options: RequestOptions = {}): Promise<Response> {
+    for (;;) {
+      try {
+        return await this.#requestOnce(method, path, options);
+      } catch (error) {
+        const again = (options.again ?? method === "GET") && error instanceof ProblemError && error.isBusy;
+        if (!again || this.whenBusy === null) throw error;
+        await this.whenBusy(error, options.signal);
+      }
+    }
+  }
+
+  async #requestOnce(method: string, path: string, options: RequestOptions): Promise<Response> {
+    const { sent, signal } = options;
     const headers: Record<string, string> = { Accept: "application/json, */*" };
-    if (options.token !== undefined) headers["Authorization"] = `Bearer ${options.token}`;
+    // Who is signed in as a session's owner needs no token: theirs is empty.
+    if (options.token !== undefined && options.token !== "") headers["Authorization"] = `Bearer ${options.token}`;
     if (options.ifMatch !== undefined) headers["If-Match"] = options.ifMatch;
     if (options.json !== undefined) headers["Content-Type"] = "application/json";
     const body = options.json === undefined ? options.body : JSON.stringify(options.json);
@@ -225,16 +289,29 @@ export class ReinaApi {
     if (body !== undefined) init.body = body;
     if (options.keepalive !== undefined) init.keepalive = options.keepalive;
     if (options.cache !== undefined) init.cache = options.cache;
-    if (options.signal !== undefined) init.signal = options.signal;
+    if (signal !== undefined) init.signal = signal;
     let response: Response;
     try {
-      response = await this.#fetch(path, init);
+      response = await (sent === undefined || body === undefined
+        ? this.#fetch(path, init)
+        : this.#send(method, path, { headers, body, sent, ...(signal === undefined ? {} : { signal }) }));
     } catch (error) {
-      if (options.signal?.aborted === true) throw error;
+      if (signal?.aborted === true) throw error;
       throw unreachable();
     }
     if (!response.ok) throw await problemOf(response);
     return response;
+  }
+
+  /** Upload something, once the person has signed in where that is needed. */
+  async #upload<T>(send: () => Promise<T>): Promise<T> {
+    try {
+      return await send();
+    } catch (error) {
+      const isAsked = error instanceof ProblemError && error.needsSignIn;
+      if (!isAsked || !(await this.askSignIn())) throw error;
+      return await send();
+    }
   }
 
   #transcriptionPath(id: string): string {
@@ -245,7 +322,7 @@ export class ReinaApi {
     return `${this.#base}/sessions/${encodeURIComponent(id)}`;
   }
 
-  async #json<T>(method: string, path: string, options?: Parameters<ReinaApi["request"]>[2]): Promise<T> {
+  async #json<T>(method: string, path: string, options?: RequestOptions): Promise<T> {
     return (await (await this.request(method, path, options)).json()) as T;
   }
 }

@@ -120,6 +120,21 @@ describe("Stream", () => {
     expect(socket.sent).toHaveLength(3);
   });
 
+  it("does not go by the clock before on another connection, until a pong says whether it is the same", () => {
+    const stream = open();
+    socketAt(0).open();
+    answerPing(socketAt(0), 0, 0.002, 1000);
+    socketAt(0).lose();
+    expect(stream.clock.ready).toBe(true);
+    vi.advanceTimersByTime(20_000);
+    socketAt(1).open();
+    expect(stream.clock.ready).toBe(false);
+    // The server was started again, and counts anew.
+    answerPing(socketAt(1), 0, 0.002, -40);
+    expect(stream.clock.ready).toBe(true);
+    expect(stream.serverNow()).toBeCloseTo(now - 40, 6);
+  });
+
   it("comes back after a loss, waiting longer each time, and starts afresh after a hello", () => {
     const waits: (number | null)[] = [];
     open({ connection: (state, retryIn) => (state === "lost" ? waits.push(retryIn) : undefined) });

@@ -163,6 +163,7 @@ export class Stream {
       this.#pings.clear();
       this.#wakingPing = null;
       this.#pairs = 0;
+      this.clock.doubt();
       this.#listener.connection("open", null);
       this.#probe();
     };

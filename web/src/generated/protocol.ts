@@ -272,7 +272,11 @@ export interface Session {
   alignment: AlignmentState
   /** Its own, in the order of the choices of player/stance. */
   stances: Stance[]
+  /** When it will be ended unless somebody sees it before, ISO 8601, UTC; null unless that is near. */
+  ends_at: string | null
   links: SessionLinks
+  /** Whether who asks is signed in as the person who made it, and controls it without its token. */
+  mine: boolean
 }
 
 /** First on every stream: whoever joins late or again needs nothing else. */
@@ -378,6 +382,23 @@ export interface SessionList {
   sessions: SessionSummary[]
   /** What the next page is asked for with, as after; null when there are no more. */
   next: string | null
+}
+
+/** A session's control token, as it is told once. */
+export interface ControlToken {
+  control_token: string
+}
+
+/** Who asks, and whether the server wants to know. */
+export interface SignIn {
+  /** Whether only who is signed in may upload. */
+  needed: boolean
+  /** By what one signs in; null where nobody does. proxy: at the proxy before the server, not here. */
+  asks: "password" | "name-and-password" | "proxy" | null
+  signed_in: boolean
+  /** Who it is; null where that is not known, as where all have one password. */
+  name: string | null
+  by: "password" | "proxy" | null
 }
 
 /** The score, as far as it is drawn and played. */
@@ -571,9 +592,11 @@ export interface LightMoodList {
 
 /** Liveness and readiness. */
 export interface Health {
-  /** ok once it can play. */
+  /** ok while it can play, else not-ready. */
   status: string
   ready: boolean
+  /** What keeps it from being ready. */
+  not_ready: Unready[]
   version: string
   /** The subprotocols that it speaks. */
   streams: string[]
@@ -588,6 +611,8 @@ export interface Problem {
   detail: string
   /** Each fault, where there are several; else empty. */
   errors: Fault[]
+  /** urn:reina:request: and the id of the request, which the server's log has too. */
+  instance: string | null
 }
 
 /** A viewer measures the offset between its clock and the server's. */
@@ -660,6 +685,13 @@ export interface SessionChange {
   handedness?: "left" | "right" | null
   /** auto: the score itself says who plays it; the fields for one player are then left out. */
   cast?: "auto" | null
+}
+
+/** What somebody signs in by. */
+export interface Password {
+  /** Whose password it is; where all have one it is left out. */
+  name?: string | null
+  password: string
 }
 
 /** Who is to play what, the first player first. */
@@ -1325,6 +1357,12 @@ export interface UnplayedPart {
   part: number
   part_name: string
   reason: string
+}
+
+/** One thing without which the server is not ready. */
+export interface Unready {
+  reason: "starting" | "data-directory" | "data-full" | "database" | "workers" | "soundfont" | "page" | "event-loop" | "ending"
+  detail: string
 }
 
 /** How valved brass plays a note. */

@@ -65,7 +65,7 @@ export class LabApi {
     return (await this.#api.request("GET", href)).blob();
   }
 
-  async #json<T>(path: string, sent?: { json?: unknown; body?: BodyInit }): Promise<T> {
+  async #json<T>(path: string, sent?: { json?: unknown; body?: XMLHttpRequestBodyInit }): Promise<T> {
     const method = sent === undefined ? "GET" : "POST";
     return (await (await this.#api.request(method, `${LAB}/${path}`, sent)).json()) as T;
   }

@@ -1,4 +1,5 @@
 import { ProblemError, type ReinaApi } from "../connection";
+import type { SignIn } from "../generated/protocol";
 import { remember, remembered, type KeptPiece } from "../state/storage";
 import { forgetPicture, pictureOf } from "../state/pictures";
 
@@ -12,14 +13,22 @@ export interface Piece extends KeptPiece {
   readonly id: string;
   /** A small picture as a data URL; null where none was taken yet. */
   readonly picture: string | null;
+  /** When the server removes it unless somebody opens it before, ISO 8601; null unless that is near. */
+  readonly ends: string | null;
 }
 
-/** The sessions that this browser made and the server still has, the one opened last first. */
+/** The sessions that this browser made, or who is signed in, and the server still has; the one opened last first. */
 export class KeptPieces {
   all = $state.raw<readonly Piece[]>([]);
   /** What was deleted and can still be brought back. */
   deleted = $state.raw<Piece | null>(null);
 
+  /** Who is signed in; null where nobody is. */
+  who = $state.raw<SignIn | null>(null);
+
+  /** The pieces of who is signed in, by id; these need no token. */
+  #mine: Readonly<Record<string, KeptPiece>> = {};
+  readonly #ends = new Map<string, string | null>();
   readonly #api: ReinaApi;
   readonly #tell: (error: unknown) => void;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -31,11 +40,39 @@ export class KeptPieces {
   constructor(api: ReinaApi, tell: (error: unknown) => void) {
     this.#api = api;
     this.#tell = tell;
-    this.all = listed();
+    this.all = this.#shown();
   }
 
   /** Ask the server which pieces there still are, and what they are called now. */
   async refresh(): Promise<void> {
+    await Promise.all([this.#refreshKept(), this.#refreshMine()]);
+    this.all = this.#shown();
+  }
+
+  /** Sign out; what was made by who was signed in is not listed any more. */
+  async signOut(): Promise<void> {
+    await this.#api.signOut();
+    this.who = null;
+    this.#mine = {};
+    this.all = this.#shown();
+  }
+
+  async #refreshMine(): Promise<void> {
+    try {
+      const who = await this.#api.signInState();
+      this.who = who.signed_in ? who : null;
+      if (who.name === null) return;
+      const { sessions } = await this.#api.mySessions();
+      this.#mine = Object.fromEntries(
+        sessions.map(({ id, title, created_at }) => [id, { title, opened: Date.parse(created_at) }]),
+      );
+    } catch (error) {
+      if (!(error instanceof ProblemError)) throw error;
+      this.#tell(error);
+    }
+  }
+
+  async #refreshKept(): Promise<void> {
     const ids = Object.keys(remembered().tokens).reverse();
     let known: Readonly<Record<string, KeptPiece>> = remembered().pieces;
     for (let begin = 0; begin < ids.length; begin += AT_ONCE) {
@@ -44,6 +81,7 @@ export class KeptPieces {
       answers.forEach((answer, index) => {
         const id = some[index] ?? "";
         if (answer.status === "fulfilled") {
+          this.#ends.set(id, answer.value.ends_at ?? null);
           known = { ...known, [id]: { title: answer.value.title, opened: known[id]?.opened ?? 0 } };
         } else if (answer.reason instanceof ProblemError && answer.reason.isUnknown) {
           known = without(known, id);
@@ -52,7 +90,6 @@ export class KeptPieces {
       });
     }
     remember({ pieces: known });
-    this.all = this.#shown();
   }
 
   /** Take a piece out of the list; the server ends it when the time for Undo is over, or the page is left. */
@@ -76,7 +113,8 @@ export class KeptPieces {
     if (piece === null) return;
     clearTimeout(this.#timer);
     this.deleted = null;
-    const token = remembered().tokens[piece.id];
+    const token = remembered().tokens[piece.id] ?? (piece.id in this.#mine ? "" : undefined);
+    this.#mine = without(this.#mine, piece.id);
     forget(piece.id);
     if (token === undefined) return;
     // It has to arrive even where the page is being left.
@@ -86,14 +124,16 @@ export class KeptPieces {
   }
 
   #shown(): readonly Piece[] {
-    return listed().filter(({ id }) => id !== this.deleted?.id);
+    return listed(this.#mine)
+      .filter(({ id }) => id !== this.deleted?.id)
+      .map((piece) => ({ ...piece, ends: this.#ends.get(piece.id) ?? null }));
   }
 }
 
-function listed(): readonly Piece[] {
+function listed(mine: Readonly<Record<string, KeptPiece>> = {}): readonly Omit<Piece, "ends">[] {
   const { tokens, pieces } = remembered();
-  return Object.entries(pieces)
-    .filter(([id]) => tokens[id] !== undefined)
+  const kept = Object.entries(pieces).filter(([id]) => tokens[id] !== undefined || id in mine);
+  return Object.entries({ ...mine, ...Object.fromEntries(kept) })
     .map(([id, piece]) => ({ ...piece, id, picture: pictureOf(id) }))
     .sort((a, b) => b.opened - a.opened);
 }

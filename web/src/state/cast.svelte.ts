@@ -30,13 +30,17 @@ export class CastState {
   /** Place in the cast of the player whom the strips follow. */
   readonly followed = $derived.by(() => Math.max(0, Math.min(this.#followed, this.castings.length - 1)));
   readonly #put: (fields: CastFields) => Promise<Cast>;
-  readonly #tell: (error: unknown) => void;
+  readonly #tell: (error: unknown, again: () => unknown) => void;
 
   /**
    * @param put asks the server for another cast.
-   * @param tell shows what went wrong where no place of the cast is to blame.
+   * @param tell shows what went wrong where no place of the cast is to blame, and may ask for it again.
    */
-  constructor(cast: Cast, put: (fields: CastFields) => Promise<Cast>, tell: (error: unknown) => void) {
+  constructor(
+    cast: Cast,
+    put: (fields: CastFields) => Promise<Cast>,
+    tell: (error: unknown, again: () => unknown) => void,
+  ) {
     this.take(cast);
     this.#put = put;
     this.#tell = tell;
@@ -95,21 +99,24 @@ export class CastState {
   #ask(wanted: (castings: readonly Casting[]) => CastingFields[], asked: Omit<Refusal, "words">): Promise<boolean> {
     this.busy = true;
     this.#waiting += 1;
-    const answered = this.#asking.then(() => this.#askNow(wanted(this.castings), asked));
+    const answered = this.#asking.then(() => this.#askNow(wanted, asked));
     this.#asking = answered;
     return answered;
   }
 
-  async #askNow(castings: CastingFields[], asked: Omit<Refusal, "words">): Promise<boolean> {
+  async #askNow(
+    wanted: (castings: readonly Casting[]) => CastingFields[],
+    asked: Omit<Refusal, "words">,
+  ): Promise<boolean> {
     this.refusal = null;
     try {
-      const cast = await this.#put({ castings });
+      const cast = await this.#put({ castings: wanted(this.castings) });
       this.answers += 1;
       this.take(cast);
       return true;
     } catch (error) {
       if (error instanceof ProblemError && error.status === 422) this.refusal = { ...asked, words: wordsOf(error) };
-      else this.#tell(error);
+      else this.#tell(error, () => this.#ask(wanted, asked));
       return false;
     } finally {
       this.#waiting -= 1;

@@ -307,7 +307,7 @@ export class Deck {
 
   #escape(): boolean {
     if (this.helpOpen) this.helpOpen = false;
-    else return this.panels.closeLast() || this.#endLoop();
+    else return this.panels.closeLast() || this.reina.uploads.cancelLast() || this.#endLoop();
     return true;
   }
 

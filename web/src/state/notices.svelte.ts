@@ -1,4 +1,4 @@
-import { ProblemError } from "../connection";
+import { GivenUpError, ProblemError } from "../connection";
 import { told } from "../words/told/en";
 
 /** A way on from a notice: a button beside its words. */
@@ -49,6 +49,7 @@ export class Notices {
 
   /** Show what went wrong in the words that came with it. */
   tell(error: unknown): void {
+    if (error instanceof GivenUpError) return;
     if (error instanceof ProblemError) {
       const lines = error.errors.map(({ location, detail }) => (location === null ? detail : `${location}: ${detail}`));
       this.say("problem", error.title, error.detail, { lines });

@@ -1,21 +1,29 @@
-import { ProblemError, ReinaApi, type SessionFiles } from "../connection";
-import type { Example, InstrumentList, ShowParameter } from "../generated/protocol";
+import { GivenUpError, ProblemError, ReinaApi, type SessionFiles } from "../connection";
+import type { CreatedSession, Example, InstrumentList, ShowParameter } from "../generated/protocol";
 import { controlToken } from "../pieces/links";
 import { audioLength } from "../sound";
 import { namesOf, sortFiles } from "./dropped-files";
 import { arrivalOf } from "./findings";
 import { Notices, type NoticeOptions } from "./notices.svelte";
+import { Patience } from "./patience.svelte";
 import { PracticeChoices } from "./practice-choices.svelte";
 import { removePoster } from "./pictures";
 import { clockTime } from "./readout";
+import { isFramed } from "./framed";
 import { SessionView } from "./session-view.svelte";
+import { SignInDesk } from "../signin/sign-in.svelte";
 import { OutputLatency } from "../latency/output-latency.svelte";
 import { remember, remembered, rememberToken } from "./storage";
 import { transcribed } from "./transcribing";
+import { UnsentChanges } from "./unsent-changes";
+import { Uploads } from "./uploads.svelte";
 import { told } from "../words/told/en";
 import { transcribing } from "../words/transcribe/en";
 
-export type Phase = "opening" | "open" | "unknown" | "failed";
+/** `ended` was open here, `busy` is a server that could not be waited for, and `failed` anything else. */
+export type Phase = "opening" | "open" | Absence;
+/** Why there is no session. */
+export type Absence = "unknown" | "ended" | "busy" | "failed";
 
 /** A recording is of a piece that is longer or shorter by this share at most, or by a lead-in and an end's. */
 const ALIKE_SHARE = 0.15;
@@ -32,6 +40,10 @@ export class Reina {
   /** What the page is busy with, in a few words; null when with nothing. */
   busy = $state<string | null>(null);
   readonly notices = new Notices();
+  readonly uploads = new Uploads();
+  /** What waits for a busy server. */
+  readonly patience = new Patience();
+  readonly signIn: SignInDesk;
   readonly practice = new PracticeChoices();
   /** Called with the session of a score that was just uploaded. */
   arrived: ((view: SessionView) => void) | null = null;
@@ -59,15 +71,24 @@ export class Reina {
   /** What goes on, the latest last. */
   #doing: readonly { readonly what: string }[] = [];
   #making = 0;
+  /** What went wrong last. */
+  #failure: unknown = null;
+  /** Gives up the upload of what is made, when something else is made in its place. */
+  #made = new AbortController();
+  readonly #unsent = new UnsentChanges(this.notices);
 
   constructor(api = new ReinaApi()) {
     this.api = api;
+    api.whenBusy = (problem, signal) => this.patience.wait(problem, signal);
+    this.signIn = new SignInDesk(api);
+    api.askSignIn = () => this.signIn.ask();
   }
 
   /** Open what the address says; `/` opens this browser's own session of the bundled piece. */
   async start(): Promise<void> {
     void this.#readLists();
     this.#takeControl();
+    addEventListener("storage", () => this.#followToken());
     await this.openAddress(location.pathname);
   }
 
@@ -94,13 +115,16 @@ export class Reina {
     const opening = ++this.#opening;
     this.phase = "opening";
     try {
-      const token = remembered().tokens[id] ?? null;
+      // Whoever frames the page could lead a click to any of its buttons.
+      const token = isFramed() ? null : (remembered().tokens[id] ?? null);
       const view = await SessionView.open(id, token, {
         api: this.api,
         practice: this.practice,
         tell: (error) => this.tell(error),
+        unsent: (error, again) => this.unsent(error, again),
+        uploads: this.uploads,
         answered: () => this.notices.answered(),
-        gone: () => this.#lose("unknown"),
+        gone: () => this.#lose("ended"),
       });
       if (opening !== this.#opening) {
         void view.close();
@@ -111,7 +135,7 @@ export class Reina {
     } catch (error) {
       if (opening !== this.#opening) return false;
       const unknown = error instanceof ProblemError && error.isUnknown;
-      this.#lose(unknown ? "unknown" : "failed");
+      this.#lose(unknown ? "unknown" : absenceOf(error));
       if (!unknown) this.tell(error);
       return false;
     }
@@ -154,11 +178,12 @@ export class Reina {
     aside: readonly File[] = [],
   ): Promise<void> {
     this.#kept = null;
-    const made = await this.#make(told.reading({ name: score.name }), () => ({
+    const files = {
       score,
       ...(song === undefined ? {} : { song }),
       ...(show === undefined ? {} : { show }),
-    }));
+    };
+    const made = await this.#make(told.reading({ name: score.name }), () => files, namesOf(Object.values(files)));
     const { view } = this;
     if (!made || view === null) return;
     if (aside.length === 0) {
@@ -215,10 +240,11 @@ export class Reina {
 
   /** A new session of a recording of one line and of the notes that are heard in it. */
   async findNotes(song: File): Promise<void> {
-    const found = await transcribed(this.api, this.notices, song);
+    const found = await transcribed(this.api, this.notices, this.uploads, song);
     if (found === null) return;
     const { score, notes, hasBeat } = found;
-    if (!(await this.#make(told.reading({ name: score.name }), () => ({ score, song, inTime: true })))) return;
+    const files = { score, song, inTime: true };
+    if (!(await this.#make(told.reading({ name: score.name }), () => files, song.name))) return;
     const means = hasBeat ? transcribing.correct : `${transcribing.noBeat} ${transcribing.correct}`;
     this.word(transcribing.found({ count: notes, name: song.name }), means);
   }
@@ -227,7 +253,7 @@ export class Reina {
   async addSong(song: File): Promise<void> {
     const { view } = this;
     if (view === null) return;
-    await this.#make(told.adding({ name: song.name }), async () => {
+    const files = async (): Promise<SessionFiles> => {
       const [score, cast, document] = await Promise.all([
         this.api.scoreFile(view.id),
         this.api.cast(view.id),
@@ -235,7 +261,8 @@ export class Reina {
       ]);
       const show = new File([JSON.stringify(document)], "show.json");
       return { score, song, show, cast, title: view.session.title };
-    });
+    };
+    await this.#make(told.adding({ name: song.name }), files, song.name);
   }
 
   /** Replace the open session's show. */
@@ -247,7 +274,8 @@ export class Reina {
     }
     await this.attempt(told.reading({ name: file.name }), async () => {
       const json: unknown = JSON.parse(await file.text());
-      await this.api.request("PUT", this.api.sessionPath(id, "show"), { json, token });
+      const path = this.api.sessionPath(id, "show");
+      await this.uploads.run(file.name, (sending) => this.api.request("PUT", path, { ...sending, json, token }));
       this.word(told.showIsOn({ name: file.name }));
     });
   }
@@ -277,6 +305,7 @@ export class Reina {
       await action();
       return true;
     } catch (error) {
+      this.#failure = error;
       this.tell(error);
       return false;
     } finally {
@@ -287,6 +316,12 @@ export class Reina {
   #goOn(doing: readonly { readonly what: string }[]): void {
     this.#doing = doing;
     this.busy = doing.at(-1)?.what ?? null;
+  }
+
+  /** Show that a change of the open session did not get to the server; `again` makes it once more. */
+  unsent(error: unknown, again: () => unknown): void {
+    const { view } = this;
+    this.#unsent.tell(error, again, () => this.view !== view);
   }
 
   /** Show what went wrong in the words that came with it. */
@@ -326,7 +361,7 @@ export class Reina {
     try {
       first = (await this.api.examples())[0];
     } catch (error) {
-      this.#lose("failed");
+      this.#lose(absenceOf(error));
       this.tell(error);
       return;
     }
@@ -337,16 +372,27 @@ export class Reina {
     }
   }
 
-  /** Make a session and open it; returns whether that went well, and nothing else was asked for meanwhile. */
-  async #make(busy: string, files: () => SessionFiles | Promise<SessionFiles>): Promise<boolean> {
+  /**
+   * Make a session and open it; returns whether that went well, and nothing else was asked for meanwhile.
+   *
+   * @param own the names of one's own files, whose upload is shown
+   */
+  async #make(busy: string, files: () => SessionFiles | Promise<SessionFiles>, own?: string): Promise<boolean> {
+    this.#made.abort();
+    this.#made = new AbortController();
+    const { signal } = this.#made;
     const wasHome = SESSION_PATH.exec(location.pathname) === null;
     const making = ++this.#making;
+    const takeBack = ({ id, control_token }: CreatedSession): Promise<void> =>
+      this.api.deleteSession(id, control_token).catch(() => undefined);
     const made = await this.attempt(busy, async () => {
       const given = await files();
-      const made = await this.api.createSession(given);
+      const made = await (own === undefined
+        ? this.api.createSession(given, { again: true })
+        : this.uploads.run(own, (sending) => this.api.createSession(given, sending), { takeBack, signal }));
       // What was dropped since takes the place of what is not open yet.
       if (making !== this.#making) {
-        await this.api.deleteSession(made.id, made.control_token).catch(() => undefined);
+        await takeBack(made);
         return;
       }
       rememberToken(made.id, made.control_token);
@@ -359,12 +405,31 @@ export class Reina {
       }
     });
     if (making !== this.#making) return false;
-    if (this.view === null && this.phase === "opening") this.phase = "failed";
+    if (this.view === null && this.phase === "opening") {
+      // Given up before there was a first piece.
+      if (own !== undefined && this.#failure instanceof GivenUpError) await this.#openHome();
+      else this.phase = absenceOf(this.#failure);
+    }
     return made;
   }
 
   async #showDocument(id: string): Promise<unknown> {
     return (await this.api.request("GET", this.api.sessionPath(id, "show"))).json();
+  }
+
+  /** Make the open session's control link anew: those that were given away control nothing any more. */
+  async renewControl(view: SessionView): Promise<void> {
+    if (view.token === null) return;
+    rememberToken(view.id, await this.api.renewToken(view.id, view.token));
+    if (this.view === view) await this.open(view.id);
+  }
+
+  /** Go on with the token that another tab of this browser has made anew. */
+  #followToken(): void {
+    const { view } = this;
+    if (view === null || view.token === null) return;
+    const kept = remembered().tokens[view.id];
+    if (kept !== undefined && kept !== view.token) void this.open(view.id);
   }
 
   /** Keep the token of a link that gives control, and take it out of sight. */
@@ -390,13 +455,18 @@ export class Reina {
     }
   }
 
-  #lose(phase: "unknown" | "failed"): void {
+  #lose(phase: Absence): void {
     removePoster();
     void this.view?.close();
     this.view = null;
     this.phase = phase;
     document.title = "Reina";
   }
+}
+
+/** Why there is no session where an error kept it from being opened. */
+function absenceOf(error: unknown): Absence {
+  return error instanceof ProblemError && (error.isBusy || error instanceof GivenUpError) ? "busy" : "failed";
 }
 
 /** A session's address in the browser; what the address asks for beside it (`?tier=`) stays. */

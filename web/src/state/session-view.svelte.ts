@@ -28,6 +28,7 @@ import type {
 import { Metronome, monoWav, sameMotion, SongPlayer, soundTone, type SoundState } from "../sound";
 import { isListenedTo } from "./alignment-words";
 import { CastState } from "./cast.svelte";
+import { isFramed } from "./framed";
 import { lineNotes } from "./line-notes";
 import { Refresh } from "./refresh";
 import { heldAt, stepFrom } from "./note-steps";
@@ -36,6 +37,7 @@ import { PartSound } from "./part-sound.svelte";
 import { SongLoading } from "./song-loading.svelte";
 import { SyncMeasure } from "./sync-measure";
 import { TransportQueue } from "./transport-queue";
+import type { Uploads } from "./uploads.svelte";
 import { watchWakes } from "./wakes";
 import { told } from "../words/told/en";
 
@@ -52,6 +54,10 @@ export interface Surroundings {
   readonly practice: PracticeChoices;
   /** Show what went wrong. */
   tell(error: unknown): void;
+  /** Show that a change did not get to the server; `again` makes it once more. */
+  unsent(error: unknown, again: () => unknown): void;
+  /** Send something large, so that the person sees how far it is and can give it up. */
+  readonly uploads: Uploads;
   /** The server has answered. */
   answered(): void;
   /** The session is gone from the server. */
@@ -61,7 +67,7 @@ export interface Surroundings {
 /** One session as this page sees it: what it is, its clock, its frames and its sound. */
 export class SessionView {
   readonly id: string;
-  /** What changes the session; null where this browser did not make it and may only watch. */
+  /** What changes the session; empty where its owner is signed in, null where this page may only watch. */
   readonly token: string | null;
   readonly sync = new SyncMeasure();
   /** Who plays what, and whom the strips follow here. */
@@ -141,7 +147,8 @@ export class SessionView {
       api.score(id),
       api.cast(id),
     ]);
-    return new SessionView(session, score, cast, transport, token, surroundings);
+    const control = token ?? (session.mine && !isFramed() ? "" : null);
+    return new SessionView(session, score, cast, transport, control, surroundings);
   }
 
   private constructor(
@@ -159,7 +166,7 @@ export class SessionView {
     this.cast = new CastState(
       cast,
       (fields) => surroundings.api.changeCast(session.id, fields, token ?? ""),
-      (error) => this.#fail(error),
+      (error, again) => this.#failToChange(error, again),
     );
     this.partSound = new PartSound(session.id);
     this.transport = $state.raw(transport);
@@ -228,6 +235,8 @@ export class SessionView {
   frameAt(turn: number): QueuedFrame | null {
     this.#measureSync(turn);
     const seenAt = this.#refresh.seenAt(turn, performance.now() / 1000);
+    // What another clock's frames are due at says nothing on the one before; the picture stands until it is known.
+    if (!this.#stream.clock.ready) return null;
     const frame = this.#queue?.frameAt(this.#stream.clock.serverTime(seenAt)) ?? null;
     if (frame === null) return null;
     if (frame.songTime !== this.songTime) this.songTime = frame.songTime;
@@ -378,11 +387,14 @@ export class SessionView {
   change(change: SessionChange): Promise<void> {
     const { token } = this;
     if (token === null) return Promise.resolve();
-    this.#changes = this.#changes.then(() =>
-      this.#attempt(async () => {
+    this.#changes = this.#changes.then(async () => {
+      try {
         this.session = await this.#surroundings.api.changeSession(this.id, change, token);
-      }),
-    );
+        this.#surroundings.answered();
+      } catch (error) {
+        this.#failToChange(error, () => this.change(change));
+      }
+    });
     return this.#changes;
   }
 
@@ -479,6 +491,10 @@ export class SessionView {
 
   #fail(error: unknown): void {
     if (!this.#ended.signal.aborted) this.#surroundings.tell(error);
+  }
+
+  #failToChange(error: unknown, again: () => unknown): void {
+    if (!this.#ended.signal.aborted) this.#surroundings.unsent(error, again);
   }
 
   #receive(message: ServerMessage): void {
@@ -586,7 +602,7 @@ export class SessionView {
 
   async #lookWhetherGone(): Promise<void> {
     try {
-      this.session = await this.#surroundings.api.session(this.id);
+      this.session = await this.#surroundings.api.session(this.id, { again: false });
     } catch (error) {
       if (error instanceof ProblemError && error.isUnknown && !this.#ended.signal.aborted) this.#surroundings.gone();
     }
@@ -655,8 +671,13 @@ export class SessionView {
     if (token === null || !this.isRecording || isListenedTo(this)) return;
     this.sending = true;
     await this.#attempt(async () => {
+      const body = await monoWav(whole);
+      const { title } = this.session;
+      const path = api.sessionPath(id, "song/analysis");
       // How the search goes, the stream tells.
-      await api.request("PUT", api.sessionPath(id, "song/analysis"), { body: await monoWav(whole), token });
+      await this.#surroundings.uploads.run(title, (sending) => api.request("PUT", path, { ...sending, body, token }), {
+        signal: this.#ended.signal,
+      });
     });
     this.sending = false;
   }

@@ -1,8 +1,9 @@
-import { ProblemError, type ReinaApi } from "../connection";
+import { GivenUpError, ProblemError, type ReinaApi } from "../connection";
 import type { Transcription } from "../generated/protocol";
 import { number } from "../words";
 import { transcribing } from "../words/transcribe/en";
 import type { Notices } from "./notices.svelte";
+import type { Uploads } from "./uploads.svelte";
 
 const POLL_MS = 400;
 /** Progress that is told is so much further than what was told before: it is read out, too. */
@@ -20,22 +21,24 @@ export interface Transcribed {
 /**
  * Have the notes of a recording found, with a notice that says how far it is and can end it.
  *
+ * @param uploads sends it
  * @param wait between two looks, for tests
  * @returns null where there are none, of which the person is told, or where they gave it up
  */
 export async function transcribed(
   api: ReinaApi,
   notices: Notices,
+  uploads: Uploads,
   song: File,
   wait: () => Promise<void> = pause,
 ): Promise<Transcribed | null> {
   const search = new Search(api, notices, song.name);
   try {
-    return await search.follow(song, wait);
+    return await search.follow(uploads, song, wait);
   } catch (error) {
     if (error instanceof ProblemError && error.type === NOT_INSTALLED) {
       notices.say("problem", transcribing.notInstalled, transcribing.install);
-    } else if (!search.ended) notices.tell(error);
+    } else if (!search.ended && !(error instanceof GivenUpError)) notices.tell(error);
     return null;
   }
 }
@@ -56,14 +59,12 @@ class Search {
     this.#name = name;
   }
 
-  async follow(song: File, wait: () => Promise<void>): Promise<Transcribed | null> {
-    this.#tell(0);
-    let state = await this.#api.transcribe(song);
+  async follow(uploads: Uploads, song: File, wait: () => Promise<void>): Promise<Transcribed | null> {
+    let state = await uploads.run(song.name, (sending) => this.#api.transcribe(song, sending), {
+      takeBack: ({ id }) => this.#api.endTranscription(id).catch(() => undefined),
+    });
     this.#id = state.id;
-    if (this.#isOver()) {
-      this.#forget();
-      return null;
-    }
+    this.#tell(0);
     while (state.status === "searching") {
       await wait();
       if (this.#isOver()) return null;

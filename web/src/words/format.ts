@@ -5,6 +5,12 @@ export function number(value: number, options?: Intl.NumberFormatOptions): strin
   return new Intl.NumberFormat(language(), options).format(value);
 }
 
+/** A day as the language that is shown writes it: `3 May 2026`, `3. Mai 2026`, `2026年5月3日`. */
+export function day(time: string): string {
+  const shown = language() === "en" ? "en-GB" : language();
+  return new Intl.DateTimeFormat(shown, { dateStyle: "long" }).format(new Date(time));
+}
+
 /** What stands before tenths: a point or a comma. */
 export function decimalSign(): string {
   const parts = new Intl.NumberFormat(language()).formatToParts(1.5);
@@ -29,4 +35,11 @@ export function milliseconds(value: number): string {
     unit: "millisecond",
     signDisplay: "exceptZero",
   }).format(value);
+}
+
+/** How large something is, as megabytes: `0.4 MB`, `31 MB`. */
+export function megabytes(bytes: number): string {
+  const megabytes = bytes / 1e6;
+  const digits = megabytes < 9.95 ? 1 : 0;
+  return number(megabytes, { style: "unit", unit: "megabyte", maximumFractionDigits: digits });
 }

@@ -1,6 +1,6 @@
 export { beginLanguage, beginMessages, chooseLanguage } from "./choose-language";
-export { decimalSign, list, number, row } from "./format";
+export { decimalSign, list, megabytes, number, row } from "./format";
 export { isLanguage, language, LANGUAGES, type Language } from "./language";
 export { keyName, noteName } from "./note-names";
 export { serverMessage } from "./server-message";
-export { limbName, pieceName, serverWords } from "./server-words";
+export { isNamed, limbName, pieceName, serverWords } from "./server-words";

@@ -4,6 +4,16 @@ import { named } from "./server/en";
 /** What the server names, told apart by what it is. */
 export type Kind = "instrument" | "player" | "seat" | "mood" | "problem" | "piece" | "limb";
 
+/** The message's name of something of the server's. */
+function keyOf(kind: Kind, name: string): string {
+  return `${kind}_${name.replace(/^urn:reina:problem:/, "").replaceAll(/[ -]/g, "_")}`;
+}
+
+/** Whether the page has words of its own for something of the server's. */
+export function isNamed(kind: Kind, name: string): boolean {
+  return keyOf(kind, name) in named;
+}
+
 /** A piece of a drum kit. */
 export function pieceName(piece: string): string {
   return (named as Readonly<Record<string, string>>)[`piece_${piece}`] ?? piece;
@@ -24,6 +34,5 @@ export function limbName(side: "left" | "right", isHand: boolean): string {
 export function serverWords(kind: Kind, name: string, english: string): string {
   // A figure has no title of its own: the server has only the name of its rig.
   if (language() === "en" && kind !== "player") return english;
-  const key = `${kind}_${name.replace(/^urn:reina:problem:/, "").replaceAll(/[ -]/g, "_")}`;
-  return (named as Readonly<Record<string, string>>)[key] ?? english;
+  return (named as Readonly<Record<string, string>>)[keyOf(kind, name)] ?? english;
 }

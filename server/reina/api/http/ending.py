@@ -33,12 +33,15 @@ class Ending:
     """Whether the server ends, for those who would go on otherwise."""
 
     def __init__(self) -> None:
+        self.announced = False
+        """Whether it will end: it is not ready any more, and still answers."""
         self.begun = asyncio.Event()
         self.working: set[anyio.CancelScope] = set()
         """What is under way."""
 
     def begin(self) -> None:
         """Say so: uploads end at once, what is worked at soon."""
+        self.announced = True
         self.begun.set()
         asyncio.get_running_loop().call_later(WORKING_S, self._stop)
 

@@ -11,14 +11,26 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.routing import Match
 
+from reina.api.http.request_id import instance
 from reina.errors import InputError
 from reina.instruments import CastError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
+from reina.sessions.limit_errors import (
+    LimitError,
+    NoRoomError,
+    PieceTooLargeError,
+    SenderLimitError,
+    ServerBusyError,
+)
+from reina.sessions.storage.errors import DatabaseError, SessionDamagedError
+from reina.sessions.storage.file_store import StoreAwayError, StoredFileLostError, StoreFullError
 from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.sound.transcription.posteriors import NoRuntimeError
+from reina.system.disk_room import NO_ROOM, is_disk_full
+from reina.system.metrics import limit_hit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -27,6 +39,10 @@ if TYPE_CHECKING:
     from pydantic import ValidationError
     from starlette.routing import BaseRoute
 
+KINDS = "urn:reina:problem:"
+"""What the types of all problems begin with."""
+LIMITS = frozenset({408, 413, 429, 431, 503, 507})
+"""The statuses of who is refused because there is, or would be, too much of something."""
 MEDIA_TYPE = "application/problem+json"
 MAX_FAULTS = 20
 """So many are told of one request, and how many more there are."""
@@ -34,8 +50,12 @@ LONGEST_DETAIL = 2000
 """Characters of what was wrong; what was sent is repeated in part at most."""
 LONGEST_LOCATION = 100
 LONGEST_FAULT = 300
+RETRY_AFTER_S = "5"
+"""When what is away for the moment may be asked again, seconds."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 """What an address may answer to of itself."""
+READING = ("HEAD", "OPTIONS")
+"""What it answers to besides."""
 
 
 RESPONSES: dict[int | str, dict[str, Any]] = {
@@ -69,7 +89,7 @@ class ProblemError(Exception):
         super().__init__(detail)
         self.status = status
         self.problem = Problem(
-            type=f"urn:reina:problem:{kind}",
+            type=f"{KINDS}{kind}",
             title=title,
             status=status,
             detail=_sendable(detail, LONGEST_DETAIL),
@@ -79,8 +99,12 @@ class ProblemError(Exception):
 
     def response(self) -> Response:
         """The problem as a response."""
+        if self.status in LIMITS:
+            limit_hit(self.problem.type.removeprefix(KINDS))
+        told = self.problem.model_copy(update={"instance": instance()})
+        left_out = {"instance"} if told.instance is None else None
         return Response(
-            self.problem.model_dump_json(), self.status, headers=self.headers, media_type=MEDIA_TYPE
+            told.model_dump_json(exclude=left_out), self.status, headers=self.headers, media_type=MEDIA_TYPE
         )
 
 
@@ -117,6 +141,10 @@ def _in_words(faults: Sequence[Fault], count: int) -> str:
 
 INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (SessionEndedError, 404, "unknown-session", "There is no such session"),
+    (ServerBusyError, 503, "busy", "The server has too much at hand"),
+    (NoRoomError, 507, "no-room", "The server has no room for it"),
+    (SenderLimitError, 429, "sender-limit", "You have as much here as one may have"),
+    (PieceTooLargeError, 413, "piece-too-large", "The piece is larger than the server can play"),
     (ScoreLimitError, 413, "score-too-large", "The score is larger than Reina reads"),
     (NotInScoreError, 422, "not-in-score", "The score does not hold that"),
     (ScoreError, 422, "score-unreadable", "The score cannot be read"),
@@ -125,9 +153,19 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (ShowError, 422, "show-unusable", "The show cannot be used"),
     (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
     (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
+    (SessionDamagedError, 409, "session-damaged", "The session cannot be read"),
+    (DatabaseError, 503, "database-away", "The sessions' database cannot be used now"),
+    (StoreFullError, 507, "storage-full", "There is no room on the server's disk"),
+    (StoreAwayError, 503, "files-away", "What keeps the large files does not answer"),
+    (StoredFileLostError, 409, "file-lost", "A file of the session is lost"),
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )
 """What an input error is told as: the first row that fits."""
+
+
+def storage_full(detail: str = NO_ROOM) -> ProblemError:
+    """The problem of what needs room where there is none."""
+    return problem_of_input(StoreFullError(detail))
 
 
 def problem_of_input(error: InputError) -> ProblemError:
@@ -142,7 +180,10 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
     detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
-    return ProblemError(status, kind, title, detail, errors=faults)
+    headers = {"Retry-After": RETRY_AFTER_S} if isinstance(error, DatabaseError | StoreAwayError) else None
+    if isinstance(error, LimitError) and error.retry_after_s is not None:
+        headers = {"Retry-After": str(error.retry_after_s)}
+    return ProblemError(status, kind, title, detail, errors=faults, headers=headers)
 
 
 def _location(parts: Sequence[str | int]) -> str:
@@ -188,8 +229,13 @@ def _not_answered(request: Request) -> Response:
     return _problem_of_status(HTTPException(405, headers=allow)).response()
 
 
+def _asks_the_server(request: Request) -> bool:
+    """Whether it is the server as a whole that is asked what it answers to (RFC 9110, 9.3.7)."""
+    return request.method == "OPTIONS" and request.scope["path"] == "*"
+
+
 def install(app: FastAPI) -> None:
-    """Make the application answer every error so."""
+    """Make the application answer every error so; what nobody expected is answered by `Observed`."""
 
     async def refused(request: Request, error: Exception) -> Response:
         match error:
@@ -197,6 +243,8 @@ def install(app: FastAPI) -> None:
                 return error.response()
             case InputError():
                 return problem_of_input(error).response()
+            case OSError() if is_disk_full(error):
+                return storage_full().response()
             case RequestValidationError():
                 return problem_of_validation(error).response()
             case ClientDisconnect():
@@ -204,16 +252,12 @@ def install(app: FastAPI) -> None:
                 return ProblemError(400, "broken-off", "Bad Request", "the body breaks off").response()
             case HTTPException(status_code=405):
                 return _not_answered(request)
+            case HTTPException(status_code=404) if _asks_the_server(request):
+                return Response(status_code=204, headers={"Allow": ", ".join(sorted({*METHODS, *READING}))})
             case HTTPException():
                 return _problem_of_status(error).response()
             case _:
                 raise error
 
-    async def failed(_: Request, __: Exception) -> Response:
-        # The error itself is logged by the server, to which it is raised on.
-        detail = "the server made a mistake and has noted it; the request may be tried again"
-        return ProblemError(500, "internal", "Internal Server Error", detail).response()
-
-    for kind in (ProblemError, InputError, RequestValidationError, ClientDisconnect, HTTPException):
+    for kind in (ProblemError, InputError, OSError, RequestValidationError, ClientDisconnect, HTTPException):
         app.add_exception_handler(kind, refused)
-    app.add_exception_handler(Exception, failed)

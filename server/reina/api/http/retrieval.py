@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 READING = frozenset({"GET", "HEAD"})
 CONDITIONAL = frozenset({200, 206, NOT_MODIFIED, 416})
 """What a request would be answered with, were it not for its conditions: those come before its range."""
-SENT_UNMODIFIED = frozenset({b"cache-control", b"content-location", b"etag", b"expires", b"vary"})
-"""What stays of the headers (15.4.5)."""
+SENT_UNMODIFIED = frozenset(
+    {b"cache-control", b"content-location", b"content-security-policy", b"etag", b"expires", b"vary"}
+)
+"""What stays of the headers (15.4.5), and a page's policy: what was kept by an older server may have none."""
 AT_ONCE = 256 * 1024
 """Bytes that are hashed without a thread, within a fraction of a millisecond."""
 

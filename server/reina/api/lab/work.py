@@ -31,7 +31,7 @@ async def compute(request: Request, work: Callable[[], T]) -> T:
 
 def lab_pool() -> WorkerPool:
     """The process that reads long motion files, one after the other."""
-    return WorkerPool(most_at_once=1, timeout_s=LONGEST_S)
+    return WorkerPool(most_at_once=1, timeout_s=LONGEST_S, name="laboratory")
 
 
 async def compute_long(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import contextvars
 import logging
 import queue
 import subprocess
@@ -17,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from reina.errors import InputError
+from reina.system.metrics import in_queue
 from reina.system.parcel import receive, send
 from reina.system.turns import Turns
 
@@ -42,6 +44,7 @@ class WorkerPool:
         program: What is started.
         most_at_once: How many there are; other work waits for its turn.
         timeout_s: How long a piece of work may take before its process is stopped.
+        name: What its work is called in the metrics.
     """
 
     def __init__(
@@ -51,7 +54,9 @@ class WorkerPool:
         program: Sequence[str] = PROGRAM,
         most_at_once: int = MAX_AT_ONCE,
         timeout_s: float = TIMEOUT_S,
+        name: str = "readings",
     ) -> None:
+        self._name = name
         self._shared = tuple(shared)
         self._program = tuple(program)
         self._timeout_s = timeout_s
@@ -60,6 +65,8 @@ class WorkerPool:
         self._idle: queue.LifoQueue[_Worker] = queue.LifoQueue()
         self._alive: set[_Worker] = set()
         self._closed = threading.Event()
+        self.fails = False
+        """Whether the last process that was started could not be, or ended before it had done anything."""
 
     async def run(self, function: Callable[..., T], *arguments: object, owner: Hashable = None) -> T:
         """Do a piece of work.
@@ -73,8 +80,15 @@ class WorkerPool:
             InputError: What `function` raises, or it took too long, or its process ended.
         """
         loop = asyncio.get_running_loop()
-        async with self._turns.of(owner):
-            return cast("T", await loop.run_in_executor(self._threads, self._work, function, arguments))
+        # What is logged on the thread belongs to who asked.
+        context = contextvars.copy_context()
+
+        def work() -> object:
+            return context.run(self._work, function, arguments)
+
+        with in_queue(self._name):
+            async with self._turns.of(owner):
+                return cast("T", await loop.run_in_executor(self._threads, work))
 
     async def aclose(self) -> None:
         """Stop the processes, whatever they do."""
@@ -93,7 +107,12 @@ class WorkerPool:
         try:
             worker = self._idle.get_nowait()
         except queue.Empty:
-            worker = _Worker(self._program, self._shared)
+            try:
+                worker = _Worker(self._program, self._shared)
+            except OSError as error:
+                self.fails = True
+                log.exception("no worker can be started")
+                raise InputError("the server cannot read it at present; try again later") from error
             self._alive.add(worker)
             if self._closed.is_set():
                 worker.stop()
@@ -101,7 +120,9 @@ class WorkerPool:
             result, error = worker.ask((function, arguments), self._timeout_s)
         except InputError:
             self._alive.discard(worker)
+            self.fails = self.fails or not worker.has_worked
             raise
+        self.fails = False
         self._idle.put(worker)
         if error is not None:
             raise error
@@ -114,6 +135,8 @@ class _Worker:
     def __init__(self, program: tuple[str, ...], shared: tuple[object, ...]) -> None:
         self._shared = shared
         self._begun = False
+        self.has_worked = False
+        """Whether it has done a piece of work, or was still at its first when it was stopped."""
         self._process = subprocess.Popen(program, stdin=subprocess.PIPE, stdout=subprocess.PIPE)  # noqa: S603
 
     def ask(self, work: object, timeout_s: float) -> tuple[Any, Exception | None]:
@@ -136,16 +159,20 @@ class _Worker:
                 send(to, self._shared)
                 self._begun = True
             send(to, work, self._shared)
-            return receive(back, self._shared)
+            outcome = receive(back, self._shared)
         except (OSError, EOFError) as error:
             self.end()
             if late.is_set():
                 detail = f"reading it took over {timeout_s:g} s and was stopped; make it smaller"
+                self.has_worked = True
                 raise InputError(detail) from error
             log.warning("a worker ended with status %s", self._process.returncode)
             raise InputError(
                 "the process that read it has ended; it may be too large, or try again"
             ) from error
+        else:
+            self.has_worked = True
+            return outcome
         finally:
             timer.cancel()
 

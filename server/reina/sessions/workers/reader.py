@@ -86,7 +86,10 @@ class Reader:
         """
         size = await asyncio.to_thread(_weight, path)
         heard = alignment, stances, transposition
-        return await self._read(size, read_and_plan, self._stage, path, filename, cast, *heard, owner=owner)
+        planned = await self._read(
+            size, read_and_plan, self._stage, path, filename, cast, *heard, owner=owner
+        )
+        return await asyncio.to_thread(planned.weighed)
 
     async def show(self, data: bytes, registry: ParameterRegistry, *, owner: Hashable = None) -> Show:
         """Read a show from JSON text.
@@ -152,6 +155,11 @@ class Reader:
         score = await asyncio.to_thread(lambda: from_second_zero(score_as_played(production.score, played)))
         return await self._read(MIDI_BYTES * len(score.notes), write_midi, score, owner=owner)
 
+    @property
+    def workers(self) -> WorkerPool:
+        """The processes that read."""
+        return self._pool
+
     async def aclose(self) -> None:
         """Stop the processes."""
         await self._pool.aclose()
@@ -166,8 +174,7 @@ class Reader:
 
 def shared_of(stage: Stage) -> tuple[object, ...]:
     """What productions hold of a stage, so that none brings its own copy from the other process."""
-    parts = (*stage.rigs.values(), *stage.holds.values(), *stage.kinds.values())
-    return (stage, stage.rigs, stage.holds, stage.kinds, stage.parameters, *parts, *stage.parameters)
+    return (stage, *stage.parts)
 
 
 def _weight(path: Path) -> int:

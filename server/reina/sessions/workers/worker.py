@@ -10,10 +10,11 @@ import os
 import queue
 import sys
 import threading
-import traceback
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from reina.errors import InputError
+from reina.system.failure import ProcessFailure, failure_of
+from reina.system.logs import configure
 from reina.system.own_process import bound_memory, take_output, yield_to_server
 from reina.system.parcel import receive, send
 
@@ -27,6 +28,7 @@ MAX_MEMORY_BYTES = 4_000_000_000
 def main() -> int:
     """Work until the process is ended."""
     asked, told = sys.stdin.buffer, take_output()
+    configure()
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
     shared: tuple[object, ...] = receive(asked)
@@ -48,8 +50,8 @@ def _outcome(function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[
     except MemoryError:
         most = MAX_MEMORY_BYTES / 1e9
         return None, InputError(f"reading it takes more than {most:g} GB of memory; make it smaller")
-    except Exception:
-        return None, RuntimeError(traceback.format_exc())
+    except Exception as error:
+        return None, ProcessFailure(failure_of(error))
 
 
 def _listen(

@@ -42,7 +42,7 @@ class Aligner:
     ) -> None:
         self._program = tuple(program)
         self._timeout_s = timeout_s
-        self._processes = ToldProcesses(timeout_s=timeout_s, most_at_once=most_at_once)
+        self._processes = ToldProcesses(queue="alignments", timeout_s=timeout_s, most_at_once=most_at_once)
 
     async def align(self, song: Path, score: Score, tell: Callable[[float], None]) -> Alignment:
         """Find where a score is heard in a recording. Cancelled, it stops the process.
@@ -63,7 +63,7 @@ class Aligner:
         if isinstance(told, InputError):
             raise told
         if not isinstance(told, Alignment):
-            log.warning("the aligner of %s ended early", song.parent.name)
+            log.warning("an aligner ended early")
             raise InputError("the search for the music in the recording failed")
         return told
 

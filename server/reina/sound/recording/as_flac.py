@@ -8,6 +8,7 @@ import soundfile
 from numpy.typing import NDArray
 
 from reina.sound.recording.decode import Decoded, decode
+from reina.system.checked_file import checked_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -46,12 +47,18 @@ def write_as_flac(path: Path, streams: "Iterable[SoundStream]", decoded: Decoded
         path: Where to.
         streams: As `decode` takes them.
         decoded: What decoding them told before; FLAC can hold it.
+
+    Raises:
+        OSError: The disk does not take it.
     """
     bits = 16 if decoded.coding in SHORT_CODINGS else 24
     left = round(decoded.duration_s * decoded.sample_rate)
-    with soundfile.SoundFile(
-        path, "w", decoded.sample_rate, decoded.channels, subtype=f"PCM_{bits}", format="FLAC"
-    ) as file:
+    with (
+        checked_file(path) as written,
+        soundfile.SoundFile(
+            written, "w", decoded.sample_rate, decoded.channels, subtype=f"PCM_{bits}", format="FLAC"
+        ) as file,
+    ):
 
         def take(block: NDArray[np.float32], _: int) -> None:
             nonlocal left

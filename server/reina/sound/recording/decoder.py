@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import json
 import logging
+import os
 import sys
 from asyncio.subprocess import PIPE, Process
 from collections.abc import Sequence
@@ -14,6 +15,7 @@ from reina.errors import InputError
 from reina.music import ScoreWarning
 from reina.sound.recording.peaks import Peaks, peaks_path, read_peaks
 from reina.sound.recording.probe import AudioInfo, Conversion
+from reina.system.metrics import in_queue
 
 PROGRAM = (sys.executable, "-m", "reina.sound.recording.worker")
 TIMEOUT_S = 300.0
@@ -55,11 +57,15 @@ class SongDecoder:
 
         Raises:
             InputError: It cannot be used, takes too long to decode, or makes the decoder crash.
+            OSError: There is no room for what is written.
         """
-        async with self._turns:
-            message = await self._run(song, conversion)
+        with in_queue("recordings"):
+            async with self._turns:
+                message = await self._run(song, conversion)
         if "error" in message:
             raise InputError(message["error"])
+        if "errno" in message:
+            raise OSError(message["errno"], os.strerror(message["errno"]))
         warnings = tuple(ScoreWarning(**warning) for warning in message.pop("warnings"))
         return AudioInfo(**message, warnings=warnings)
 
@@ -69,10 +75,10 @@ class SongDecoder:
         Raises:
             InputError: As of `probe`.
         """
-        peaks = await asyncio.to_thread(read_peaks, song)
+        peaks = await asyncio.to_thread(read_peaks, peaks_path(song))
         if peaks is None:
             await self.probe(song)
-            peaks = await asyncio.to_thread(read_peaks, song)
+            peaks = await asyncio.to_thread(read_peaks, peaks_path(song))
         return peaks
 
     async def _run(self, song: Path, conversion: Conversion | None) -> dict[str, Any]:

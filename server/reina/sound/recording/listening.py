@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from reina.errors import InputError
 from reina.sound.recording.mono import read_mono
+from reina.system.logs import configure
 from reina.system.own_process import bound_memory, end_with_parent, take_output, yield_to_server
 from reina.system.parcel import receive, send
 
@@ -38,6 +39,7 @@ def listen(work: Callable[[NDArray[np.float32], int, Any, Callable[[float], None
         The exit status.
     """
     told = take_output()
+    configure()
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
     try:

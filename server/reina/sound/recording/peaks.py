@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.system.atomic_write import write_atomically
+from reina.system.durable import write_durably
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,17 +50,17 @@ def peaks_path(song: Path) -> Path:
     return song.with_suffix(".peaks")
 
 
-def read_peaks(song: Path) -> Peaks | None:
-    """A song's peaks, as they are kept beside it; None where they are not."""
+def read_peaks(path: Path) -> Peaks | None:
+    """Peaks, as `write_peaks` kept them; None where they are not."""
     try:
-        return _unpack(peaks_path(song).read_bytes())
+        return _unpack(path.read_bytes())
     except FileNotFoundError:
         return None
 
 
 def write_peaks(path: Path, peaks: Peaks) -> None:
     """Keep peaks."""
-    write_atomically(path, _pack(peaks))
+    write_durably(path, _pack(peaks))
 
 
 class PeakMeter:

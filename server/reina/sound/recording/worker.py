@@ -2,10 +2,10 @@
 
     python -m reina.sound.recording.worker SONG PEAKS [FLAC [--forced]]
 
-On standard output it tells, as one JSON object, what `probe_recording` says, or ``{"error": "..."}``; the
-peaks are written to PEAKS, and what browsers do not play, or anything where that is forced, to FLAC. Standard
-input stays open: when it is closed, the one who asked is gone, and the
-process ends.
+On standard output it tells, as one JSON object, what `probe_recording` says, or ``{"error": "..."}``, or
+``{"errno": 28}`` where there is no room for what it writes. The peaks are written to PEAKS, and what browsers
+do not play, or anything where that is forced, to FLAC. Standard input stays open: when it is closed, the one
+who asked is gone, and the process ends.
 """
 
 import json
@@ -19,7 +19,8 @@ from pathlib import Path
 from reina.errors import InputError
 from reina.sound.recording.peaks import write_peaks
 from reina.sound.recording.probe import Conversion, probe_recording
-from reina.system.own_process import bound_memory, end_with_parent, yield_to_server
+from reina.system.disk_room import is_disk_full
+from reina.system.own_process import bound_memory, complain_in_a_line, end_with_parent, yield_to_server
 
 MAX_MEMORY_BYTES = 1_500_000_000
 """Address space, most of it libraries; a decoder that wants more fails."""
@@ -29,6 +30,7 @@ def main() -> int:
     """Probe, and tell."""
     song, peaks_file = Path(sys.argv[1]), Path(sys.argv[2])
     conversion = Conversion(Path(sys.argv[3]), "--forced" in sys.argv[4:]) if len(sys.argv) > 3 else None
+    complain_in_a_line()
     yield_to_server()
     bound_memory(MAX_MEMORY_BYTES)
     threading.Thread(target=end_with_parent, daemon=True).start()
@@ -41,6 +43,11 @@ def main() -> int:
             write_peaks(peaks_file, peaks)
     except InputError as error:
         _tell({"error": str(error)})
+        return 0
+    except OSError as error:
+        if not is_disk_full(error):
+            raise
+        _tell({"errno": error.errno})
         return 0
     _tell(asdict(info))
     return 0

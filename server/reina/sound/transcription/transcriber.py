@@ -34,7 +34,7 @@ class Transcriber:
     def __init__(self, *, program: Sequence[str] = PROGRAM, timeout_s: float = TIMEOUT_S) -> None:
         self._program = tuple(program)
         self._timeout_s = timeout_s
-        self._processes = ToldProcesses(timeout_s=timeout_s)
+        self._processes = ToldProcesses(queue="transcriptions", timeout_s=timeout_s)
 
     async def transcribe(self, song: Path, line: Line, title: str, tell: Callable[[float], None]) -> Score:
         """Find the notes of a recording. Cancelled, it stops the process.
@@ -56,7 +56,7 @@ class Transcriber:
         if isinstance(told, InputError):
             raise told
         if not isinstance(told, Score):
-            log.warning("the search for notes in %s ended early", song.parent.name)
+            log.warning("a search for notes ended early")
             raise InputError("the search for the notes of the recording failed")
         return told
 

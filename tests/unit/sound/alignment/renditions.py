@@ -11,9 +11,10 @@ import numpy as np
 
 from reina.music import Notes, Score, read_score
 from reina.sound.events import SAMPLE_RATE
-from reina.sound.font import REPOSITORY, find_soundfont
+from reina.sound.font import find_soundfont
 from reina.sound.passages import cut_into_passages, write_passage
 from reina.sound.plan import plan_sound
+from reina.system.resources import bundled, default_data_dir
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 RATE = 24_000
 """Of the recordings, samples a second."""
-SCORES = REPOSITORY / "examples" / "scores"
+SCORES = bundled("examples") / "scores"
 SAME_MUSIC = {"trumpet-duet": "prince-of-denmarks-march"}
 """Scores that are the same music as another."""
 
@@ -151,7 +152,7 @@ def record(rendition: Rendition) -> Recording:
 def render(score: Score) -> Sound:
     """A score's sound by Reina's own synthesizer, mono at RATE; sample 0 is the score's time 0."""
     plan = plan_sound(score)
-    soundfont = find_soundfont(REPOSITORY / "data").read_bytes()
+    soundfont = find_soundfont(default_data_dir()).read_bytes()
     passages = cut_into_passages(plan)
     whole = np.zeros(max(passage.start + passage.length for passage in passages), dtype=np.float32)
     for passage in passages:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import errno
+import json
 import os
 import subprocess
 import sys
@@ -93,6 +95,22 @@ def test_a_decoder_that_crashes_is_told_in_the_sender_s_terms(
         probe(SongDecoder(program=fake(code)), kept(tmp_path, b"any"))
     assert "Traceback" not in str(refused.value)
     assert "the decoder ended with status" in caplog.text
+
+
+def test_a_full_disk_is_no_fault_of_the_song(tmp_path: Path) -> None:
+    full = SongDecoder(program=fake("print('{\"errno\": 28}')"))
+    with pytest.raises(OSError, match="No space left") as refused:
+        probe(full, kept(tmp_path, b"RIFF"))
+    assert refused.value.errno == errno.ENOSPC
+
+
+def test_the_worker_tells_that_the_disk_is_full(tmp_path: Path) -> None:
+    song = kept(tmp_path, wav())
+    worker = [*PROGRAM, str(song), str(tmp_path / "peaks"), "/dev/full", "--forced"]
+    with subprocess.Popen(worker, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert json.loads(process.stdout.read()) == {"errno": errno.ENOSPC}
+    assert process.returncode == 0
 
 
 def test_no_more_than_its_number_run_at_once(tmp_path: Path) -> None:

@@ -97,11 +97,11 @@ def test_no_number_counts_as_silence_and_more_than_full_scale_as_full() -> None:
 
 def test_peaks_are_kept_beside_the_song(tmp_path: Path) -> None:
     song = tmp_path / "song.wav"
-    assert read_peaks(song) is None
+    assert read_peaks(peaks_path(song)) is None
     encoding, bits, write = CODINGS["16 bits"]
     first = peaks_of(wav(write(ramp()), encoding=encoding, bits=bits, channels=2))
     write_peaks(peaks_path(song), first)
-    again = read_peaks(song)
+    again = read_peaks(peaks_path(song))
     assert again is not None
     assert again.lowest == pytest.approx(first.lowest, abs=1 / 32767)
     assert again.duration_s == first.duration_s

@@ -100,7 +100,10 @@ async function valueThere(editor: Editor, track: ShowTrack, parameter: ShowParam
     const silent: Edit = { edit: "change_track", parameter: parameter.path, changes: { events: null } };
     const draft = document === null ? null : withEdits(document, [silent], editor.axis);
     const alone = trackOf(draft, parameter.path) ?? track;
-    const curve = await editor.curves.preview(alone, at, at + 1 / editor.fps, 2);
+    const span = [at, at + 1 / editor.fps, 2] as const;
+    // Of a track that is too long to be sent the server knows what it has.
+    const curve =
+      (await editor.curves.preview(alone, ...span)) ?? (await editor.curves.ofKeys(parameter.path, ...span));
     const values = curve?.values.map(([first = 0]) => Number(first.toPrecision(6)));
     if (values !== undefined) return valueOf(parameter, values);
   }

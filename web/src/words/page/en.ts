@@ -14,6 +14,10 @@ export const page = words("page", {
     "It may have ended, or its address is not complete. Open a piece of your own, or the one that comes with Reina.",
   noAnswer: "Reina does not answer",
   noAnswerMeans: "The page is here, but its server is not. Check that it is running, then try again.",
+  busyMeans: "Too many ask at once. What was open here is kept; try again in a moment.",
+  ended: "This session has ended",
+  endedMeans:
+    "Whoever opened it has ended it, or nobody came back to it for long. To play the piece again, open its files again.",
   openReinasPiece: "Open Reina's piece",
   tryAgain: "Try again",
   dropMidi: "Drop your MIDI",
@@ -53,6 +57,7 @@ export const page = words("page", {
   showNotLoaded: "The show's editor could not be loaded. Reload the page.",
   inTimeNotLoaded: "What puts the score in time could not be loaded. Reload the page.",
   keysNotLoaded: "The list of keys could not be loaded. Reload the page.",
+  signInNotLoaded: "What asks for the password could not be loaded. Reload the page.",
   turnSoundOn: "Turn the sound on",
   opening: "Opening …",
   noFullScreen: "This browser does not do full screen here",

@@ -6,6 +6,7 @@ export const pieces = words("pieces", {
   panel: "my pieces",
   deleted: filled("“{title}” is deleted."),
   undo: "Undo",
+  ends: filled("Is removed on {day} unless somebody opens it before"),
   none: "Pieces that you open stand here. Drop a MIDI file to begin.",
   delete: "Delete this piece",
   deleteNamed: filled("Delete {title}"),
@@ -27,5 +28,13 @@ export const pieces = words("pieces", {
   copyMarked: "Copy the marked text",
   codeToWatch: "QR code of the address to watch",
   codeToControl: "QR code of the address to control",
+  renew: "Make the control link anew",
+  renewMeans:
+    "The links to control that you gave away so far then control nothing any more. Links to watch stay as they are.",
+  renewed: "The control link is another now",
+  giveControl: "Make a control link",
+  signedInAs: filled("Signed in as {name}"),
+  signedIn: "Signed in",
+  signOut: "Sign out",
   localOnly: "This address works on this machine alone. README.md says how to start Reina for phones in your network.",
 });

@@ -1,0 +1,1 @@
+"""Where sessions are kept: records in a database, large files by their content."""
