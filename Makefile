@@ -24,7 +24,7 @@ serve: setup ## Start Reina and print its address
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
 
-test: setup .venv/.dev .venv/.servers .venv/.browser .venv/.compose ## Every check and every test, a browser included
+test: setup .venv/.dev .venv/.servers .venv/.browser ## Every check and every test, a browser included
 	$(MAKE) check
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
@@ -98,10 +98,6 @@ tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.j
 
 .venv/.browser: .venv/.dev
 	$(BIN)/python tests/e2e/find_browser.py --install
-	@touch $@
-
-.venv/.compose: .venv/.dev tests/servers/compose.py
-	$(BIN)/python tests/servers/compose.py --install
 	@touch $@
 
 .venv/.servers: .venv/.dev requirements/servers.txt tests/servers/find_servers.py

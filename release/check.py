@@ -34,6 +34,8 @@ ALLOWED = tuple(
         r"page/licences(-lab)?\.md",
         r"page/(icon\.svg|poster\.jpg)",
         r"page/assets/[\w.-]+\.(js|css|woff2|wasm)",
+        r"page/docs/(index\.html|start\.js|docs\.css)",
+        r"page/docs/viewer/(swagger-ui(-bundle\.js|\.css)|swagger-ui-bundle\.js\.LICENSE\.txt|LICENSE|NOTICE)",
         r"page/fonts/[\w-]+(\.woff2|-OFL\.txt)",
         r"rigs/\w+/(rig\.json|LICENSE|PROVENANCE\.md|(full|medium|low)\.glb)",
         r"rigs/\w+/(clips/\w+\.bvh|holds/\w+\.json)",
@@ -50,7 +52,7 @@ NEEDED = (
     "soundfont-licence.md",
 )
 LICENCES = ("LICENSE", "THIRD_PARTY.md")
-REFERENCE = re.compile(r"(?:src|href)=\"/([^\"]+)\"")
+REFERENCE = re.compile(r"<(?:script|link)\b[^>]* (?:src|href)=\"/([^\"]+)\"")
 
 
 def faults(folder: Path, tag: str | None = None) -> Iterator[str]:
@@ -107,7 +109,7 @@ def wheel_faults(path: Path) -> Iterator[str]:
 def _needed(wheel: zipfile.ZipFile, bundled: set[str]) -> Iterator[str]:
     """What the server looks for, what the page's documents load, and what the rigs' descriptions name."""
     yield from NEEDED
-    for document in ("index.html", "lab.html"):
+    for document in ("index.html", "lab.html", "docs/index.html"):
         if f"page/{document}" in bundled:
             for reference in REFERENCE.findall(wheel.read(f"{BUNDLED}page/{document}").decode()):
                 yield f"page/{reference}"

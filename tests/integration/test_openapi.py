@@ -106,8 +106,14 @@ def test_every_operation_says_what_it_does_and_how_it_fails() -> None:
 
 def test_what_changes_a_session_says_that_it_needs_the_token() -> None:
     for path, method, operation in operations():
-        needs = "security" in operation
+        needs = {"control_token": []} in operation.get("security", [])
         assert needs == (path.startswith(SESSION) and method != "get"), f"{method} {path}"
+
+
+def test_what_takes_an_upload_says_that_a_server_may_ask_who_sends_it() -> None:
+    asked = {path: operation.get("security") for path, method, operation in operations() if method == "post"}
+    for path in ("/api/v1/sessions", "/api/v1/transcriptions"):
+        assert asked[path] == [{}, {"sign_in": []}]
 
 
 def test_what_changes_a_show_takes_a_condition() -> None:

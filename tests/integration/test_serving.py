@@ -55,7 +55,7 @@ def test_sessions_outlive_the_server(tmp_path: Path) -> None:
         again = client.post(f"{session.path}/transport", json={"action": "play"}, headers=session.headers)
         assert again.status_code == 200
         assert client.delete(session.path, headers=session.headers).status_code == 204
-    assert list((tmp_path / "sessions").iterdir()) == []
+    assert not [path for path in (tmp_path / "files").rglob("*") if path.is_file()]
 
 
 def test_sigterm_ends_it_within_seconds_with_streams_open(tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def test_the_environment_configures_it(tmp_path: Path) -> None:
     process.terminate()
     assert process.wait(30) == 0
     process.stdout.close()
-    assert (tmp_path / "sessions").is_dir()
+    assert (tmp_path / "reina.db").is_file()
 
 
 def test_a_port_that_is_taken_is_told(tmp_path: Path, server: Running) -> None:

@@ -166,7 +166,7 @@ def test_a_persons_header_from_anybody_but_the_proxy_is_nothing(tmp_path: Path, 
     [
         ({"REINA_USER_HEADER": "X-Forwarded-User"}, "REINA_TRUSTED_PROXY"),
         ({"REINA_USER_HEADER": "X User", "REINA_TRUSTED_PROXY": "10.0.0.1"}, "name of a header"),
-        ({"REINA_TRUSTED_PROXY": "proxy"}, "address or network"),
+        ({"REINA_TRUSTED_PROXY": "proxy"}, "an address or a network"),
         ({"REINA_UPLOAD_PASSWORD_FILE": "/nowhere"}, "cannot be read"),
         ({"REINA_UPLOAD_PASSWORD_FILE": "short"}, "8 to 200 characters"),
         ({"REINA_UPLOAD_PASSWORD_FILE": "several"}, "one password, or lines"),

@@ -1,4 +1,4 @@
-"""Find the servers that tests keep sessions in, and with --install make sure that they are there."""
+"""Find the servers that tests start, and with --install make sure that they are there."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,8 +31,30 @@ def find_postgresql() -> Path | None:
     return Path(found).resolve().parent if found else None
 
 
-SERVERS: dict[str, Callable[[], Path | None]] = {"postgresql": find_postgresql}
+def find_program(name: str) -> Path | None:
+    """A program on PATH, or where Debian keeps those of the administrator; None without it."""
+    found = shutil.which(name) or shutil.which(name, path="/usr/sbin:/usr/local/sbin")
+    return Path(found) if found else None
+
+
+SERVERS: dict[str, Callable[[], Path | None]] = {
+    "postgresql": find_postgresql,
+    "nginx-light": partial(find_program, "nginx"),
+    "caddy": partial(find_program, "caddy"),
+}
 """Debian's package -> what finds the server that it brings."""
+COMPOSE = "docker-compose"
+"""Debian's package of Docker Compose, which reads compose files without an engine too."""
+
+
+def find_compose() -> list[str] | None:
+    """The command of Docker Compose: Docker's plugin, else the program of its own; None without either."""
+    if shutil.which("docker") is not None:
+        plugin = ["docker", "compose"]
+        if subprocess.run([*plugin, "version"], capture_output=True, check=False).returncode == 0:
+            return plugin
+    program = shutil.which("docker-compose")
+    return [program] if program is not None else None
 
 
 def server_path(package: str) -> Path:
@@ -49,12 +72,15 @@ def server_path(package: str) -> Path:
 
 
 def install() -> None:
-    """Install what is missing, where Debian's packages can be."""
+    """Install what is missing, where Debian's packages can be; nothing of it is started as a service."""
     missing = [package for package, find in SERVERS.items() if find() is None]
+    if find_compose() is None:
+        missing.append(COMPOSE)
     if not missing or shutil.which("apt-get") is None or os.geteuid() != 0:
         return
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for command in (["apt-get", "update"], ["apt-get", "install", "-y", *missing]):
+    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive", "RUNLEVEL": "1"}
+    packages = ["apt-get", "install", "--yes", "--no-install-recommends", *missing]
+    for command in (["apt-get", "update"], packages):
         if subprocess.run(command, env=environment, check=False).returncode != 0:
             return
 

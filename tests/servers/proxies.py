@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 import socket
 import subprocess
@@ -12,6 +11,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from tests.servers.find_servers import server_path
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -36,26 +37,9 @@ http {{
 """
 
 
-def install() -> None:
-    """Install what is missing, where Debian's packages can be; they are not started as services."""
-    missing = [package for program, package in PACKAGES.items() if shutil.which(program) is None]
-    if not missing or shutil.which("apt-get") is None or os.geteuid() != 0:
-        return
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive", "RUNLEVEL": "1"}
-    for command in (
-        ["apt-get", "update"],
-        ["apt-get", "install", "-y", "--no-install-recommends", *missing],
-    ):
-        subprocess.run(command, env=environment, check=True)
-
-
 def program(name: str) -> str:
     """Where a proxy's program is."""
-    found = shutil.which(name)
-    assert found, (
-        f"there is no {name}; run `make .venv/.servers`, or install Debian's package {PACKAGES[name]}"
-    )
-    return found
+    return str(server_path(PACKAGES[name]))
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import yaml
 from tests.dockerfile import ROOT, is_sent, stages
-from tests.servers.compose import find_compose
+from tests.servers.find_servers import find_compose
 
 WITH_POSTGRESQL = ("docker-compose.yml", "docker-compose.postgres.yml")
 

@@ -30,6 +30,7 @@ IF_NONE_MATCH: dict[str, Any] = {
 
 
 OPENAPI = "/openapi.json"
+SIGNED_IN: dict[str, list[str]] = {"sign_in": []}
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,9 @@ def describe(app: FastAPI) -> None:
                 if method == "get":
                     _add_if_none_match(operation)
                 _describe_conditions(operation, problem)
+                if (security := operation.get("security")) == [SIGNED_IN]:
+                    # FastAPI cannot say that a server may ask for it, and need not.
+                    security.insert(0, {})
         _describe_links(document["paths"])
         return document
 

@@ -22,7 +22,7 @@ PACKED = frozenset({".gz", ".tgz"})
 QUICKLY = 1
 """Sound hardly shrinks, the database does by any level."""
 WITHOUT_DATABASE = (
-    "there is no database in it: where sessions are kept in PostgreSQL, back that up by pg_dump, after this"
+    "there is no database in it: where sessions are kept in PostgreSQL, back that up by pg_dump, before this"
 )
 
 
