@@ -29,7 +29,7 @@ test: setup .venv/.dev .venv/.servers .venv/.browser ## Every check and every te
 	cd web && npm run test
 	$(BIN)/pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=25
 
-check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated files
+check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated files, known vulnerabilities
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
@@ -37,6 +37,7 @@ check: .venv/.dev web/node_modules/.stamp ## Lint, types, layers, generated file
 	cd web && npm run check
 	$(BIN)/python -m reina.protocol.generate --check
 	$(BIN)/python -m reina.api.openapi --check
+	$(BIN)/python release/audit.py
 
 format: .venv/.dev web/node_modules/.stamp ## Format Python and the page
 	$(BIN)/ruff format .
