@@ -820,8 +820,8 @@ class SessionStore:
             show = await self.reader.show(kept.show.text, planned.registry, owner=session_id)
         except (DatabaseError, SessionDamagedError):
             raise
-        except InputError as error:
-            # It was fine when it was made.
+        except (InputError, FileNotFoundError) as error:
+            # It was fine when it was made; or a file went since it was asked for.
             raise SessionDamagedError(session_id, str(error), record.token_sha256) from error
 
         def prepared() -> _Read:
