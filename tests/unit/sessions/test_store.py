@@ -62,7 +62,7 @@ class Desk:
             (folder / "score").write_bytes(score)
             (folder / "song").write_bytes(song(0.1))
             # The score is not looked for in a song that is none.
-            fields = {"in_time": True, **draft_fields(options)}
+            fields: dict[str, Any] = {"in_time": True, **draft_fields(options)}
             draft = Draft(folder=folder, score="score", song="song", **fields)
             session, _ = await self.store.create(draft)
         return session

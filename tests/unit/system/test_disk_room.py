@@ -33,5 +33,8 @@ def test_only_lack_of_room_is_a_full_disk(error: Exception, is_full: bool) -> No
 def test_what_is_reserved_for_others_is_no_room(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free: int, room: bool
 ) -> None:
-    monkeypatch.setattr(os, "statvfs", lambda _: SimpleNamespace(f_bavail=free, f_bfree=10**9, f_frsize=1))
+    def told(_: object) -> SimpleNamespace:
+        return SimpleNamespace(f_bavail=free, f_bfree=10**9, f_frsize=1)
+
+    monkeypatch.setattr(os, "statvfs", told)
     assert has_room(tmp_path) is room
