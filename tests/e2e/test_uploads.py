@@ -139,20 +139,20 @@ def test_a_change_that_did_not_get_there_is_told_and_can_be_sent_again(
     page.keyboard.press("p")
 
     def lose_the_change(route: Route) -> None:
-        if route.request.method == "PATCH" and not lost:
+        if route.request.method == "PUT" and not lost:
             lost.append(route)
             route.abort("connectionreset")
         else:
             route.continue_()
 
     lost: list[Route] = []
-    page.route(f"**/api/v1/sessions/{opened.session}", lose_the_change)
-    chosen = page.get_by_role("group", name="Part for the trumpet").get_by_role("radio", checked=True)
-    chosen.focus()
+    page.route(f"**/api/v1/sessions/{opened.session}/cast", lose_the_change)
+    parts = page.get_by_role("group", name="Part for the trumpet")
+    parts.get_by_role("radio", checked=True).focus()
     page.keyboard.press("ArrowDown")
     page.get_by_text("This was not changed").wait_for()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 1
-    with page.expect_response(lambda answer: answer.request.method == "PATCH"):
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
         page.get_by_role("button", name="Send again").click()
-    page.get_by_role("radio", name="Flute", checked=True).wait_for()
+    parts.get_by_role("radio", name="Flute", checked=True).wait_for()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 0
