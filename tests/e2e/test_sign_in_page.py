@@ -36,7 +36,7 @@ def opened_in(browser: Browser, address: str) -> Opened:
 
 
 def sign_in(opened: Opened, password: str) -> None:
-    dialog = opened.page.get_by_role("dialog", name="Sign in to upload")
+    dialog = opened.page.get_by_role("dialog", name="Sign in")
     dialog.get_by_role("textbox", name="Name").fill("ada")
     dialog.get_by_role("textbox", name="Password").fill(password)
     dialog.get_by_role("button", name="Sign in").click()
@@ -49,8 +49,8 @@ def test_uploads_wait_for_the_password_and_pieces_follow_a_person(browser: Brows
         first = opened_in(browser, running.address)
         first.choose_files(MIDI, WAV)
         sign_in(first, "wrong password")
-        dialog = first.page.get_by_role("dialog", name="Sign in to upload")
-        expect(dialog.get_by_role("alert")).to_contain_text("wrong")
+        dialog = first.page.get_by_role("dialog", name="Sign in")
+        expect(dialog.get_by_role("alert")).to_contain_text("do not match")
         sign_in(first, PASSWORD)
         first.until("window.reina?.session && window.reina.drawn")
         expect(dialog).to_have_count(0)

@@ -75,7 +75,7 @@ def test_what_is_cancelled_while_the_server_reads_it_is_taken_back(visit: Visit)
     answers = {"urlPattern": "*/api/v1/sessions", "requestStage": "Response"}
     devtools.send("Fetch.enable", {"patterns": [answers]})
     opened.choose_files(*LONG)
-    page.get_by_text("The server reads it").first.wait_for()
+    page.get_by_text("The server is reading it").first.wait_for()
     page.get_by_role("button", name="Cancel sending").click()
     page.get_by_role("progressbar").wait_for(state="detached")
     with page.expect_response(lambda answer: answer.request.method == "DELETE") as removed:
@@ -124,7 +124,7 @@ def test_a_busy_server_is_asked_again_by_itself(visit: Visit) -> None:
     page.route("**/api/v1/sessions/*/score", refuse)
     page.reload()
     for _ in range(2):
-        page.get_by_text("It is asked again in").wait_for()
+        page.get_by_text("Trying again in").wait_for()
         expect(page.locator(".notice")).to_contain_text("The server is busy")
         page.get_by_role("button", name="Try now").click()
     opened.until_drawn()
