@@ -19,5 +19,5 @@ export const sending = words("sending", {
   asksNow: "Trying again now …",
   tryNow: "Try now",
   notChanged: counted({ one: "This was not changed", other: "{count} changes were not made" }),
-  asBefore: "Everything is as the server has it.",
+  asBefore: "Everything stays as it was.",
 });
