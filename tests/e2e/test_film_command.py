@@ -12,6 +12,7 @@ import pytest
 from tests.e2e.films import decode
 from tests.integration.scores import scale, song
 from tests.integration.server import serve, upload
+from tests.kept import sql
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -72,12 +73,12 @@ def test_a_film_of_a_score_and_its_song(score: Path, tmp_path: Path) -> None:
 
 
 def test_a_server_that_runs_is_used_and_left_as_it_was(score: Path, tmp_path: Path) -> None:
-    output, sessions = tmp_path / "scale.mp4", tmp_path / "data" / "sessions"
+    output = tmp_path / "scale.mp4"
     picture = ("--height", "144", "--end", "0.2", "--detail", "low", "--silent")
     with serve(tmp_path / "data") as running:
         kept = upload_one(running)
         done = command(str(score), "-o", str(output), *picture, "--server", running.address)
-        assert [folder.name for folder in sessions.iterdir() if folder.is_dir()] == [kept]
+        assert sql(tmp_path / "data", "SELECT id FROM sessions") == [(kept,)]
     assert done.stdout == f"{output}: 12 frames of 256 × 144, MP4, H.264, silent\n", done.stderr
     assert decode(output.read_bytes()).codecs == ("h264",)
 

@@ -118,6 +118,7 @@ def test_a_control_link_made_anew_ends_the_one_before(visit: Visit, client: http
     first = address.input_value()
     panel.get_by_role("button", name="Make the control link anew").click()
     expect(address).not_to_have_value(first)
+    expect(panel.get_by_role("button", name="Make the control link anew")).to_be_focused()
     assert client.post(path, json={"action": "pause"}, headers=before).status_code == 403
     assert address.input_value().endswith(
         f"#control={opened.headers['Authorization'].removeprefix('Bearer ')}"

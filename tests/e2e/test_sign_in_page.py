@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 from tests.e2e.conftest import SMALL
 from tests.e2e.opened import NOWHERE, Opened
+from tests.e2e.test_accessibility import faults
 from tests.integration.scores import scale, song
 from tests.integration.server import serve
 
@@ -36,7 +37,7 @@ def opened_in(browser: Browser, address: str) -> Opened:
 
 
 def sign_in(opened: Opened, password: str) -> None:
-    dialog = opened.page.get_by_role("dialog", name="Sign in to upload")
+    dialog = opened.page.get_by_role("dialog", name="Sign in")
     dialog.get_by_role("textbox", name="Name").fill("ada")
     dialog.get_by_role("textbox", name="Password").fill(password)
     dialog.get_by_role("button", name="Sign in").click()
@@ -49,8 +50,10 @@ def test_uploads_wait_for_the_password_and_pieces_follow_a_person(browser: Brows
         first = opened_in(browser, running.address)
         first.choose_files(MIDI, WAV)
         sign_in(first, "wrong password")
-        dialog = first.page.get_by_role("dialog", name="Sign in to upload")
-        expect(dialog.get_by_role("alert")).to_contain_text("wrong")
+        dialog = first.page.get_by_role("dialog", name="Sign in")
+        expect(dialog.get_by_role("alert")).to_contain_text("do not match")
+        expect(dialog.get_by_role("textbox", name="Password")).to_be_focused()
+        assert faults(first) == []
         sign_in(first, PASSWORD)
         first.until("window.reina?.session && window.reina.drawn")
         expect(dialog).to_have_count(0)
@@ -74,6 +77,15 @@ def test_uploads_wait_for_the_password_and_pieces_follow_a_person(browser: Brows
         panel.get_by_role("button", name="Sign out").click()
         expect(panel.get_by_text("Signed in as ada")).to_have_count(0)
         assert second.page.request.get(f"{running.api}/sign-in").json()["signed_in"] is False
+
+        # Whoever would rather not is told what the server wants, and nothing besides.
+        second.go("/")
+        second.page.get_by_role("dialog", name="Sign in").wait_for()
+        second.page.keyboard.press("Escape")
+        second.page.get_by_role("heading", name="Sign in to play here").wait_for()
+        expect(second.page.locator("#poster")).to_have_count(0)
+        expect(second.page.locator(".notices .pane")).to_have_count(0)
+        assert faults(second) == []
         for one in (first, second):
             one.page.context.close()
             assert one.errors == []

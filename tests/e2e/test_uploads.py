@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from playwright.sync_api import expect
+from tests.e2e.test_accessibility import faults
 from tests.integration.scores import duet, scale, song
 
 if TYPE_CHECKING:
@@ -75,7 +76,8 @@ def test_what_is_cancelled_while_the_server_reads_it_is_taken_back(visit: Visit)
     answers = {"urlPattern": "*/api/v1/sessions", "requestStage": "Response"}
     devtools.send("Fetch.enable", {"patterns": [answers]})
     opened.choose_files(*LONG)
-    page.get_by_text("The server reads it").first.wait_for()
+    page.get_by_text("The server is reading it").first.wait_for()
+    assert faults(opened) == []
     page.get_by_role("button", name="Cancel sending").click()
     page.get_by_role("progressbar").wait_for(state="detached")
     with page.expect_response(lambda answer: answer.request.method == "DELETE") as removed:
@@ -100,10 +102,12 @@ def test_what_did_not_get_there_is_sent_again_without_choosing_it_anew(visit: Vi
     page.route(
         "**/api/v1/sessions", lambda route: route.fulfill(status=429, json=BUSY, headers=busy), times=1
     )
-    failed.get_by_role("button", name="Send again").click()
-    expect(failed).to_contain_text("The server is busy")
-    expect(failed).to_contain_text("too many uploads at once")
+    again = failed.get_by_role("button", name="Send again")
+    again.press("Enter")
+    expect(failed).to_contain_text("The server is busy: too many uploads at once.")
+    expect(again, "the focus is not lost").to_be_focused()
     opened.until_nothing_overflows()
+    assert faults(opened) == []
     failed.get_by_role("button", name="Send again").click()
     opened.until_another_session(before)
     page.get_by_role("group", name="long.mid").wait_for(state="detached")
@@ -124,8 +128,9 @@ def test_a_busy_server_is_asked_again_by_itself(visit: Visit) -> None:
     page.route("**/api/v1/sessions/*/score", refuse)
     page.reload()
     for _ in range(2):
-        page.get_by_text("It is asked again in").wait_for()
+        page.get_by_text("Trying again in").wait_for()
         expect(page.locator(".notice")).to_contain_text("The server is busy")
+        assert faults(opened) == []
         page.get_by_role("button", name="Try now").click()
     opened.until_drawn()
     page.get_by_text("The server is busy").wait_for(state="detached")
@@ -139,20 +144,20 @@ def test_a_change_that_did_not_get_there_is_told_and_can_be_sent_again(
     page.keyboard.press("p")
 
     def lose_the_change(route: Route) -> None:
-        if route.request.method == "PATCH" and not lost:
+        if route.request.method == "PUT" and not lost:
             lost.append(route)
             route.abort("connectionreset")
         else:
             route.continue_()
 
     lost: list[Route] = []
-    page.route(f"**/api/v1/sessions/{opened.session}", lose_the_change)
-    chosen = page.get_by_role("group", name="Part for the trumpet").get_by_role("radio", checked=True)
-    chosen.focus()
+    page.route(f"**/api/v1/sessions/{opened.session}/cast", lose_the_change)
+    parts = page.get_by_role("group", name="Part for the trumpet")
+    parts.get_by_role("radio", checked=True).focus()
     page.keyboard.press("ArrowDown")
     page.get_by_text("This was not changed").wait_for()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 1
-    with page.expect_response(lambda answer: answer.request.method == "PATCH"):
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
         page.get_by_role("button", name="Send again").click()
-    page.get_by_role("radio", name="Flute", checked=True).wait_for()
+    parts.get_by_role("radio", name="Flute", checked=True).wait_for()
     assert client.get(f"/api/v1/sessions/{opened.session}").json()["part"] == 0

@@ -85,9 +85,10 @@ export class ProblemError extends Error {
 
 /** The person gave it up: there is nothing to tell. */
 export class GivenUpError extends ProblemError {
-  constructor() {
+  /** @param type of the problem that it was given up for, where it was for one */
+  constructor(type = "") {
     // The status that servers note for whoever went away before the answer.
-    super({ status: 499, title: told.givenUp, detail: "", errors: [] });
+    super({ type, status: 499, title: told.givenUp, detail: "", errors: [] });
   }
 }
 

@@ -26,7 +26,7 @@ import type {
 } from "../generated/protocol";
 import type { ShowTrack } from "../generated/show";
 import type { ClockProbe } from "./clock-sync";
-import { ProblemError, problemOf, unreachable } from "./problem";
+import { GivenUpError, ProblemError, problemOf, unreachable } from "./problem";
 import { send, type Sending } from "./sending";
 
 /** What a new session is made of. */
@@ -63,8 +63,8 @@ export interface RequestOptions extends Sending {
 export class ReinaApi {
   /** Waits until a busy server may be asked again; rejects where the person gives it up. */
   whenBusy: ((problem: ProblemError, signal?: AbortSignal) => Promise<void>) | null = null;
-  /** Asks the person to sign in, where an upload needs it; resolves to whether that went well. */
-  askSignIn: () => Promise<boolean> = () => Promise.resolve(false);
+  /** Asks the person to sign in, where an upload needs it; resolves to whether that went well, null where it cannot. */
+  askSignIn: () => Promise<boolean | null> = () => Promise.resolve(null);
 
   readonly #base: string;
   readonly #fetch: typeof fetch;
@@ -308,8 +308,10 @@ export class ReinaApi {
     try {
       return await send();
     } catch (error) {
-      const isAsked = error instanceof ProblemError && error.needsSignIn;
-      if (!isAsked || !(await this.askSignIn())) throw error;
+      if (!(error instanceof ProblemError && error.needsSignIn)) throw error;
+      const isIn = await this.askSignIn();
+      if (isIn === null) throw error;
+      if (!isIn) throw new GivenUpError(error.type);
       return await send();
     }
   }

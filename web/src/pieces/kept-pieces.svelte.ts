@@ -28,7 +28,7 @@ export class KeptPieces {
 
   /** The pieces of who is signed in, by id; these need no token. */
   #mine: Readonly<Record<string, KeptPiece>> = {};
-  readonly #ends = new Map<string, string | null>();
+  #ends: Readonly<Record<string, string | null>> = {};
   readonly #api: ReinaApi;
   readonly #tell: (error: unknown) => void;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -81,7 +81,7 @@ export class KeptPieces {
       answers.forEach((answer, index) => {
         const id = some[index] ?? "";
         if (answer.status === "fulfilled") {
-          this.#ends.set(id, answer.value.ends_at ?? null);
+          this.#ends = { ...this.#ends, [id]: answer.value.ends_at ?? null };
           known = { ...known, [id]: { title: answer.value.title, opened: known[id]?.opened ?? 0 } };
         } else if (answer.reason instanceof ProblemError && answer.reason.isUnknown) {
           known = without(known, id);
@@ -126,7 +126,7 @@ export class KeptPieces {
   #shown(): readonly Piece[] {
     return listed(this.#mine)
       .filter(({ id }) => id !== this.deleted?.id)
-      .map((piece) => ({ ...piece, ends: this.#ends.get(piece.id) ?? null }));
+      .map((piece) => ({ ...piece, ends: this.#ends[piece.id] ?? null }));
   }
 }
 

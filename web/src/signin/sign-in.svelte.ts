@@ -8,33 +8,35 @@ export type Asked = "password" | "name-and-password";
 export class SignInDesk {
   /** What is asked for; null while nothing is. */
   asked = $state.raw<Asked | null>(null);
-  /** Why the last try did not go well; empty before. */
-  fault = $state("");
+  /** Why the last try did not go well; null before. */
+  fault = $state.raw<ProblemError | null>(null);
   busy = $state(false);
 
   readonly #api: Pick<ReinaApi, "signInState" | "signInBy">;
-  #asking: Promise<boolean> | null = null;
+  #asking: Promise<boolean | null> | null = null;
   #answer: (isIn: boolean) => void = () => undefined;
 
   constructor(api: Pick<ReinaApi, "signInState" | "signInBy">) {
     this.#api = api;
   }
 
-  /** Ask, once for all who need it; resolves to whether somebody is signed in then. */
-  ask(): Promise<boolean> {
+  /** Ask, once for all who need it; resolves to whether somebody is signed in then, null where nobody can be asked. */
+  ask(): Promise<boolean | null> {
     this.#asking ??= this.#ask().finally(() => (this.#asking = null));
     return this.#asking;
   }
 
   /** Try what was given. */
   async attempt(name: string, password: string): Promise<void> {
+    if (this.busy) return;
     this.busy = true;
-    this.fault = "";
+    this.fault = null;
     try {
       await this.#api.signInBy(this.asked === "password" ? { password } : { name, password });
       this.#answer(true);
     } catch (error) {
-      this.fault = error instanceof ProblemError ? error.message : String(error);
+      if (!(error instanceof ProblemError)) throw error;
+      this.fault = error;
     } finally {
       this.busy = false;
     }
@@ -45,11 +47,11 @@ export class SignInDesk {
     this.#answer(false);
   }
 
-  async #ask(): Promise<boolean> {
+  async #ask(): Promise<boolean | null> {
     const { asks }: SignIn = await this.#api.signInState();
     // Where a proxy asks, it is not for this page to.
-    if (asks !== "password" && asks !== "name-and-password") return false;
-    this.fault = "";
+    if (asks !== "password" && asks !== "name-and-password") return null;
+    this.fault = null;
     this.asked = asks;
     const isIn = await new Promise<boolean>((answer) => (this.#answer = answer));
     this.asked = null;

@@ -21,7 +21,7 @@ export class Patience {
   /** Until it is asked again, whole seconds; 0 while it is asked. */
   secondsLeft = $state(0);
   readonly #now: () => number;
-  readonly #waiters = new Set<Waiter>();
+  #waiters: readonly Waiter[] = [];
   #ticking: ReturnType<typeof setInterval> | undefined;
   #quietSince = 0;
 
@@ -47,7 +47,7 @@ export class Patience {
         giveUp: (reason) => this.#end(waiter, () => reject(reason)),
       };
       signal?.addEventListener("abort", abort, { once: true });
-      this.#waiters.add(waiter);
+      this.#waiters = [...this.#waiters, waiter];
       this.#ticking ??= setInterval(() => this.#tick(), TICK_MS);
       this.#count();
     });
@@ -55,31 +55,32 @@ export class Patience {
 
   /** Ask again without waiting any longer. */
   tryNow(): void {
-    for (const waiter of [...this.#waiters]) waiter.again();
+    for (const waiter of this.#waiters) waiter.again();
   }
 
   /** Give up what waits. */
   cancel(): void {
-    for (const waiter of [...this.#waiters]) waiter.giveUp(new GivenUpError());
+    for (const waiter of this.#waiters) waiter.giveUp(new GivenUpError());
     this.#rest();
   }
 
   #end(waiter: Waiter, settle: () => void): void {
-    if (!this.#waiters.delete(waiter)) return;
+    if (!this.#waiters.includes(waiter)) return;
+    this.#waiters = this.#waiters.filter((each) => each !== waiter);
     settle();
-    if (this.#waiters.size === 0) this.#quietSince = this.#now();
+    if (this.#waiters.length === 0) this.#quietSince = this.#now();
     this.#count();
   }
 
   #tick(): void {
     const now = this.#now();
-    for (const waiter of [...this.#waiters]) if (waiter.due <= now) waiter.again();
+    for (const waiter of this.#waiters) if (waiter.due <= now) waiter.again();
     this.#count();
-    if (this.#waiters.size === 0 && now - this.#quietSince >= GRACE_S) this.#rest();
+    if (this.#waiters.length === 0 && now - this.#quietSince >= GRACE_S) this.#rest();
   }
 
   #count(): void {
-    const next = Math.min(...[...this.#waiters].map(({ due }) => due));
+    const next = Math.min(...this.#waiters.map(({ due }) => due));
     this.secondsLeft = Number.isFinite(next) ? Math.max(Math.ceil(next - this.#now()), 0) : 0;
   }
 

@@ -20,10 +20,13 @@ import { Uploads } from "./uploads.svelte";
 import { told } from "../words/told/en";
 import { transcribing } from "../words/transcribe/en";
 
-/** `ended` was open here, `busy` is a server that could not be waited for, and `failed` anything else. */
+/**
+ * `ended` was open here, `guest` is somebody who would have to sign in, `busy` is a server that could not be waited for,
+ * and `failed` anything else.
+ */
 export type Phase = "opening" | "open" | Absence;
 /** Why there is no session. */
-export type Absence = "unknown" | "ended" | "busy" | "failed";
+export type Absence = "unknown" | "ended" | "guest" | "busy" | "failed";
 
 /** A recording is of a piece that is longer or shorter by this share at most, or by a lead-in and an end's. */
 const ALIKE_SHARE = 0.15;
@@ -134,9 +137,7 @@ export class Reina {
       return true;
     } catch (error) {
       if (opening !== this.#opening) return false;
-      const unknown = error instanceof ProblemError && error.isUnknown;
-      this.#lose(unknown ? "unknown" : absenceOf(error));
-      if (!unknown) this.tell(error);
+      this.#miss(error);
       return false;
     }
   }
@@ -361,8 +362,7 @@ export class Reina {
     try {
       first = (await this.api.examples())[0];
     } catch (error) {
-      this.#lose(absenceOf(error));
-      this.tell(error);
+      this.#miss(error);
       return;
     }
     if (first === undefined) this.#lose("failed");
@@ -408,7 +408,7 @@ export class Reina {
     if (this.view === null && this.phase === "opening") {
       // Given up before there was a first piece.
       if (own !== undefined && this.#failure instanceof GivenUpError) await this.#openHome();
-      else this.phase = absenceOf(this.#failure);
+      else this.#miss(this.#failure);
     }
     return made;
   }
@@ -427,7 +427,7 @@ export class Reina {
   /** Go on with the token that another tab of this browser has made anew. */
   #followToken(): void {
     const { view } = this;
-    if (view === null || view.token === null) return;
+    if (typeof view?.token !== "string") return;
     const kept = remembered().tokens[view.id];
     if (kept !== undefined && kept !== view.token) void this.open(view.id);
   }
@@ -455,6 +455,14 @@ export class Reina {
     }
   }
 
+  /** No session could be opened; what the page says in its place is not told beside it. */
+  #miss(error: unknown): void {
+    const absence = absenceOf(error);
+    this.#lose(absence);
+    this.notices.clear();
+    if (absence === "failed" && !(error instanceof ProblemError && error.isUnanswered)) this.tell(error);
+  }
+
   #lose(phase: Absence): void {
     removePoster();
     void this.view?.close();
@@ -466,7 +474,10 @@ export class Reina {
 
 /** Why there is no session where an error kept it from being opened. */
 function absenceOf(error: unknown): Absence {
-  return error instanceof ProblemError && (error.isBusy || error instanceof GivenUpError) ? "busy" : "failed";
+  if (!(error instanceof ProblemError)) return "failed";
+  if (error.isUnknown) return "unknown";
+  if (error.needsSignIn) return "guest";
+  return error.isBusy || error instanceof GivenUpError ? "busy" : "failed";
 }
 
 /** A session's address in the browser; what the address asks for beside it (`?tier=`) stays. */

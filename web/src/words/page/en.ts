@@ -18,6 +18,9 @@ export const page = words("page", {
   ended: "This session has ended",
   endedMeans:
     "Whoever opened it has ended it, or nobody came back to it for long. To play the piece again, open its files again.",
+  guest: "Sign in to play here",
+  guestMeans: "This server plays scores for people who have its password. To watch, a link to a session is enough.",
+  signIn: "Sign in",
   openReinasPiece: "Open Reina's piece",
   tryAgain: "Try again",
   dropMidi: "Drop your MIDI",
