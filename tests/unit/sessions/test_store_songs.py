@@ -345,7 +345,8 @@ WEIGHTY = (Session, Production, NoteMessages, RenderedSong, Show, Viewer, asynci
 
 def weighty() -> Counter[str]:
     """What is in memory of sessions and of work for them; nobody looks for what could be let go of."""
-    return Counter(type(one).__name__ for one in gc.get_objects() if isinstance(one, WEIGHTY))
+    kinds = (kind.__name__ for one in gc.get_objects() for kind in WEIGHTY if isinstance(one, kind))
+    return Counter(kinds)
 
 
 @pytest.mark.parametrize("with_song", [False, True], ids=["rendered", "searched"])
