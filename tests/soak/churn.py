@@ -27,8 +27,7 @@ WARM = 200
 """So many sessions come and go first: all that are kept loaded, and what every cache takes."""
 TOLD_EVERY = 100
 MOST_BYTES = 50_000
-"""Sessions that hold themselves leave some 300,000 each; what is left of connections waits for the collector, and
-goes."""
+"""Sessions that hold themselves leave some 300,000; what is left of connections waits for the collector."""
 
 
 async def come_and_go(server: Running, client: httpx.Client, *, is_ended: bool) -> None:
