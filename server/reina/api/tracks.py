@@ -29,7 +29,6 @@ from reina.show.edits import (
     with_track,
 )
 from reina.show.model import read_later
-from reina.show.show_writer import keyframe_text
 from reina.system.json_text import Written, json_text
 
 router = APIRouter(tags=["show"], route_class=BoundedRoute)
@@ -66,9 +65,10 @@ KEYFRAMES = f"{TRACK}/keyframes"
 def list_keyframes(session: Watched, path: TrackPath) -> Response:
     """A parameter's keyframes; none where the show does not move it."""
     known_parameter(session.production.registry, path)
-    kept = session.show_revision
-    keyframes = [Written(keyframe_text(keyframe)) for keyframe in _keyframes(kept.show, path)]
-    return validated(json_text({"keyframes": keyframes}), kept.text.track_etag(path))
+    text = session.show_revision.text
+    written = text.tracks.get(path)
+    keyframes = [] if written is None else [Written(keyframe) for keyframe in written.keyframes]
+    return validated(json_text({"keyframes": keyframes}), text.track_etag(path))
 
 
 @router.post(KEYFRAMES, status_code=201, response_model=ShowKeyframe, response_model_exclude_unset=True)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import uvicorn
-    from starlette.types import Receive, Scope, Send
+    from starlette.types import ASGIApp, Receive, Scope, Send
     from uvicorn.server import ServerState
 
 WEBSOCKET_VERSION = b"13"
@@ -46,8 +46,6 @@ class ProblemProtocol(H11Protocol):
         super().__init__(config, server_state, app_state, _loop)
         self.outflow = Outflow()
         self._all = connections_of(config)
-        self._answering = self.app
-        self.app = self._admitted  # type: ignore[assignment]
         self._asked = False
         """Whether a request has come over it."""
         self._waiting_since = math.inf
@@ -57,6 +55,15 @@ class ProblemProtocol(H11Protocol):
         self._received = 0
         self._body: tuple[float, int] | None = None
         """Since when a body has come more slowly than the floor, and what had been received by then."""
+
+    @property
+    def app(self) -> ASGIApp:  # type: ignore[override]
+        """What answers a request; made anew each time, since a connection that held itself would stay."""
+        return self._admitted
+
+    @app.setter
+    def app(self, answering: ASGIApp) -> None:
+        self._answering = answering
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Somebody has come."""
@@ -192,7 +199,7 @@ class ProblemProtocol(H11Protocol):
         if problem:
             await problem.response()(scope, receive, send)
         else:
-            await self._answering(scope, receive, send)  # type: ignore[arg-type]
+            await self._answering(scope, receive, send)
 
     def _refuse(self, problem: ProblemError) -> None:
         response = problem.response()

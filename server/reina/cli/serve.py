@@ -35,6 +35,7 @@ from reina.sessions.stage import Stage
 from reina.sessions.storage.directory_lock import locked
 from reina.sound.font import SoundError
 from reina.sound.provide_soundfont import provide_soundfont
+from reina.system.heap import return_large_blocks
 from reina.system.logs import configure
 from reina.system.resources import default_data_dir
 
@@ -194,6 +195,7 @@ def _run(arguments: argparse.Namespace, held: contextlib.ExitStack) -> int:
         print(f"reina serve: {error}", file=sys.stderr)
         return 1
     share_interpreter()
+    return_large_blocks()
     app = create_app(settings, stage=stage, storage=storage)
     server = Server(
         Config(

@@ -3,6 +3,9 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from reina.curves.arrays import FloatArray, IntArray
 from reina.curves.easings import EaseIn
 from reina.curves.extrapolation import Extrapolation
@@ -54,8 +57,8 @@ class Channel:
     arriving: FloatArray
     origins: FloatArray
     easings: tuple[EaseIn, ...]
-    easing: IntArray
-    directions: FloatArray
+    easing: NDArray[np.int16]
+    directions: NDArray[np.int8]
     options: FloatArray
     stretches: Mapping[int, Stretch]
     quaternion_splines: Mapping[int, FloatArray]

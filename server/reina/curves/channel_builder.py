@@ -63,8 +63,8 @@ class ChannelBuilder:
         self.leaving = np.zeros_like(self.starts)
         self.arriving = np.zeros_like(self.starts)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
-        self.easing = np.zeros(self.count + 1, dtype=np.int64)
-        self.directions = np.zeros(self.count + 1)
+        self.easing = np.zeros(self.count + 1, dtype=np.int16)
+        self.directions = np.zeros(self.count + 1, dtype=np.int8)
         self.option_rows: list[tuple[IntArray, FloatArray]] = []
         self.stretches: dict[int, Stretch] = {}
         self.quaternion_splines: dict[int, FloatArray] = {}
@@ -86,17 +86,20 @@ class ChannelBuilder:
         options = np.zeros((self.count + 1, max((row.shape[1] for _, row in self.option_rows), default=0)))
         for segments, rows in self.option_rows:
             options[segments, : rows.shape[1]] = rows
+        begins = np.concatenate([self.times[:1], self.times])
+        # Where nothing is a spline all slopes are one number.
+        none = np.broadcast_to(0.0, self.starts.shape)
         return Channel(
             space=self.space,
             before=self.before,
             after=self.after,
-            times=self.times,
-            begins=np.concatenate([self.times[:1], self.times]),
+            times=begins[1:],
+            begins=begins,
             durations=self.durations,
             starts=self.starts,
             deltas=self._moved_deltas(),
-            leaving=self.leaving,
-            arriving=self.arriving,
+            leaving=self.leaving if self.splines else none,
+            arriving=self.arriving if self.splines else none,
             origins=self.origins,
             easings=tuple(self.easings),
             easing=self.easing,

@@ -14,7 +14,7 @@ from reina.curves.keyframe import Keyframe, T
 from reina.curves.options import option, options_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class EasedKeyframe(Keyframe[T], Generic[T]):
     """previous + (this - previous) · ease(fraction). This class itself is ``linear``.
 
@@ -49,7 +49,7 @@ class EasedKeyframe(Keyframe[T], Generic[T]):
         return numbers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class CubicBezierKeyframe(EasedKeyframe[T], Generic[T]):
     """``cubic_bezier``."""
 
@@ -63,7 +63,7 @@ class CubicBezierKeyframe(EasedKeyframe[T], Generic[T]):
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class BackKeyframe(EasedKeyframe[T], Generic[T]):
     """``back_in``."""
 
@@ -74,7 +74,7 @@ class BackKeyframe(EasedKeyframe[T], Generic[T]):
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ElasticKeyframe(EasedKeyframe[T], Generic[T]):
     """``elastic_in``."""
 
@@ -86,7 +86,7 @@ class ElasticKeyframe(EasedKeyframe[T], Generic[T]):
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class BackInOutKeyframe(BackKeyframe[T], Generic[T]):
     """``back_in_out``: each half of the way is a whole curve, and so its default reaches further."""
 
@@ -95,7 +95,7 @@ class BackInOutKeyframe(BackKeyframe[T], Generic[T]):
     overshoot: float = option(1.70158 * 1.525, "how far it goes beyond", minimum=0.0, maximum=100.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ElasticInOutKeyframe(ElasticKeyframe[T], Generic[T]):
     """``elastic_in_out``: each half of the way is a whole curve, and so its default swings slower."""
 
@@ -112,6 +112,7 @@ def _variant(
     class_name = "".join(word.capitalize() for word in name.split("_")) + "Keyframe"
     members = {
         **attributes,
+        "__slots__": (),
         "__doc__": f"``{name}``.",
         "__module__": __name__,
         "documentation": documentation,

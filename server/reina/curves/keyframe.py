@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Keyframe(Generic[T]):
     """A value at a time. This class itself is the interpolation ``step``.
 
@@ -20,6 +20,8 @@ class Keyframe(Generic[T]):
     T is anything that can be added, subtracted and multiplied by a float: numbers, arrays, a class of your
     own. Values that are no straight line apart come to `eval` in a space where they are one: colours as
     OKLab, orientations as rotation vectors from the key before. So one formula serves them all.
+
+    A show holds very many of them, so they have slots; a subclass need have none.
 
     Attributes:
         documentation: One sentence for the person who chooses it; a subclass says its own.

@@ -7,12 +7,14 @@ import numpy as np
 from reina.curves.arrays import FloatArray, IntArray
 from reina.curves.channel import Channel, Stretch
 from reina.curves.easings import EASE_IN, EaseIn
+from reina.curves.spline_keyframe import spline_easing
 
 
 class SegmentTable:
     """One row a segment, the channels' one below the other; what `Channel` says of it lies side by side.
 
-    A row is read as a whole, so that a segment costs one visit to memory that is far away.
+    A row is read as a whole, so that a segment costs one visit to memory that is far away. It has no columns
+    for what no channel has: slopes where nothing is a spline, origins where nothing turns.
 
     Attributes:
         rows: ``(S, R)``.
@@ -23,7 +25,7 @@ class SegmentTable:
         easings: The easing functions in use; the first is linear.
         stretches: Formulas of their own, by row.
         has_stretch: ``(S,)`` whether a row is among them.
-        quaternion_row: ``(S,)`` row in `quaternions`, or -1.
+        quaternion_row: ``(S,)`` row in `quaternions`, or -1; ``(0,)`` where there are none.
         quaternions: ``(n, 4, 4)`` splines of quaternions, see `Channel.quaternion_splines`.
     """
 
@@ -34,7 +36,9 @@ class SegmentTable:
         self.first: IntArray = np.cumsum([0, *sizes])[:-1].astype(np.int64)
         self.width = max((channel.space.width for channel in channels), default=0)
         option_count = max((channel.options.shape[1] for channel in channels), default=0)
-        widths = iter([4, self.width, self.width, self.width, self.width, option_count, 4])
+        slopes = self.width if any(spline_easing in channel.easings for channel in channels) else 0
+        origins = 4 if any(channel.space.length == 4 for channel in channels) else 0
+        widths = iter([4, self.width, self.width, slopes, slopes, option_count, origins])
         places = _side_by_side(widths)
         next(places)
         self.starts, self.deltas, self.leaving, self.arriving, self.options, self.origins = places
@@ -43,7 +47,8 @@ class SegmentTable:
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
         self.stretches: dict[int, Stretch] = {}
         self.has_stretch = np.zeros(sum(sizes), dtype=np.bool_)
-        self.quaternion_row = np.full(sum(sizes), -1, dtype=np.int64)
+        splines = any(channel.quaternion_splines for channel in channels)
+        self.quaternion_row = np.full(sum(sizes) if splines else 0, -1, dtype=np.int64)
         quaternions: list[FloatArray] = []
         for first, channel in zip(self.first.tolist(), channels, strict=True):
             self._lay_out(first, channel, quaternions)
@@ -61,8 +66,9 @@ class SegmentTable:
         width = channel.space.width
         rows[:, self.starts][:, :width] = channel.starts
         rows[:, self.deltas][:, :width] = channel.deltas
-        rows[:, self.leaving][:, :width] = channel.leaving
-        rows[:, self.arriving][:, :width] = channel.arriving
+        if self.leaving.stop > self.leaving.start:
+            rows[:, self.leaving][:, :width] = channel.leaving
+            rows[:, self.arriving][:, :width] = channel.arriving
         rows[:, self.options][:, : channel.options.shape[1]] = channel.options
         if channel.space.length == 4:
             rows[:, self.origins] = channel.origins

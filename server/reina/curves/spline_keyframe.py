@@ -17,6 +17,7 @@ class SplineKeyframe(Keyframe[T], Generic[T]):
     `reina.curves.tangents`.
     """
 
+    __slots__ = ()
     documentation: ClassVar[str] = "A cubic spline whose slopes at the keys are given, as in glTF."
     tangents: ClassVar[Tangents] = "given"
 
@@ -36,6 +37,7 @@ class SplineKeyframe(Keyframe[T], Generic[T]):
 class AutomaticKeyframe(SplineKeyframe[T], Generic[T]):
     """``automatic``: the slopes are found from the neighbouring keys."""
 
+    __slots__ = ()
     documentation: ClassVar[str] = "A smooth curve through the keys; it may swing a little beyond them."
     tangents: ClassVar[Tangents] = "automatic"
 
@@ -43,6 +45,7 @@ class AutomaticKeyframe(SplineKeyframe[T], Generic[T]):
 class ClampedKeyframe(SplineKeyframe[T], Generic[T]):
     """``clamped``: the slopes are found from the neighbouring keys, and are held down."""
 
+    __slots__ = ()
     documentation: ClassVar[str] = "A smooth curve through the keys that never goes beyond them."
     tangents: ClassVar[Tangents] = "clamped"
 

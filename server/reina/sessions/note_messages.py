@@ -37,9 +37,9 @@ class NoteMessages:
         describe: Callable[[int], WireNote],
     ) -> None:
         self._emitter = NoteEventEmitter[int](onset_s, end_s, pitch, range(len(onset_s)))
-        self._emitter.add_listener(self._hear)
+        self._events: list[NoteEvent[int]] = []
+        self._emitter.add_listener(self._events.append)
         self._describe = describe
-        self._texts: list[str] = []
         self._state: ClockState | None = None
         self._until_s = 0.0
 
@@ -67,11 +67,9 @@ class NoteMessages:
         at_s = self._emitter.position_s
         return [self._message("note_on", index, at_s) for index in self._emitter.sounding]
 
-    def _hear(self, event: NoteEvent[int]) -> None:
-        self._texts.append(self._message(event.kind, event.index, event.song_time_s))
-
     def _heard(self) -> list[str]:
-        texts, self._texts = self._texts, []
+        texts = [self._message(event.kind, event.index, event.song_time_s) for event in self._events]
+        self._events.clear()
         return texts
 
     def _message(self, kind: str, index: int, song_time_s: float) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+import weakref
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -107,7 +108,9 @@ class Session:
         self.audience = Audience(frames, self.clock, notes, now=now)
         self._make_song = song
         self.song = song(self)
-        self.heard = HeardSongs(lambda hearing: heard(self, hearing))
+        # A session that held itself would only be let go of by the collector, which hardly ever runs.
+        itself: Session = weakref.proxy(self)
+        self.heard = HeardSongs(lambda hearing: heard(itself, hearing))
 
     @property
     def id(self) -> str:

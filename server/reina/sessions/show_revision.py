@@ -25,11 +25,9 @@ REFERENCE_BYTES = 1
 """A track that was edited holds its unchanged keyframes by reference alone: each weighs so much."""
 STEP_BYTES = 100
 """What a step weighs of itself."""
-WRITTEN = 2
-"""A track's text is there as a whole, and keyframe by keyframe."""
-KEYFRAME_BYTES = 700
+KEYFRAME_BYTES = 450
 """What a keyframe takes in memory beside its text: an object, and its share of curves that are made ready."""
-HELD = 6
+HELD = 4
 """How many bytes the objects take that a byte of text in the history stands for."""
 FEW = 64
 """One keyframe in so many that was replaced is found without looking for it elsewhere in the track."""
@@ -124,7 +122,7 @@ class ShowRevision:
         """About how many bytes show, plan and history take in memory."""
         tracks = self.text.tracks.values()
         texts = sum(len(written.text) for written in tracks)
-        return WRITTEN * texts + KEYFRAME_BYTES * sum(map(_keyframe_count, tracks)) + HELD * sum(self.weights)
+        return texts + KEYFRAME_BYTES * sum(map(_keyframe_count, tracks)) + HELD * sum(self.weights)
 
     @property
     def state(self) -> ShowState:

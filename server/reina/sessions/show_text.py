@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from reina.show import Show, Track
-from reina.show.show_writer import track_text
+from reina.show.show_writer import WrittenTrack, written_track
 from reina.system.json_text import json_text, with_list
 
 if TYPE_CHECKING:
@@ -27,11 +27,24 @@ class TrackText:
         track: The track.
         text: Its JSON, UTF-8.
         etag: Its validator, in quotes (RFC 9110, 8.8.3).
+        written: Where in the text its keyframes are.
     """
 
     track: Track | UnknownTrack
     text: bytes
     etag: str
+    written: WrittenTrack | None = None
+
+    @property
+    def keyframes(self) -> list[bytes]:
+        """The text of each keyframe."""
+        return [] if self.written is None else self.written.keyframes()
+
+    @property
+    def known(self) -> dict[int, bytes]:
+        """The texts of its keyframes by their ids (`id`)."""
+        objects = self.track.keyframes if isinstance(self.track, Track) else ()
+        return dict(zip(map(id, objects), self.keyframes, strict=True))
 
 
 @dataclass(frozen=True)
@@ -53,10 +66,14 @@ class ShowText:
     @classmethod
     def of(cls, show: Show, earlier: ShowText | None = None) -> ShowText:
         """Write a show; tracks that an earlier state shares are not written again."""
+        before = {} if earlier is None else earlier.tracks
         known: dict[int, TrackText] = {}
         if earlier is not None and earlier.show.time == show.time:
-            known = {id(written.track): written for written in earlier.tracks.values()}
-        tracks = {track.parameter: known.get(id(track)) or _written(track, show) for track in show.tracks}
+            known = {id(written.track): written for written in before.values()}
+        tracks = {
+            track.parameter: known.get(id(track)) or _written(track, show, before.get(track.parameter))
+            for track in show.tracks
+        }
         head = replace(show, tracks=()).to_document()
         del head["tracks"]
         etag = _etag(json_text(head), *(written.etag.encode() for written in tracks.values()))
@@ -75,9 +92,11 @@ class ShowText:
         return written.etag if written else NO_TRACK_ETAG
 
 
-def _written(track: Track | UnknownTrack, show: Show) -> TrackText:
-    text = track_text(track, show.time) if isinstance(track, Track) else track.text
-    return TrackText(track, text, _etag(text))
+def _written(track: Track | UnknownTrack, show: Show, before: TrackText | None) -> TrackText:
+    if not isinstance(track, Track):
+        return TrackText(track, track.text, _etag(track.text))
+    written = written_track(track, show.time, None if before is None else before.known)
+    return TrackText(track, written.text, _etag(written.text), written)
 
 
 def _etag(*texts: bytes) -> str:

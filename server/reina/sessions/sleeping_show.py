@@ -40,6 +40,6 @@ def _sharing(track: Track | UnknownTrack, awake: ShowText) -> Track | UnknownTra
     written = awake.tracks.get(track.parameter)
     if not isinstance(track, Track) or written is None or not isinstance(written.track, Track):
         return track
-    shared = {keyframe_text(keyframe): keyframe for keyframe in written.track.keyframes}
+    shared = dict(zip(written.keyframes, written.track.keyframes, strict=True))
     keyframes = [shared.get(keyframe_text(keyframe), keyframe) for keyframe in track.keyframes]
     return replace(track, keyframes=tuple(keyframes))

@@ -84,7 +84,9 @@ class RenderedSong:
         """Whether there will be one once there is room on the disk: the error is only for now."""
         self.request: SongRequest | None = None
         """What is there of it; None until it is planned."""
-        self._making = asyncio.create_task(self._make(renderer, score, played, hearing, owner, ready))
+        self._making: asyncio.Task[None] | None = asyncio.create_task(
+            self._make(renderer, score, played, hearing, owner, ready)
+        )
 
     @property
     def progress(self) -> float:
@@ -93,7 +95,10 @@ class RenderedSong:
 
     def close(self) -> None:
         """Give it up, unless it is there."""
-        self._making.cancel()
+        if self._making is not None:
+            self._making.cancel()
+            # What ended it holds where it was, and that holds this.
+            self._making = None
 
     async def _make(
         self,

@@ -106,3 +106,5 @@ class SongAlignment:
         """Give up a search that is under way."""
         if self._search is not None:
             self._search.cancel()
+            # What ended it holds where it was, and that holds this.
+            self._search = None

@@ -2,7 +2,7 @@
 
 import pickle
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, cast
 
 from reina.curves.extrapolation import Extrapolation
@@ -71,17 +71,22 @@ class Track:
         object.__setattr__(self, "keyframes", ordered)
 
     def __getstate__(self) -> dict[str, Any]:
-        """What is sent to another process (pickle): the keyframes in pieces.
+        """What is sent to another process (pickle): the keyframes in pieces, each as the rows of its numbers.
 
         As one, the memory of which of 100,000 have been met would be let go of in one step, in which no other
-        thread had its turn.
+        thread had its turn. Pieces that travel beside the pickle are let go of one by one.
         """
-        keyframes = [self.keyframes[at : at + PIECE] for at in range(0, len(self.keyframes), PIECE)]
-        return {**self.__dict__, "keyframes": [pickle.dumps(piece) for piece in keyframes]}
+        pieces = (self.keyframes[at : at + PIECE] for at in range(0, len(self.keyframes), PIECE))
+        return {**self.__dict__, "keyframes": [pickle.PickleBuffer(_packed(piece)) for piece in pieces]}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Take over what `__getstate__` gave in one of the server's own processes."""
-        keyframes = [keyframe for piece in state["keyframes"] for keyframe in pickle.loads(piece)]  # noqa: S301
+        pieces: list[bytes] = state.pop("keyframes")
+        keyframes: list[Keyframe[Any]] = []
+        pieces.reverse()
+        while pieces:
+            rows = cast("_Rows", pickle.loads(pieces.pop()))  # noqa: S301
+            keyframes += [kind(*row) for kind, row in rows]
         self.__dict__.update(state, keyframes=tuple(keyframes))
 
     def keyframe(self, key: str) -> Keyframe[Any]:
@@ -94,6 +99,18 @@ class Track:
             if keyframe.key == key:
                 return keyframe
         raise KeyNotFoundError("there is no such keyframe", track=self.parameter, key=key)
+
+
+_Rows = list[tuple[type[Keyframe[Any]], tuple[Any, ...]]]
+
+
+def _packed(keyframes: tuple[Keyframe[Any], ...]) -> bytes:
+    names = {kind: tuple(declared.name for declared in fields(kind)) for kind in set(map(type, keyframes))}
+    rows: _Rows = [
+        (type(keyframe), tuple([getattr(keyframe, name) for name in names[type(keyframe)]]))
+        for keyframe in keyframes
+    ]
+    return pickle.dumps(rows, protocol=5)
 
 
 @dataclass(frozen=True)

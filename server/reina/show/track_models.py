@@ -138,6 +138,7 @@ class _Made:
                 [field["name"] for field in fields[model] if field["name"] != "interpolation"],
                 strict=False,
                 config=config,
+                slots=True,
             )
             for name, (model, kind) in self._kinds.items()
         }

@@ -311,8 +311,10 @@ class SongRenderer:
         rendering.tell()
         if self._renderings.get(path) is rendering:
             del self._renderings[path]
-        if not task.cancelled() and (error := task.exception()) is not None:
-            log.error("rendering %s failed: %s", path.parent.name, error)
+        # To ask one that was cancelled takes from it where it was, which holds this and the plan.
+        with contextlib.suppress(asyncio.CancelledError):
+            if (error := task.exception()) is not None:
+                log.error("rendering %s failed: %s", path.parent.name, error)
 
     async def _render_in_turn(
         self,

@@ -57,7 +57,8 @@ def receive(file: BinaryIO, shared: Sequence[object] = ()) -> Any:
     body = file.read(length)
     if len(body) < length:
         raise EOFError("the other process is gone")
-    buffers = [_piece(file, size, readonly) for size, readonly in sizes]
+    # Each is read when its turn comes, so that what takes them over may let go of them one by one.
+    buffers = (_piece(file, size, readonly) for size, readonly in sizes)
     return _Unpickler(io.BytesIO(body), shared, buffers).load()
 
 

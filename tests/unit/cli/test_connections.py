@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import asyncio
+import gc
+import weakref
 from typing import TYPE_CHECKING, cast
 
 import pytest
+from uvicorn.server import ServerState
 
 from reina.api.http.proxies import TrustedProxies
 from reina.cli.connection_limits import ConnectionLimits
 from reina.cli.connections import Connections, Outflow
+from reina.cli.http_protocol import ProblemProtocol
+from reina.cli.server_config import Config
 
 if TYPE_CHECKING:
-    import asyncio
+    from starlette.types import Receive, Scope, Send
 
 LIMITS = ConnectionLimits(most=8, most_an_address=4, stall_s=60.0, least_bytes_a_second=1000)
 ONE, OTHER = "203.0.113.1", "203.0.113.2"
@@ -207,3 +213,21 @@ def test_limits_leave_files_for_other_things(monkeypatch: pytest.MonkeyPatch) ->
     assert ConnectionLimits.of_environment(1024).most == 768
     monkeypatch.setenv("REINA_MOST_CONNECTIONS", "100")
     assert ConnectionLimits.of_environment(1024).most == 100
+
+
+def test_a_connection_that_closed_is_let_go_of_without_the_collector() -> None:
+    """The server's collector looks through everything once in thousands of sessions."""
+
+    async def answer(scope: Scope, receive: Receive, send: Send) -> None: ...
+
+    async def scenario() -> None:
+        protocol = ProblemProtocol(Config(answer, Connections(LIMITS), log_config=None), ServerState(), {})
+        gone = weakref.ref(protocol)
+        gc.disable()
+        try:
+            del protocol
+            assert gone() is None
+        finally:
+            gc.enable()
+
+    asyncio.run(scenario())

@@ -152,6 +152,6 @@ def test_long_files_go_to_a_process_and_short_ones_do_not(
 def test_a_track_of_many_keyframes_is_sent_in_pieces(stage: Stage) -> None:
     show = Show.from_document(json.loads(large_show(14_000)), stage.registry())
     track = show.tracks[0]
-    again = pickle.loads(pickle.dumps(track))
+    again = pickle.loads(pickle.dumps(track, protocol=5))
     assert again == track
     assert len(again.keyframes) == 2000

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import gc
+from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +14,10 @@ from tests.integration.scores import duet, relay, scale, show, song
 from tests.kept import kept
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
+from reina.sessions.note_messages import NoteMessages
+from reina.sessions.production import Production
+from reina.sessions.session import Session
+from reina.sessions.song import RenderedSong
 from reina.sessions.stage import Stage
 from reina.sessions.store import Draft, SessionStore
 from reina.sessions.viewer import Viewer
@@ -24,7 +31,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Hashable, Sequence
 
     from reina.music import Score
-    from reina.sessions.session import Session
     from reina.sound.plan import PlayedParts
 
 RIGS = Path(__file__).parents[3] / "rigs"
@@ -330,5 +336,66 @@ def test_only_so_many_are_kept_at_hand(tmp_path: Path, stage: Stage) -> None:
         await desk.store.delete(session)
         assert session.heard.paths == set()
         await desk.store.aclose()
+
+    run(scenario)
+
+
+WEIGHTY = (Session, Production, NoteMessages, RenderedSong, Show, Viewer, asyncio.Task)
+
+
+def weighty() -> Counter[str]:
+    """What is in memory of sessions and of work for them; nobody looks for what could be let go of."""
+    kinds = (kind.__name__ for one in gc.get_objects() for kind in WEIGHTY if isinstance(one, kind))
+    return Counter(kinds)
+
+
+@pytest.mark.parametrize("with_song", [False, True], ids=["rendered", "searched"])
+@pytest.mark.parametrize("is_ended", [False, True], ids=["unloaded", "ended"])
+def test_a_session_that_goes_is_let_go_of_without_the_collector(
+    tmp_path: Path, stage: Stage, *, is_ended: bool, with_song: bool
+) -> None:
+    """The server's collector looks through everything once in thousands of sessions."""
+
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage, loaded=1)
+        desk.renderer.let.clear()
+
+        async def come_and_go() -> None:
+            session = await desk.create(scale(8), with_song=with_song)
+            viewer = Viewer(Page())
+            sending = asyncio.create_task(viewer.run())
+            session.join(viewer)
+            retitled = replace(session.production.show, title="Other")
+            await desk.store.change_show(session, lambda history: history.then(retitled))
+            if not with_song:
+                session.song_state(Hearing(transposition=2))
+                await until(lambda: session.song.request is not None)
+            session.leave(viewer)
+            sending.cancel()
+            await asyncio.wait([sending])
+            if is_ended:
+                await desk.store.delete(session)
+            else:
+                # What is idle gives way to the next; a search would keep it.
+                session.alignment.close()
+
+        await come_and_go()
+        await come_and_go()
+        gc.collect()
+        gc.disable()
+        try:
+            before = weighty()
+            for _ in range(3):
+                await come_and_go()
+            for _ in range(50):
+                # What was given up winds down.
+                if weighty() <= before:
+                    break
+                await asyncio.sleep(0.02)
+            assert weighty() <= before
+        finally:
+            gc.enable()
+            desk.renderer.let.set()
+            await desk.store.aclose()
 
     run(scenario)

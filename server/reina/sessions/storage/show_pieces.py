@@ -14,7 +14,6 @@ from itertools import accumulate
 from typing import TYPE_CHECKING, Any, cast
 
 from reina.show import Track
-from reina.show.show_writer import keyframe_text
 from reina.system.json_text import Written, json_text, read_json
 
 if TYPE_CHECKING:
@@ -198,8 +197,8 @@ def _cuts(written: TrackText) -> list[int]:
         return [size]
     if not isinstance(track, Track):
         return [*range(PIECE_BYTES, size, PIECE_BYTES), size]
+    texts = written.keyframes
     # The keyframes end the text: "…[a,b,c]}". A piece ends after the comma behind its last one.
-    texts = [keyframe_text(keyframe) for keyframe in track.keyframes]
     start = size - len("]}") - sum(map(len, texts)) - (len(texts) - 1)
     ends = accumulate((len(text) + 1 for text in texts), initial=start)
     next(ends)

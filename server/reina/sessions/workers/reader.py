@@ -16,10 +16,10 @@ from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
 from reina.sessions.production import Production, read_show
 from reina.sessions.score_text import packed_score
 from reina.sessions.workers.pool import WorkerPool
-from reina.show import Show, ShowError
+from reina.show import Show, ShowError, Track
 from reina.show.edits import read_edits
 from reina.show.show_reader import read_track
-from reina.show.show_writer import keyframe_text
+from reina.show.show_writer import write_with
 from reina.system.json_text import read_json
 
 if TYPE_CHECKING:
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from reina.instruments import Cast
     from reina.music import SongTimes
     from reina.sessions.stage import Stage
-    from reina.show import Track
     from reina.show.edits import Edit
     from reina.show.time_map import TimeUnit
     from reina.skeleton import HumanPose
@@ -204,10 +203,11 @@ def read_and_plan(
 
 
 def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:
-    """What `Reader.show` does; its keyframes are written too, which takes as long as reading them."""
+    """What `Reader.show` does; it is written too, which takes as long as reading it."""
     show = read_show(data, registry)
     for track in show.tracks:
-        _write(track)
+        if isinstance(track, Track):
+            write_with(track, show.time)
     return show
 
 
@@ -227,7 +227,7 @@ def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Tra
         detail = "a track has one keyframe at least, or answers events; DELETE removes it"
         raise ShowError(detail, track=parameter.path)
     track = read_track({"parameter": parameter.path, **fields}, parameter, unit)
-    _write(track)
+    write_with(track, unit)
     return track
 
 
@@ -238,8 +238,3 @@ def read_written_edits(data: bytes) -> list[Edit]:
     except ValueError as error:
         raise ShowError(f"the edits are no JSON: {error}") from error
     return read_edits(document)
-
-
-def _write(track: object) -> None:
-    for keyframe in getattr(track, "keyframes", ()):
-        keyframe_text(keyframe)
