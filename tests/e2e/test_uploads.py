@@ -72,7 +72,11 @@ def test_what_is_cancelled_while_the_server_reads_it_is_taken_back(visit: Visit)
     # The answer is held: of a request that is held nothing leaves.
     held: list[dict[str, Any]] = []
     devtools: Any = page.context.new_cdp_session(page)
-    devtools.on("Fetch.requestPaused", lambda paused: held.append(paused))
+
+    def hold(paused: dict[str, Any]) -> None:
+        held.append(paused)
+
+    devtools.on("Fetch.requestPaused", hold)
     answers = {"urlPattern": "*/api/v1/sessions", "requestStage": "Response"}
     devtools.send("Fetch.enable", {"patterns": [answers]})
     opened.choose_files(*LONG)

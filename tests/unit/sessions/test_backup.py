@@ -32,7 +32,7 @@ class DataDirectory:
         folder.mkdir()
         with self.database() as database:
             database.execute("PRAGMA journal_mode=WAL")
-            database.execute("CREATE TABLE sessions (id INTEGER PRIMARY KEY, file TEXT, text TEXT)")
+            database.execute("CREATE TABLE session_files (id INTEGER PRIMARY KEY, digest TEXT, text TEXT)")
 
     @contextlib.contextmanager
     def database(self) -> Generator[sqlite3.Connection]:
@@ -47,19 +47,23 @@ class DataDirectory:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
         with self.database() as database:
-            database.execute("INSERT INTO sessions VALUES (?, ?, ?)", (number, digest, "é" * number))
+            database.execute("INSERT INTO session_files VALUES (?, ?, ?)", (number, digest, "é" * number))
         return digest
 
     def end(self, number: int) -> None:
         """End a session, and remove its file afterwards."""
         with self.database() as database:
-            [(digest,)] = database.execute("SELECT file FROM sessions WHERE id = ?", (number,)).fetchall()
-            database.execute("DELETE FROM sessions WHERE id = ?", (number,))
+            [(digest,)] = database.execute(
+                "SELECT digest FROM session_files WHERE id = ?", (number,)
+            ).fetchall()
+            database.execute("DELETE FROM session_files WHERE id = ?", (number,))
         (self.folder / "files" / digest[:2] / digest).unlink()
 
     def sessions(self) -> dict[int, tuple[str, str]]:
         with self.database() as database:
-            return {number: (file, text) for number, file, text in database.execute("SELECT * FROM sessions")}
+            return {
+                number: (file, text) for number, file, text in database.execute("SELECT * FROM session_files")
+            }
 
     def file(self, digest: str) -> bytes:
         return (self.folder / "files" / digest[:2] / digest).read_bytes()

@@ -205,7 +205,7 @@ class ValvedBrass(Instrument):
                 )
             ]
             primaries = [of_note[0] for of_note in choices]
-            onsets = onset_s[span]
+            onsets, names = onset_s[span], written_names[span]
             for index, choice in enumerate(taken):
                 note = begin + index
                 valves[note, [valve - 1 for valve in choice.valves]] = True
@@ -213,7 +213,7 @@ class ValvedBrass(Instrument):
                 primary[note] = choice.rank == 0
                 cents[note] = choice.cents
                 slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
-                reasons[note] = why(index, taken, primaries, written_names[span], onsets)
+                reasons[note] = why(index, taken, primaries, names, onsets)
             begin = end
         return BrassFingering(
             notes=tuple(notes),

@@ -61,8 +61,9 @@ def back_up(data_dir: Path, to: IO[bytes]) -> BackedUp:
     """Write what a data directory keeps as a tar file, in one go from its beginning to its end.
 
     First every file is given a second name, so that none that the database names goes before it is written;
-    then the database is copied as it is at one moment, and what came in between is named too. So the copy has
-    every file that its database speaks of.
+    then the database is copied as it is at one moment, and what came in between is named too. It is copied
+    again where it speaks of a file that came and went in between. So the copy has every file that its
+    database speaks of, but for those that are lost or kept elsewhere.
 
     Args:
         data_dir: A server may be at work on it.
@@ -115,12 +116,31 @@ def _still(data_dir: Path) -> Generator[Path]:
         for folder in FOLDERS:
             _name_again(data_dir / folder, still / folder)
         if (data_dir / DATABASE).is_file():
-            _copy_database(data_dir / DATABASE, still / DATABASE)
-            for folder in FOLDERS:
-                _name_again(data_dir / folder, still / folder)
+            before: set[str] | None = None
+            while before != (missing := _copied(data_dir, still)):
+                # Sessions that came and went meanwhile are in no further copy; what is missing from two is
+                # lost, or kept elsewhere.
+                if not missing:
+                    break
+                before = missing
         yield still
     finally:
         shutil.rmtree(still, ignore_errors=True)
+
+
+def _copied(data_dir: Path, still: Path) -> set[str]:
+    """Copy the database, then name what came until then; returns digests that it names and are not there."""
+    copy = still / DATABASE
+    copy.unlink(missing_ok=True)
+    _copy_database(data_dir / DATABASE, copy)
+    for folder in FOLDERS:
+        _name_again(data_dir / folder, still / folder)
+    with contextlib.closing(sqlite3.connect(copy)) as database:
+        try:
+            named = {str(digest) for (digest,) in database.execute("SELECT digest FROM session_files")}
+        except sqlite3.OperationalError:  # no server has made its tables yet
+            return set()
+    return {digest for digest in named if not (still / "files" / digest[:2] / digest).is_file()}
 
 
 def _name_again(folder: Path, beside: Path) -> None:
