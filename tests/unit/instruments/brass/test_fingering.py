@@ -1,6 +1,7 @@
 """Fingering over phrases."""
 
 import itertools
+from typing import Any, SupportsIndex
 
 import numpy as np
 import pytest
@@ -240,3 +241,23 @@ def test_every_playable_note_is_played_with_a_fingering_of_its_chart(notes: list
             assert played.fingering.primary[note] == (tuple(down) == entry.primary)
         else:
             assert down is None
+
+
+class CountedNames(list[str]):
+    """Counts how often some of them are copied."""
+
+    copies = 0
+
+    def __getitem__(self, index: SupportsIndex | slice) -> Any:
+        if isinstance(index, slice):
+            self.copies += 1
+            return super().__getitem__(index)
+        return super().__getitem__(index)
+
+
+def test_of_a_long_phrase_no_note_costs_the_phrase():
+    line = play(melody([60 + at % 20 for at in range(300)], interval_s=0.1)).line
+    names = CountedNames("C" for _ in range(len(line)))
+    TRUMPET.finger(line, names)
+    assert len(set(line.phrase.tolist())) == 1
+    assert names.copies == 1
