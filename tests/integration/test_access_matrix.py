@@ -14,6 +14,7 @@ import httpx
 import pytest
 from tests.integration.scores import scale, song
 from tests.integration.server import Owned, serve, upload
+from tests.integration.test_every_route import FILLED
 
 from reina.api.app import create_app
 
@@ -27,16 +28,6 @@ SESSION = f"{API}/sessions/{{session_id}}"
 READING = frozenset({"get", "head"})
 PERSON, OTHER = "ada", "bob"
 USER, PROXY = "X-Forwarded-User", "127.0.0.1"
-FILLED = {
-    "name": "trumpet",
-    "file": "rig.json",
-    "folder": "scores",
-    "path": "camera/fov",
-    "key": "k1",
-    "rendering": "0123456789abcdef",
-    "transcription_id": "0123456789abcdef",
-    "number": "0",
-}
 QUERY = {"start_s": "0", "end_s": "0.1", "parameter": "camera/fov"}
 
 Rule = Literal["open", "watch", "control", "upload"]

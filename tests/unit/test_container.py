@@ -80,10 +80,7 @@ def test_it_runs_as_nobody_in_particular_and_asks_for_its_health() -> None:
 def compose_config(*files: str, **variables: str) -> dict[str, Any]:
     """What Docker Compose makes of compose files, with these variables alone set."""
     command = find_compose()
-    if command is None:
-        pytest.skip(
-            "there is neither `docker compose` nor `docker-compose`; `make test` brings one on Debian"
-        )
+    assert command, "there is neither `docker compose` nor `docker-compose`; `make .venv/.servers` brings one"
     named = [word for file in files for word in ("-f", file)]
     kept = {name: value for name, value in os.environ.items() if not name.startswith("REINA_")}
     said = subprocess.run(

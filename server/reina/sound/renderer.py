@@ -274,7 +274,7 @@ class SongRenderer:
             before = rendering.task if rendering else None
             rendering = self._renderings[path] = _Rendering(segments)
             rendering.task = asyncio.create_task(
-                self._render_in_turn(rendering, plan, heard, soundfont, path, before, owner)
+                self._render(rendering, plan, heard, soundfont, path, before, owner)
             )
             self._tasks.add(rendering.task)
             rendering.task.add_done_callback(functools.partial(self._ended, path, rendering))
@@ -316,19 +316,6 @@ class SongRenderer:
             if (error := task.exception()) is not None:
                 log.error("rendering %s failed: %s", path.parent.name, error)
 
-    async def _render_in_turn(
-        self,
-        rendering: _Rendering,
-        plan: SoundPlan,
-        heard: NDArray[np.bool_],
-        soundfont: Path,
-        path: Path,
-        before: asyncio.Task[None] | None,
-        owner: Hashable,
-    ) -> None:
-        with in_queue("renderings"):
-            await self._render(rendering, plan, heard, soundfont, path, before, owner)
-
     async def _render(
         self,
         rendering: _Rendering,
@@ -339,24 +326,25 @@ class SongRenderer:
         before: asyncio.Task[None] | None,
         owner: Hashable,
     ) -> None:
-        if before is not None:
-            # One that was given up still has the folder.
-            await asyncio.wait([before])
-        length_s = plan.duration_s
-        long = self._long_turns.of(owner, length_s) if length_s > LONG_S else nullcontext()
-        needed = most_bytes_of(rendering.frames)
-        async with long, self._turns.of(owner, length_s), self.cache.room(needed):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            try:
-                async with asyncio.timeout(self._timeout_s):
-                    await self._run(rendering, plan, heard, soundfont, path)
-            except TimeoutError as error:
-                took = f"took over {self._timeout_s:.0f} s"
-                raise SoundError(
-                    f"rendering {plan.duration_s:.0f} s of sound {took} and was stopped"
-                ) from error
-            finally:
-                _remove_unfinished(path)
+        with in_queue("renderings"):
+            if before is not None:
+                # One that was given up still has the folder.
+                await asyncio.wait([before])
+            length_s = plan.duration_s
+            long = self._long_turns.of(owner, length_s) if length_s > LONG_S else nullcontext()
+            needed = most_bytes_of(rendering.frames)
+            async with long, self._turns.of(owner, length_s), self.cache.room(needed):
+                path.parent.mkdir(parents=True, exist_ok=True)
+                try:
+                    async with asyncio.timeout(self._timeout_s):
+                        await self._run(rendering, plan, heard, soundfont, path)
+                except TimeoutError as error:
+                    took = f"took over {self._timeout_s:.0f} s"
+                    raise SoundError(
+                        f"rendering {plan.duration_s:.0f} s of sound {took} and was stopped"
+                    ) from error
+                finally:
+                    _remove_unfinished(path)
 
     async def _run(
         self, rendering: _Rendering, plan: SoundPlan, heard: NDArray[np.bool_], soundfont: Path, path: Path
