@@ -16,7 +16,7 @@ MEGABYTE = 1_000_000
 MEMORY_BYTES = 1000 * MEGABYTE
 """How many bytes the sessions in memory may weigh together, by `Session.weight`."""
 IDLE_BYTES = 150 * MEGABYTE
-"""How many of these the idle ones may have: they are loaded again when somebody comes, which takes a moment."""
+"""How many of these the idle ones may have: one is loaded again when somebody comes."""
 RETRY_S = 10
 """When to ask again: somebody may have stopped watching by then."""
 
