@@ -27,6 +27,7 @@ class Skeleton:
     rig: str = "trumpeter"
     joints: tuple[str, ...] = ("hips", "spine", "head")
     player: int = 0
+    reaches: tuple[float, ...] = (1.0, 0.5, 0.2)
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,8 @@ class Parameter:
     type: str = "number"
     length: int = 1
     blend: bool = True
+    minimum: float | None = None
+    maximum: float | None = None
 
 
 @dataclass(frozen=True)
