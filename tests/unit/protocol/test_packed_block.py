@@ -87,9 +87,7 @@ def test_no_rotation_is_off_by_a_hundredth_of_a_degree(values: NDArray[np.float6
     floats=arrays(np.float32, (60, 7), elements=st.floats(width=32, allow_nan=False)),
     values=arrays(np.float64, (60, 3, 4), elements=st.floats(-1, 1, width=32)),
 )
-def test_the_lossless_form_is_bit_for_bit(
-    floats: NDArray[np.float32], values: NDArray[np.float64]
-) -> None:
+def test_the_lossless_form_is_bit_for_bit(floats: NDArray[np.float32], values: NDArray[np.float64]) -> None:
     frames, manifest = turning(values), manifest_of(LAYOUT)
     frames["parameters"] = floats
     found = unpack(manifest, pack(manifest, frames, Steps.exact(manifest), revision=1))
