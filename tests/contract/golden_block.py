@@ -1,6 +1,6 @@
 """The golden block, packed and lossless, and the frames that a reader makes of each.
 
-`python -m tests.contract.golden_block` writes tests/golden/block_v1_packed.bin, block_v1_lossless.bin, and the
+`python -m tests.contract.golden_block` writes tests/golden/block_v1_packed.bin, block_v1_lossless.bin and the
 frames of each (…_frames.bin) anew; a difference means that every reader has to change: another version.
 """
 
@@ -33,7 +33,7 @@ def steps(form: str) -> Steps:
 
 
 def block_frames() -> Frames:
-    """A joint that rests, one that turns, one that turns over, one of negative sign, and one that trembles."""
+    """Joints that rest, turn, turn over, are of negative sign, and tremble."""
     frames = np.zeros(60, frame_dtype(manifest()))
     number = np.arange(60)
     frames["version"] = 1

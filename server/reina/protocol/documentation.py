@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, get_args
 from reina.protocol import messages, notes, transport
 from reina.protocol.alignment import AlignmentState
 from reina.protocol.frame import ALIGNMENT, HEADER, FrameFlag, fields_of
-from reina.protocol.packed_block import EXACT, MAGIC, NEGATIVE, PACKED_VERSION, QUARTERS, WHOLE
-from reina.protocol.packed_block import HEADER as PACKED_HEADER
 from reina.protocol.manifest import (
     PROTOCOL_VERSION,
     SUBPROTOCOL,
@@ -17,6 +15,8 @@ from reina.protocol.manifest import (
     ParameterManifest,
     SkeletonManifest,
 )
+from reina.protocol.packed_block import EXACT, MAGIC, NEGATIVE, PACKED_VERSION, QUARTERS, WHOLE
+from reina.protocol.packed_block import HEADER as PACKED_HEADER
 from reina.protocol.typescript import field_types
 
 if TYPE_CHECKING:
@@ -94,11 +94,11 @@ _PACKED = f"""
 
 Frames 60·b … 60·b + 59 are block b: a pure function of score, cast and show, all of which `blocks.revision`
 stands for. `?packed=1` has blocks sent in place of frames, the present one first, each about two seconds
-before its first frame is due; the viewer works out from `transport` which frame is due when. What a pause, a
-seek or a loop needs of blocks that were sent in the same epoch is not sent again. Any block can be had from
-`{{blocks.href}}/{{b}}` too, which answers with what may be kept for good, and with 410 and the present revision
-where that is another; where `blocks.pushed` is false all of them are to be had there alone. `?packed=lossless`
-and `?form=lossless` give them bit for bit, at seven times the length.
+before its first frame is due; the viewer works out from `transport` which frame is due when. What a loop
+comes back to is not sent again. Any block can be had from `{{blocks.href}}/{{b}}` too, for any cache to keep,
+and where the revision is another meanwhile that answers 410 and the present one; where `blocks.pushed` is
+false all of them are to be had there alone. `?packed=lossless` and `?form=lossless` give them bit for bit, at
+seven times the length.
 
 Little-endian. The header:
 
@@ -106,20 +106,25 @@ Little-endian. The header:
 | --- | --- | --- |
 %PACKED_FIELDS%
 
-The rest is compressed by zlib (RFC 1950). Decompressed, for J joints, S skeletons and P floats of parameters, in
-this order; a column is one float of the frames, of C = 4·J + 3·S + P:
+The rest is compressed by zlib (RFC 1950). Decompressed, for J joints, S skeletons and P floats of parameters,
+in this order; a column is one float of the frames, of C = 4·J + 3·S + P:
 
 | bytes | |
 | --- | --- |
-| J | of each joint the component of its quaternion (0 … 3) that is left out, and {NEGATIVE} more where it is negative: its column is 0, and it is ±√(1 − x² − …) of the others; {WHOLE} where none is, and all four are normalised, unless they are exact |
-| J + 3·S + P | the fineness of each joint (for its four columns), of each float of the roots' positions, of each float of the parameters: a whole number n stands for n·2^(−fineness/{QUARTERS}), or, where it is {EXACT}, n's 32 bits are the float itself |
+| J | of each joint the component of its quaternion (0 … 3) that is left out, and {NEGATIVE} more where it is \
+negative: its column is 0, and it is ±√(1 − x² − …) of the others; {WHOLE} where none is, and all four are \
+normalised, unless they are exact |
+| J + 3·S + P | the fineness of each joint (for its four columns), of each float of the roots' positions, of \
+each float of the parameters: a whole number n stands for n·2^(−fineness/{QUARTERS}), or, where it is {EXACT}, \
+n's 32 bits are the float itself |
 | C | the order of each column: 0, it does not move; 1, its differences follow; 2, the differences of these |
 | 4·C | each column's first number: the lowest bytes of all, then the next, to the highest |
 | 1 | how many planes follow |
-| planes·59·M | of each of the M columns that move its 59 differences: the lowest bytes of all, then the next |
+| planes·59·M | of each of the M columns that move its 59 differences: the lowest bytes of all, then the \
+next |
 
-Whole numbers have 32 bits, differences are modulo 2^32, and both are written zigzag: 0, −1, 1, −2 … are 0, 1, 2,
-3 …. The first difference of the second order is that of the first.
+Whole numbers have 32 bits, differences are modulo 2^32, and both are written zigzag: 0, −1, 1, −2 … are
+0, 1, 2, 3 …. The first difference of the second order is that of the first.
 """
 
 _EXAMPLE = """

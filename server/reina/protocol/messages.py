@@ -56,11 +56,11 @@ class FrameBlocks(WireModel):
     """The frames, packed: 60 to a block, which never changes."""
 
     revision: str
-    """Which state of score, cast and show they are of: 16 hexadecimal digits. A block's header has it too."""
+    """Which state of score, cast and show they are of: 16 hexadecimal digits; a block's header has it."""
     href: str
-    """Block n stands at `{href}/{n}`, for any cache to keep; of another origin, where the server has one for it."""
+    """Block n stands at `{href}/{n}`, for any cache to keep; at another origin where there is one for it."""
     pushed: bool
-    """Whether those who ask the stream for packed blocks are sent them; else they fetch them ahead of time."""
+    """Whether those who ask the stream for packed blocks get them; else they fetch them ahead of time."""
 
 
 class Hello(Manifest):

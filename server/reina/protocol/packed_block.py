@@ -2,9 +2,9 @@
 
 What is between a block's header and its end is compressed by zlib. Before that every float of a frame is a
 column of whole numbers, one a frame: in steps of 2^(-fineness/4), or, where its fineness is `EXACT`, the
-float's own bits. A column is written as its first number and the differences to the numbers after it, of the first or
-the second order, whichever is smaller, modulo 2^32, zigzag, in byte planes. A quaternion whose greatest
-component stays great through the block goes without it: it follows from the other three.
+float's own bits. A column is written as its first number and the differences that follow, of the first or the
+second order, whichever is smaller, modulo 2^32, zigzag, in byte planes. A quaternion whose greatest component
+stays great through the block goes without it: it follows from the other three.
 
 docs/protocol.md has the layout byte by byte; `web/src/connection/packed-block.ts` reads it too.
 """
@@ -52,16 +52,16 @@ of, a bit for each frame that is a cut, and the bytes of a frame of its manifest
 MAGIC = b"RB"
 
 _LEAST_GREATEST = 0.6
-"""A component may be left out where it never is less: what the others are rounded by, it is off by no more."""
+"""A component may be left out where it never is less: its own error is hardly greater than theirs."""
 _GREATEST_STEPS = 2.0**30
 """Numbers of more steps are kept bit for bit."""
 
 QUARTERS = 4
 """Finenesses to an octave: a step is 2^(-fineness/4)."""
 ROTATION = 55
-"""The least fineness of a joint's quaternion: half a step in each of three components is less than 0.0084°."""
+"""The least fineness of a joint's quaternion: half a step in each of three is 0.0083°."""
 TIP_ERROR_M = 32e-6
-"""How far a joint's rounding may move what hangs farthest from it, metres; a fingertip has a dozen above it."""
+"""How far a joint's rounding may move what hangs farthest from it, metres; a dozen are above a tip."""
 ROUNDED_RAD = np.sqrt(3.0)
 """How far a quaternion turns at most, in steps, whose components are off by half a step each: 2·√3/2."""
 ROOT = 64
@@ -305,11 +305,11 @@ def _read(body: NDArray[np.uint8], columns: int) -> NDArray[np.int32]:
     first = _unzigzag(_of_planes(body[columns : 5 * columns].reshape(4, columns)))
     used, rest = int(body[5 * columns]), body[5 * columns + 1 :]
     moves = np.flatnonzero(orders)
-    if used > 4 or len(rest) != used * len(moves) * (FRAMES - 1):  # noqa: PLR2004
+    if used > 4 or len(rest) != used * len(moves) * (FRAMES - 1):
         raise FrameError("a packed block is not as long as its columns")
     planes = rest.reshape(used, len(moves) * (FRAMES - 1))
     following = _unzigzag(_of_planes(planes)).reshape(len(moves), FRAMES - 1)
-    twice = orders[moves] == 2  # noqa: PLR2004
+    twice = orders[moves] == 2
     following[twice] = np.cumsum(following[twice], axis=1, dtype=np.int32)
     numbers = np.repeat(first[:, None], FRAMES, axis=1)
     numbers[moves, 1:] = first[moves, None] + np.cumsum(following, axis=1, dtype=np.int32)
