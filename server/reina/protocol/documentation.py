@@ -112,8 +112,8 @@ in this order; a column is one float of the frames, of C = 4·J + 3·S + P:
 | bytes | |
 | --- | --- |
 | J | of each joint the component of its quaternion (0 … 3) that is left out, and {NEGATIVE} more where it \
-is negative: its column is 0, and it is ±√(1 − x² − …) of the others; {WHOLE} where none is, and all four are \
-normalised, unless they are exact |
+is negative: its column is 0, and it is ±√(1 − x² − …) of the others; {WHOLE} where none is, and all four \
+are normalised, unless they are exact |
 | J + 3·S + P | the fineness of each joint (for its four columns), of each float of the roots' positions, of \
 each float of the parameters: a whole number n stands for n·2^(−fineness/{QUARTERS}), or, where it is \
 {EXACT}, n's 32 bits are the float itself |
