@@ -1,7 +1,6 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { FrameReader, HEADER_SIZE, type Manifest } from "../generated/protocol";
-import { FrameQueue } from "./frame-queue";
+import { FrameReader, type Manifest } from "../generated/protocol";
 
 /** One frame as the golden file tells it beside its bytes. */
 interface GoldenFrame {
@@ -42,25 +41,5 @@ describe("the golden message", () => {
         expect([...(frame.parameters[place] ?? [])]).toEqual(expected.parameters[path]);
       });
     });
-  });
-
-  it("comes out of the queue bit for bit, behind the header", () => {
-    frames.forEach((expected, number) => {
-      const queue = new FrameQueue(manifest, expected.epoch);
-      const start = number * manifest.frame_size;
-      queue.push(message.slice(start, start + manifest.frame_size));
-      const drawn = queue.frameAt(expected.due_time_s);
-      expect(drawn).toMatchObject({ index: expected.index, songTime: expected.song_time_s, epoch: expected.epoch });
-      expect(drawn?.playing).toBe((expected.flags & 1) !== 0);
-      const floats = new Float32Array(message, start + HEADER_SIZE, (manifest.frame_size - HEADER_SIZE) / 4);
-      expect([...(drawn?.floats ?? [])]).toEqual([...floats]);
-    });
-  });
-
-  it("ends one epoch and begins the next past 255", () => {
-    const queue = new FrameQueue(manifest, 255);
-    expect(queue.push(message)).toBe(3);
-    expect(queue.epoch).toBe(0);
-    expect(queue.length).toBe(2);
   });
 });

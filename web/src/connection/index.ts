@@ -1,6 +1,6 @@
+export { BlockFeed } from "./block-feed";
+export { type PlayedFrame } from "./block-player";
 export { ClockSync } from "./clock-sync";
-export { FrameQueue, type QueuedFrame } from "./frame-queue";
-export { LeadControl } from "./lead-control";
 export { GivenUpError, ProblemError } from "./problem";
 export { QuietProbes } from "./quiet-probes";
 export { ReinaApi, type SessionFiles } from "./rest";

@@ -40,7 +40,7 @@ let sockets: HeldSocket[];
 let now: number;
 
 function open(listener: Partial<StreamListener> = {}): Stream {
-  const silent: StreamListener = { message: () => undefined, frames: () => undefined, connection: () => undefined };
+  const silent: StreamListener = { message: () => undefined, block: () => undefined, connection: () => undefined };
   return new Stream(
     "ws://page/api/v1/sessions/s/stream",
     { ...silent, ...listener },
@@ -81,19 +81,17 @@ afterEach(() => {
 describe("streamAddress", () => {
   it("is the link on the page's host, over WebSocket, secure where the page is", () => {
     vi.stubGlobal("location", { href: "https://band.room/s/1" });
-    expect(streamAddress("/api/v1/sessions/1/stream")).toBe(
-      "wss://band.room/api/v1/sessions/1/stream?frames_per_message=3",
-    );
+    expect(streamAddress("/api/v1/sessions/1/stream")).toBe("wss://band.room/api/v1/sessions/1/stream?packed=1");
     vi.stubGlobal("location", { href: "http://localhost:8000/" });
     expect(streamAddress("/api/v1/sessions/1/stream")).toMatch(/^ws:\/\/localhost:8000\//);
   });
 });
 
 describe("Stream", () => {
-  it("speaks the subprotocol and hands messages and frames on", () => {
+  it("speaks the subprotocol and hands messages and blocks on", () => {
     const messages: string[] = [];
-    const frames: number[] = [];
-    open({ message: (message) => messages.push(message.type), frames: (bytes) => frames.push(bytes.byteLength) });
+    const blocks: number[] = [];
+    open({ message: (message) => messages.push(message.type), block: (bytes) => blocks.push(bytes.byteLength) });
     const socket = socketAt(0);
     expect(socket.protocol).toBe("reina.v1");
     expect(socket.binaryType).toBe("arraybuffer");
@@ -102,7 +100,7 @@ describe("Stream", () => {
     socket.receive({ type: "song_ready" });
     socket.receive(new ArrayBuffer(96));
     expect(messages).toEqual(["hello", "song_ready"]);
-    expect(frames).toEqual([96]);
+    expect(blocks).toEqual([96]);
   });
 
   it("measures the server's clock with pings in pairs", () => {

@@ -5,8 +5,8 @@ import { ClockSync } from "./clock-sync";
 export interface StreamListener {
   /** Any control message but `pong`, `hello` included. */
   message(message: ServerMessage): void;
-  /** A binary message: whole frames. */
-  frames(message: ArrayBuffer): void;
+  /** A binary message: a packed block. */
+  block(message: ArrayBuffer): void;
   /** The connection came up or went down; `retryIn` seconds until the next try, null where there is none. */
   connection(state: StreamState, retryIn: number | null): void;
 }
@@ -21,7 +21,6 @@ export interface StreamWorld {
   random(): number;
 }
 
-const FRAMES_PER_MESSAGE = 3;
 const FIRST_RETRY_S = 0.25;
 const LAST_RETRY_S = 5;
 /** Pairs of probes right after connecting, then one pair every few seconds. */
@@ -53,7 +52,7 @@ const browserWorld: StreamWorld = {
 export function streamAddress(href: string): string {
   const address = new URL(href, location.href);
   address.protocol = address.protocol.replace("http", "ws");
-  address.searchParams.set("frames_per_message", String(FRAMES_PER_MESSAGE));
+  address.searchParams.set("packed", "1");
   return address.href;
 }
 
@@ -178,7 +177,7 @@ export class Stream {
   #receive(data: string | ArrayBuffer): void {
     this.#heardAt = this.#world.now();
     if (typeof data !== "string") {
-      this.#listener.frames(data);
+      this.#listener.block(data);
       return;
     }
     const message = JSON.parse(data) as ServerMessage;

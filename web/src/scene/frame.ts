@@ -11,6 +11,8 @@ export interface DrawnFrame {
   readonly songTime: number;
   readonly index: number;
   readonly epoch: number;
+  /** Which state of score, cast and show it is of. */
+  readonly revision?: string;
   readonly playing: boolean;
   /** How many frames that are cuts were come to so far; the difference from picture to picture counts. */
   readonly cuts?: number;

@@ -77,6 +77,7 @@ export class Stage {
   #pictures = 0;
   readonly #drawnFrom = new Vector3();
   #epoch = -1;
+  #revision: string | undefined;
   #songTime = 0;
   /** Something else than the frame changed the picture. */
   #changed = true;
@@ -225,8 +226,9 @@ export class Stage {
   draw(frame: DrawnFrame): void {
     const { floats } = frame;
     const same = frame.index === this.#drawnIndex && frame.epoch === this.#epoch && frame.songTime === this.#songTime;
-    if (same && !this.#changed) return;
+    if (same && frame.revision === this.#revision && !this.#changed) return;
     this.#epoch = frame.epoch;
+    this.#revision = frame.revision;
     this.#songTime = frame.songTime;
     for (const model of this.#models) model.pose(floats);
     this.#show.apply(floats, frame.songTime);

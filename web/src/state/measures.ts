@@ -16,7 +16,7 @@ export interface PageMeasures {
   /** A picture of the open session has been drawn. */
   readonly drawn: boolean;
   readonly session: string | null;
-  /** Index and epoch (modulo 256) of the frame that was drawn last; a blend counts as the earlier of its two. */
+  /** Index and epoch of the frame that was drawn last; a blend counts as the earlier of its two. */
   readonly drawnIndex: number;
   readonly drawnEpoch: number;
   readonly songTime: number;
@@ -45,8 +45,8 @@ export interface PageMeasures {
   readonly soundAhead: number | null;
   /** The song time that is heard, seconds; null while none is. */
   readonly heard: number | null;
-  /** How long before they are due frames are asked for, seconds. */
-  readonly lead: number;
+  /** For how long the picture goes on with what is here, seconds, up to 2.5. */
+  readonly ahead: number;
   /** Pictures drawn since the page was opened, and the draw calls of the last. */
   readonly pictures: number;
   readonly drawCalls: number;
@@ -134,8 +134,8 @@ export function publishMeasures({ stage, view, drawn }: Measures): () => void {
     get heard() {
       return view()?.heard ?? null;
     },
-    get lead() {
-      return view()?.lead ?? 0;
+    get ahead() {
+      return view()?.ahead ?? 0;
     },
     get pictures() {
       return stage.pictures;

@@ -1,14 +1,13 @@
 import {
+  BlockFeed,
   type ClockSync,
-  FrameQueue,
-  LeadControl,
+  type PlayedFrame,
   ProblemError,
   QuietProbes,
   countInAt,
   songTimeAt,
   Stream,
   streamAddress,
-  type QueuedFrame,
   type ReinaApi,
   type StreamState,
 } from "../connection";
@@ -42,8 +41,8 @@ import { watchWakes } from "./wakes";
 import { told } from "../words/told/en";
 
 const CHECK_INTERVAL_MS = 100;
-/** Frames carry an epoch modulo this. */
-const EPOCHS = 256;
+/** A block of some kilobytes that has not come by then does not come. */
+const BLOCK_MS = 3000;
 /** The last frame of a song stands up to this much before its end. */
 const END_TOLERANCE_S = 0.025;
 
@@ -124,12 +123,13 @@ export class SessionView {
   readonly #checking: ReturnType<typeof setInterval>;
   readonly #unwatch: () => void;
   readonly #probes: QuietProbes;
-  readonly #lead = new LeadControl();
   readonly #refresh = new Refresh();
   /** The picture that was drawn last, until it is seen: its song time, epoch and when it was drawn. */
   #coming = { songTime: 0, epoch: -1, drawnAt: 0 };
   readonly #ended = new AbortController();
-  #queue: FrameQueue | null = null;
+  #feed: BlockFeed | null = null;
+  /** The transport says of every moment what it said on a clock that was known. */
+  #goesOn = false;
   #followed: TransportState | null = null;
   #readings = 0;
   /** The clock's epoch when the score was read, until the stream has greeted; null where it was lost since. */
@@ -210,7 +210,7 @@ export class SessionView {
     });
     this.#stream = new Stream(streamAddress(session.links.stream), {
       message: (message) => this.#receive(message),
-      frames: (bytes) => this.#takeFrames(bytes),
+      block: (bytes) => void this.#feed?.take(bytes),
       connection: (state) => this.#connected(state),
     });
     this.#probes = new QuietProbes(this.#stream.clock, (number) => surroundings.api.clockProbe(number));
@@ -232,15 +232,15 @@ export class SessionView {
    *
    * @param turn the turn's time as requestAnimationFrame gives it, seconds
    */
-  frameAt(turn: number): QueuedFrame | null {
+  frameAt(turn: number): PlayedFrame | null {
     this.#measureSync(turn);
     const seenAt = this.#refresh.seenAt(turn, performance.now() / 1000);
-    // What another clock's frames are due at says nothing on the one before; the picture stands until it is known.
-    if (!this.#stream.clock.ready) return null;
-    const frame = this.#queue?.frameAt(this.#stream.clock.serverTime(seenAt)) ?? null;
+    if (!this.#timeKnown) return null;
+    const serverTime = this.#stream.clock.serverTime(seenAt);
+    const frame = this.#feed?.frameAt(this.transport, serverTime, this.duration) ?? null;
     if (frame === null) return null;
     if (frame.songTime !== this.songTime) this.songTime = frame.songTime;
-    const runs = frame.playing && frame.epoch === this.transport.epoch % EPOCHS;
+    const runs = frame.playing && frame.epoch === this.transport.epoch;
     this.#coming = { songTime: frame.songTime, epoch: runs ? frame.epoch : -1, drawnAt: turn };
     return frame;
   }
@@ -248,7 +248,7 @@ export class SessionView {
   /** What was drawn in the turn before is seen now: compare it with what is heard. */
   #measureSync(turn: number): void {
     const { songTime, epoch, drawnAt } = this.#coming;
-    if (epoch !== this.transport.epoch % EPOCHS) return;
+    if (epoch !== this.transport.epoch) return;
     const ahead = this.#player.heardAhead(songTime, turn);
     if (ahead !== null) this.sync.add(-ahead / this.transport.rate, turn - drawnAt);
   }
@@ -274,14 +274,14 @@ export class SessionView {
     return this.#player.heardSongTime();
   }
 
-  /** How long before they are due frames are asked for, seconds. */
-  get lead(): number {
-    return this.#lead.lead;
+  /** For how long the picture goes on with what is here, seconds, up to 2.5. */
+  get ahead(): number {
+    return this.#feed?.ahead(this.transport, this.#stream.serverNow(), this.duration) ?? 0;
   }
 
   /** The picture that was drawn last; null before the first. Read, never kept. */
-  get drawn(): Readonly<QueuedFrame> | null {
-    return this.#queue?.drawn ?? null;
+  get drawn(): Readonly<PlayedFrame> | null {
+    return this.#feed?.drawn ?? null;
   }
 
   /** The server's clock as it is known here. */
@@ -458,6 +458,7 @@ export class SessionView {
     this.#probes.close();
     this.#ended.abort();
     this.#song.close();
+    this.#feed?.close();
     this.#stream.close();
     await this.#player.close();
   }
@@ -500,8 +501,7 @@ export class SessionView {
   #receive(message: ServerMessage): void {
     switch (message.type) {
       case "hello":
-        this.#queue = new FrameQueue(message, message.transport.epoch);
-        this.#lead.begin(message.transport.server_time_s);
+        this.#feedFrom(message);
         this.hello = message;
         this.duration = message.duration_s;
         this.#takeGreeting(message.transport.epoch);
@@ -511,6 +511,9 @@ export class SessionView {
         break;
       case "transport":
         this.#setTransport(message);
+        break;
+      case "blocks_changed":
+        this.#feed?.follow(message);
         break;
       case "score_changed":
         this.duration = message.duration_s;
@@ -536,58 +539,60 @@ export class SessionView {
     }
   }
 
-  /** Frames that do not fit what `hello` said are dropped; saying so once is enough. */
-  #takeFrames(bytes: ArrayBuffer): void {
-    try {
-      this.#queue?.push(bytes);
-      this.#followNetwork();
-      if (this.transport.playing && this.#pictured) this.#player.pictureCame();
-    } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      this.#surroundings.tell(
-        new ProblemError({
-          status: 0,
-          title: told.unlikeServer,
-          detail: told.reload({ fault: error.message }),
-          errors: [],
-        }),
-      );
-      this.#queue = null;
+  /** Go on with the blocks that are here, where those of a `hello` are laid out like them. */
+  #feedFrom(hello: Hello): void {
+    if (this.#feed?.fits(hello) === true) {
+      this.#feed.follow(hello.blocks);
+      return;
     }
+    this.#feed?.close();
+    const feed = new BlockFeed(hello, {
+      now: () => performance.now() / 1000,
+      get: (href, signal) => this.#getBlock(href, signal),
+      came: () => {
+        if (this.transport.playing && this.#pictured) this.#player.pictureCame();
+      },
+      unlike: (fault) => {
+        if (this.#feed === feed) this.#refuseFeed(fault);
+      },
+    });
+    this.#feed = feed;
+  }
+
+  async #getBlock(href: string, signal: AbortSignal): Promise<ArrayBuffer> {
+    const either = AbortSignal.any([signal, AbortSignal.timeout(BLOCK_MS)]);
+    const response = await this.#surroundings.api.request("GET", href, { signal: either, again: false });
+    return await response.arrayBuffer();
+  }
+
+  /** Blocks that do not fit what `hello` said are dropped; saying so once is enough. */
+  #refuseFeed(fault: RangeError): void {
+    this.#surroundings.tell(
+      new ProblemError({
+        status: 0,
+        title: told.unlikeServer,
+        detail: told.reload({ fault: fault.message }),
+        errors: [],
+      }),
+    );
+    this.#feed?.close();
+    this.#feed = null;
   }
 
   #setTransport(transport: TransportState, anew = false): void {
     if (!anew && transport.epoch < this.transport.epoch) return;
-    // An edit of the show does not move the music: until its first frame is here those before it fit.
-    const moved = anew || !sameMotion(this.transport, transport);
+    // A clock that is another would have other motion: another server's does not go on where the one before was.
+    if (anew) this.#goesOn &&= sameMotion(this.transport, transport);
     this.transport = transport;
-    if (moved) this.#queue?.enterEpoch(transport.epoch);
-    this.#lead.begin(transport.server_time_s);
+    this.#feed?.expect(this.#stream.clock.roundTrip);
     this.#check();
-  }
-
-  /** Ask for frames as long before they are due as the network needs. */
-  #followNetwork(): void {
-    const { clock } = this.#stream;
-    if (!clock.ready) return;
-    const now = this.#stream.serverNow();
-    const due = this.#queue?.firstDue ?? Infinity;
-    if (Number.isFinite(due) && this.transport.playing) this.#lead.arrived(due, now);
-  }
-
-  #askForLead(): void {
-    const { clock } = this.#stream;
-    const lead = this.#lead.wanted(this.#stream.serverNow(), clock.roundTrip);
-    if (lead !== null) this.#stream.send({ type: "lead", lead_s: lead });
   }
 
   #connected(state: StreamState): void {
     this.connection = state;
-    if (state === "open") {
-      this.#surroundings.answered();
-      this.#lead.forgetAsked();
-    }
+    if (state === "open") this.#surroundings.answered();
     if (state === "lost") {
+      this.#goesOn = this.#timeKnown;
       this.#greeted = false;
       this.#readAt = null;
       void this.#lookWhetherGone();
@@ -623,8 +628,11 @@ export class SessionView {
 
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
   #check(): void {
+    if (this.#timeKnown) {
+      const connected = this.connection === "open";
+      this.#feed?.look(this.transport, this.#stream.serverNow(), this.duration, connected);
+    }
     if (!this.#stream.clock.ready) return;
-    if (this.connection === "open") this.#askForLead();
     if (this.#followed !== this.transport) {
       this.#followed = this.transport;
       this.#player.follow(this.transport);
@@ -647,11 +655,17 @@ export class SessionView {
     return songTimeAt(this.transport, this.#stream.clock.serverTime(pageTime), this.duration);
   }
 
-  /** Whether a frame of the present epoch is here that is not past. */
+  /**
+   * Whether it is known what is to be drawn now. Behind a new connection there may be another server, whose clock
+   * counts from another beginning: until it has answered, only what stands or goes on as before is.
+   */
+  get #timeKnown(): boolean {
+    return this.#stream.clock.ready || !this.transport.playing || this.#goesOn;
+  }
+
+  /** Whether the picture of this moment is here. */
   get #pictured(): boolean {
-    const queue = this.#queue;
-    const current = queue?.epoch === this.transport.epoch % EPOCHS;
-    return current && queue.lastDue >= this.#stream.serverNow();
+    return this.#feed?.isPictured(this.transport, this.#stream.serverNow(), this.duration) ?? false;
   }
 
   get #soundComes(): boolean {

@@ -1,0 +1,124 @@
+import type { FrameBlocks } from "../generated/protocol";
+import type { NeededBlock } from "./blocks-ahead";
+import { ProblemError } from "./problem";
+
+/** What is pushed, but is not here so long before it is needed, is fetched, seconds. */
+const LATE_S = 0.5;
+/** What is pushed anew is given so long, and a round trip. */
+const PATIENCE_S = 0.3;
+/** Where nothing answers, or only by an error. */
+const PAUSE_S = 1;
+const AT_ONCE = 3;
+
+/** What a keeper needs of the world around it. */
+export interface BlockWorld {
+  /** The page's clock, seconds. */
+  now(): number;
+  /** The bytes at an address; throws ProblemError. */
+  get(href: string, signal: AbortSignal): Promise<ArrayBuffer>;
+  /** Whether a block of the present revision is here. */
+  has(number: number): boolean;
+  /** Takes a block's bytes in. */
+  take(bytes: ArrayBuffer): Promise<void>;
+}
+
+/** Fetches the blocks that are not pushed, and those that were lost on the way or come too late. */
+export class BlockKeeper {
+  readonly #world: BlockWorld;
+  readonly #session: string;
+  #blocks: FrameBlocks;
+  /** What is on its way, and what ends it. */
+  #fetching = new Set<number>();
+  #wanted = new AbortController();
+  /** The blocks' own origin failed: the session's has them too. */
+  #fromSession = false;
+  /** There is another revision, which will be told. */
+  #outdated = false;
+  #patientUntil = -Infinity;
+  #pausedUntil = -Infinity;
+
+  /** @param session the session's address */
+  constructor(session: string, blocks: FrameBlocks, world: BlockWorld) {
+    this.#session = session;
+    this.#blocks = blocks;
+    this.#world = world;
+  }
+
+  /** The blocks are others, or elsewhere. */
+  follow(blocks: FrameBlocks): void {
+    this.close();
+    this.#blocks = blocks;
+    this.#fetching = new Set();
+    this.#wanted = new AbortController();
+    this.#fromSession = false;
+    this.#outdated = false;
+  }
+
+  /** The server pushes anew what is needed now. */
+  expect(roundTrip: number): void {
+    this.#patientUntil = this.#world.now() + PATIENCE_S + (Number.isFinite(roundTrip) ? roundTrip : 0);
+  }
+
+  /**
+   * Fetch what is missing and is not to be expected.
+   *
+   * @param connected the stream is up
+   */
+  look(needed: readonly NeededBlock[], connected: boolean): void {
+    const { pushed } = this.#blocks;
+    const now = this.#world.now();
+    if (this.#outdated || now < this.#pausedUntil) return;
+    if (pushed && (!connected || now < this.#patientUntil)) return;
+    for (const { number, comes } of needed) {
+      if (this.#fetching.size >= AT_ONCE || (pushed && comes > LATE_S)) return;
+      if (!this.#fetching.has(number) && !this.#world.has(number)) void this.#fetch(number);
+    }
+  }
+
+  /** Nothing more is fetched. */
+  close(): void {
+    this.#wanted.abort();
+    this.#outdated = true;
+  }
+
+  async #fetch(number: number): Promise<void> {
+    const fetching = this.#fetching;
+    const { signal } = this.#wanted;
+    fetching.add(number);
+    try {
+      const bytes = await this.#get(number, signal);
+      if (signal.aborted) return;
+      await this.#world.take(bytes);
+      if (!this.#world.has(number)) this.#pause();
+    } catch (error) {
+      if (signal.aborted) return;
+      if (isOfAnother(error)) this.#outdated = true;
+      else this.#pause();
+    } finally {
+      fetching.delete(number);
+    }
+  }
+
+  #pause(): void {
+    this.#pausedUntil = this.#world.now() + PAUSE_S;
+  }
+
+  async #get(number: number, signal: AbortSignal): Promise<ArrayBuffer> {
+    const { href, revision } = this.#blocks;
+    const own = `${this.#session}/blocks/${revision}`;
+    if (!this.#fromSession && href !== own) {
+      try {
+        return await this.#world.get(`${href}/${number}`, signal);
+      } catch (error) {
+        if (signal.aborted || isOfAnother(error)) throw error;
+        this.#fromSession = true;
+      }
+    }
+    return await this.#world.get(`${own}/${number}`, signal);
+  }
+}
+
+/** Whether the revision is another meanwhile. */
+function isOfAnother(error: unknown): boolean {
+  return error instanceof ProblemError && error.status === 410;
+}
