@@ -12,6 +12,7 @@ from fastapi import Depends, FastAPI
 import reina
 from reina.api import (
     alignment,
+    blocks,
     cast,
     catalogue,
     curves,
@@ -146,6 +147,7 @@ def create_app(
         sessions,
         files,
         frames,
+        blocks,
         export,
         song,
         alignment,
