@@ -109,6 +109,7 @@ def create_app(
             memory_bytes=chosen.memory_bytes,
             disk=chosen.disk,
             staging_bytes=chosen.staging_bytes,
+            blocks_origin=chosen.blocks_origin,
         )
         await store.prune_songs()
         store.begin()

@@ -36,9 +36,7 @@ HEADERS = {
 async def get_block(
     request: Request,
     session: Watched,
-    revision: Annotated[
-        str, Path(description="That of `hello.blocks`: a state of score, cast and show.")
-    ],
+    revision: Annotated[str, Path(description="That of `hello.blocks`: a state of score, cast and show.")],
     number: Annotated[int, Path(ge=0, description="Frames 60·number to 60·number + 59.")],
     form: Annotated[Form, Query(description="Rounded so that nobody sees it, or bit for bit.")] = "packed",
 ) -> Response:

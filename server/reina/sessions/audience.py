@@ -47,6 +47,7 @@ class Audience:
         clock: The session's music clock.
         notes: Tells of notes as the music passes them.
         now: Server time, seconds; the clock's own.
+        pushes_blocks: Whether packed blocks are sent; else whoever watches by them fetches them.
     """
 
     def __init__(
@@ -56,7 +57,9 @@ class Audience:
         notes: NoteMessages,
         *,
         now: Callable[[], float],
+        pushes_blocks: bool = True,
     ) -> None:
+        self._pushes_blocks = pushes_blocks
         self.blocks = blocks
         """What is sent."""
         self._clock = clock
@@ -82,7 +85,7 @@ class Audience:
     @property
     def forms(self) -> set[Form]:
         """The forms in which packed blocks are sent to somebody."""
-        return {viewer.form for viewer in self._viewers if viewer.form is not None}
+        return {viewer.form for viewer in self._viewers if viewer.form is not None and self._pushes_blocks}
 
     def join(self, viewer: Viewer, hello: Callable[[ClockState], str]) -> None:
         """Take a viewer in: `hello`, the notes that sound, and the frames from the present on.
@@ -207,6 +210,8 @@ class Audience:
 
     def _catch_up(self, viewer: Viewer, state: ClockState) -> None:
         if viewer.form is not None:
+            if not self._pushes_blocks:
+                return
             # Where it is the first of its form the ticker sends all of it.
             broadcast = self._block_broadcasts.get(viewer.form)
             if broadcast is None:
@@ -231,7 +236,7 @@ class Audience:
         """Those who watch by packed blocks, by their form, with what they are sent."""
         groups: dict[Form, list[Viewer]] = {}
         for viewer in self._viewers:
-            if viewer.form is not None:
+            if viewer.form is not None and self._pushes_blocks:
                 groups.setdefault(viewer.form, []).append(viewer)
         known = self._block_broadcasts
         self._block_broadcasts = {

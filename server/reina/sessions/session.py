@@ -64,6 +64,8 @@ if TYPE_CHECKING:
     from reina.sound.alignment.alignment import Alignment
     from reina.sound.hearing import Hearing
 
+OWN_ORIGIN = "self"
+"""Packed blocks are fetched from where the session is."""
 FIRST_S = 0.3
 """Seconds of frames that are evaluated before a change: what is sent at once, and a margin."""
 
@@ -86,8 +88,8 @@ class Session:
         wall: The present, seconds since 1970.
         alignment: What is known of where the score is heard in the song.
         clock_changed: Called whenever the clock has been changed.
-        blocks_origin: Where packed blocks are to be fetched from, ``https://blocks.example.org``; empty: the
-            stream has them.
+        blocks_origin: Where packed blocks are to be fetched from, ``https://blocks.example.org``, or
+            `OWN_ORIGIN` for where the session is; empty: the stream has them.
     """
 
     def __init__(
@@ -121,7 +123,7 @@ class Session:
             self.clock.resume(record.clock.state(now(), wall()))
         self._kept_epoch = self.clock.epoch
         blocks = self._blocks_of(production, record, show_revision)
-        self.audience = Audience(blocks, self.clock, notes, now=now)
+        self.audience = Audience(blocks, self.clock, notes, now=now, pushes_blocks=not blocks_origin)
         self._make_song = song
         self.song = song(self)
         # A session that held itself would only be let go of by the collector, which hardly ever runs.
@@ -203,7 +205,8 @@ class Session:
     def frame_blocks(self, blocks: PackedBlocks | None = None) -> FrameBlocks:
         """Where its packed blocks are to be had; those that are sent now when None."""
         revision = (blocks or self.blocks).revision
-        href = f"{self._blocks_origin}{blocks_href(self.id, revision)}"
+        origin = "" if self._blocks_origin == OWN_ORIGIN else self._blocks_origin
+        href = f"{origin}{blocks_href(self.id, revision)}"
         return FrameBlocks(revision=revision, href=href, pushed=not self._blocks_origin)
 
     def hello(self, state: ClockState | None = None, blocks: PackedBlocks | None = None) -> Hello:
