@@ -11,6 +11,7 @@ import numpy as np
 from reina.instruments import Cast, Casting
 from reina.protocol import build_manifest, decode
 from reina.sessions.frames import EncodedFrames
+from reina.sessions.packed_blocks import PackedBlocks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -98,6 +99,11 @@ def encoded(performance: NumberedPerformance | None = None, *, kept: int = 8) ->
     numbered = performance or NumberedPerformance()
     manifest = build_manifest(cast("FrameLayout", numbered.layout))
     return EncodedFrames(cast("Performance", numbered), manifest, kept=kept)
+
+
+def packed(frames: EncodedFrames, *, revision: int = 1) -> PackedBlocks:
+    """The same, packed."""
+    return PackedBlocks(frames, cast("FrameLayout", Layout()), revision)
 
 
 def read(frames: EncodedFrames, messages: list[bytes]) -> Frames:
