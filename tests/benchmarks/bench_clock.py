@@ -58,7 +58,7 @@ def measured(browser: Browser, name: str, address: str, client: httpx.Client) ->
         f"picture and sound apart p95 {np.percentile(raw, 95) * ms:.0f} ms as drawn, "
         f"{np.percentile(np.abs(taken_off), 95) * ms:.0f} ms but for the drawing; "
         f"sound early by over 20 ms in {np.mean(np.array(taken_off) < -0.02) * 100:.1f} % of the pictures; "
-        f"frames asked for {opened.measure('lead')} s before they are due"
+        f"pictures here for {opened.measure('ahead'):.1f} s to come"
     )
     context.close()
 

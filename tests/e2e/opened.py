@@ -51,8 +51,9 @@ class Opened:
         page.on("console", self._hear)
 
     def _hear(self, message: ConsoleMessage) -> None:
-        # A segment asked for in the moment in which the sound becomes another: the page goes over to that.
-        overtaken = "/song/segments/" in message.location["url"] and "410" in message.text
+        # Asked for in the moment in which sound or frames become others: the page goes over to those.
+        changing = any(part in message.location["url"] for part in ("/song/segments/", "/blocks/"))
+        overtaken = changing and "410" in message.text
         nowhere = f"/sessions/{NOWHERE.removeprefix('/s/')}" in message.location["url"]
         expected = overtaken or nowhere or any(part in message.text for part in self._refusals)
         if message.type == "error" and not expected:
@@ -67,7 +68,7 @@ class Opened:
         index = int(transport["song_time_s"] * FPS + 1e-6)
         self.until(
             "([index, epoch]) => window.reina.drawnIndex === index && window.reina.epoch >= epoch"
-            " && window.reina.drawnEpoch === window.reina.epoch % 256",
+            " && window.reina.drawnEpoch === window.reina.epoch",
             [index, transport["epoch"]],
         )
         return index

@@ -116,7 +116,7 @@ def heard_in(one: Opened, transport: dict[str, Any]) -> HeardIn:
 
 def test_picture_and_sound_go_with_the_servers_clock_behind_a_bad_network(pair: Pair) -> None:
     transport = pair.play(2.0)
-    assert pair.far.measure("lead") >= 0.6, "frames are asked for as early as the network needs"
+    assert pair.far.measure("ahead") >= 0.6, "frames are here as early as the network needs"
     for one in (pair.near, pair.far):
         for _ in range(ROUNDS):
             if kept_in_time(one):
