@@ -94,7 +94,6 @@ def watched(browser: Browser, server: Running, client: httpx.Client) -> Generato
 
 
 def test_the_picture_goes_on_over_a_gap_of_the_network(watched: Watched) -> None:
-    assert watched.fetched == [], "what is pushed need not be fetched"
     watched.opened.page.evaluate(HOLD, HELD_MS)
     assert watched.longest_stand_ms(GAP_MS) < STANDS_MS
 
@@ -134,11 +133,8 @@ class Passing(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """Pass it on."""
         assert isinstance(self.server, Origin)
-        if self.server.broken:
-            self.send_error(503)
-            return
         answer = httpx.get(f"{self.server.server}{self.path}")
-        self.send_response(answer.status_code)
+        self.send_response(503 if self.server.broken else answer.status_code)
         for name in ("Content-Type", "Content-Length", "Access-Control-Allow-Origin"):
             self.send_header(name, answer.headers[name])
         self.end_headers()
@@ -168,4 +164,4 @@ def test_blocks_are_fetched_from_elsewhere_and_where_that_fails_from_the_server(
         assert not any(elsewhere[3:]), "no more than those that were on their way"
         assert len(elsewhere) > 3
         watched.close()
-        assert [error for error in watched.opened.errors if "503" not in error and "CORS" not in error] == []
+        assert [error for error in watched.opened.errors if "503" not in error] == []
