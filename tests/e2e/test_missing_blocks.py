@@ -110,9 +110,11 @@ def caching_origin() -> Generator[Origin]:
     with Origin() as origin:
         thread = threading.Thread(target=origin.serve_forever, kwargs={"poll_interval": 0.01})
         thread.start()
-        yield origin
-        origin.shutdown()
-        thread.join()
+        try:
+            yield origin
+        finally:
+            origin.shutdown()
+            thread.join()
 
 
 class Origin(ThreadingHTTPServer):
