@@ -288,7 +288,9 @@ class Session:
         """
         first_s = self.audience.song_time_s() if song_time_s is None else song_time_s
         ahead_s = FIRST_S * (rate or self.clock.state().rate)
-        forms = self.audience.forms | ({form} if form else set())
+        forms = self.audience.forms
+        if form is not None:
+            forms.add(form)
         await (blocks or self.blocks).ready(first_s, first_s + ahead_s, forms)
 
     def join(self, viewer: Viewer) -> None:

@@ -60,7 +60,7 @@ class Viewer:
     def __init__(
         self, connection: Connection, *, frames_per_message: int = 1, form: Form | None = None
     ) -> None:
-        self.form = form
+        self.form: Form | None = form
         """The form of the packed blocks that it is sent; None where it is sent frames."""
         self.frames_per_message = frames_per_message if form is None else BLOCK_FRAMES
         self.lead_s = LEAD_S
