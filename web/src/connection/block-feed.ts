@@ -44,8 +44,8 @@ export class BlockFeed {
   }
 
   /** The server pushes anew what is needed now. */
-  expect(roundTrip: number): void {
-    this.#keeper.expect(roundTrip);
+  expect(): void {
+    this.#keeper.expect();
   }
 
   /** Take a block's bytes in; those of another revision are dropped. */
@@ -60,9 +60,9 @@ export class BlockFeed {
     }
   }
 
-  /** See that what is needed next is here or comes. */
-  look(transport: TransportState, serverTime: number, duration: number, connected: boolean): void {
-    this.#keeper.look(blocksAhead(transport, serverTime, duration, this.#manifest.fps), connected);
+  /** See that what is needed next is here or comes; `roundTrip` is null while the stream is down. */
+  look(transport: TransportState, serverTime: number, duration: number, roundTrip: number | null): void {
+    this.#keeper.look(blocksAhead(transport, serverTime, duration, this.#manifest.fps), roundTrip);
   }
 
   /** What was drawn last; null before the first picture. */

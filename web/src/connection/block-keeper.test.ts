@@ -15,6 +15,9 @@ interface Asked {
   fail(status: number): Promise<void>;
 }
 
+/** The round trip of a room's own network, seconds. */
+const NEAR = 0.001;
+
 let now: number;
 let here: Set<number>;
 let asked: Asked[];
@@ -67,7 +70,7 @@ const hrefs = (): string[] => asked.map(({ href }) => href);
 describe("BlockKeeper, where blocks are pushed", () => {
   it("fetches nothing that is here or not yet due", () => {
     here.add(4);
-    keeperOf(PUSHED).look(from(4), true);
+    keeperOf(PUSHED).look(from(4), NEAR);
     expect(asked).toEqual([]);
   });
 
@@ -79,28 +82,37 @@ describe("BlockKeeper, where blocks are pushed", () => {
       { number: 5, comes: 0.45 },
       { number: 6, comes: 1.45 },
     ];
-    keeper.look(needed, true);
-    keeper.look(needed, true);
+    keeper.look(needed, NEAR);
+    keeper.look(needed, NEAR);
     expect(hrefs()).toEqual([`${OWN}/blocks/aa/5`]);
     await at(0).answer();
-    keeper.look(needed, true);
+    keeper.look(needed, NEAR);
     expect(here.has(5)).toBe(true);
+    expect(asked).toHaveLength(1);
+  });
+
+  it("fetches behind a slow network sooner, by two round trips", () => {
+    const keeper = keeperOf(PUSHED);
+    const needed = [{ number: 5, comes: 1 }];
+    keeper.look(needed, 0.2);
+    expect(asked).toEqual([]);
+    keeper.look(needed, 0.3);
     expect(asked).toHaveLength(1);
   });
 
   it("gives what is pushed anew a moment and a round trip", () => {
     const keeper = keeperOf(PUSHED);
-    keeper.expect(0.2);
+    keeper.expect();
     now += 0.49;
-    keeper.look(from(4), true);
+    keeper.look(from(4, 1), 0.2);
     expect(asked).toEqual([]);
     now += 0.02;
-    keeper.look(from(4), true);
+    keeper.look(from(4, 1), 0.2);
     expect(hrefs()).toEqual([`${OWN}/blocks/aa/4`]);
   });
 
   it("asks nobody while there is no connection", () => {
-    keeperOf(PUSHED).look(from(4), false);
+    keeperOf(PUSHED).look(from(4), null);
     expect(asked).toEqual([]);
   });
 });
@@ -108,72 +120,72 @@ describe("BlockKeeper, where blocks are pushed", () => {
 describe("BlockKeeper, where blocks are not pushed", () => {
   it("fetches all ahead of time, at most three at once, the soonest first", async () => {
     const keeper = keeperOf(ELSEWHERE);
-    keeper.expect(1);
-    keeper.look(from(4, 5), false);
+    keeper.expect();
+    keeper.look(from(4, 5), null);
     expect(hrefs()).toEqual([4, 5, 6].map((number) => `${ELSEWHERE.href}/${number}`));
     await at(1).answer();
-    keeper.look(from(4, 5), false);
+    keeper.look(from(4, 5), null);
     expect(hrefs().slice(3)).toEqual([`${ELSEWHERE.href}/7`]);
   });
 
   it.each([0, 503, 404])("goes to the session's own origin where the other fails with %d", async (status) => {
     const keeper = keeperOf(ELSEWHERE);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     await at(0).fail(status);
     expect(hrefs()).toEqual([`${ELSEWHERE.href}/4`, `${OWN}/blocks/aa/4`]);
     await at(1).answer();
     expect(here.has(4)).toBe(true);
-    keeper.look(from(5, 1), true);
+    keeper.look(from(5, 1), NEAR);
     expect(hrefs().at(-1)).toBe(`${OWN}/blocks/aa/5`);
     keeper.follow({ ...ELSEWHERE, revision: "bb" });
-    keeper.look(from(6, 1), true);
+    keeper.look(from(6, 1), NEAR);
     expect(hrefs().at(-1)).toBe(`${ELSEWHERE.href}/6`);
   });
 
   it("waits a while where nobody answers, and where something else came", async () => {
     const keeper = keeperOf(ELSEWHERE);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     await at(0).fail(0);
     await at(1).fail(0);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     expect(asked).toHaveLength(2);
     now += 1.1;
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     expect(asked).toHaveLength(3);
     await at(2).answer(9);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     expect(asked).toHaveLength(3);
   });
 
   it("waits for the next revision where this one is gone", async () => {
     const keeper = keeperOf(ELSEWHERE);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     await at(0).fail(410);
     now += 100;
-    keeper.look(from(4), true);
+    keeper.look(from(4), NEAR);
     expect(asked).toHaveLength(1);
     keeper.follow({ revision: "bb", href: "https://blocks.example/bb", pushed: false });
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     expect(hrefs()[1]).toBe("https://blocks.example/bb/4");
   });
 
   it("gives up what is on its way with its revision, and drops it if it comes", async () => {
     const keeper = keeperOf(ELSEWHERE);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     keeper.follow({ revision: "bb", href: "https://blocks.example/bb", pushed: false });
     expect(at(0).signal.aborted).toBe(true);
     await at(0).answer();
     expect(here.has(4)).toBe(false);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     expect(hrefs()[1]).toBe("https://blocks.example/bb/4");
   });
 
   it("ends with the page", () => {
     const keeper = keeperOf(ELSEWHERE);
-    keeper.look(from(4, 1), true);
+    keeper.look(from(4, 1), NEAR);
     keeper.close();
     expect(at(0).signal.aborted).toBe(true);
-    keeper.look(from(5, 1), true);
+    keeper.look(from(5, 1), NEAR);
     expect(asked).toHaveLength(1);
   });
 });

@@ -2,10 +2,12 @@ import type { FrameBlocks } from "../generated/protocol";
 import type { NeededBlock } from "./blocks-ahead";
 import { ProblemError } from "./problem";
 
-/** What is pushed, but is not here so long before it is needed, is fetched, seconds. */
+/** What is pushed, but is not here so long and two round trips before it is needed, is fetched, seconds. */
 const LATE_S = 0.5;
 /** What is pushed anew is given so long, and a round trip. */
 const PATIENCE_S = 0.3;
+/** A network that is slower than this counts as no slower. */
+const LONGEST_WAY_S = 0.4;
 /** Where nothing answers, or only by an error. */
 const PAUSE_S = 1;
 const AT_ONCE = 3;
@@ -34,7 +36,7 @@ export class BlockKeeper {
   #fromSession = false;
   /** There is another revision, which will be told. */
   #outdated = false;
-  #patientUntil = -Infinity;
+  #expectedFrom = -Infinity;
   #pausedUntil = -Infinity;
 
   /** @param session the session's address */
@@ -55,22 +57,23 @@ export class BlockKeeper {
   }
 
   /** The server pushes anew what is needed now. */
-  expect(roundTrip: number): void {
-    this.#patientUntil = this.#world.now() + PATIENCE_S + (Number.isFinite(roundTrip) ? roundTrip : 0);
+  expect(): void {
+    this.#expectedFrom = this.#world.now();
   }
 
   /**
    * Fetch what is missing and is not to be expected.
    *
-   * @param connected the stream is up
+   * @param roundTrip the network's, seconds; null while the stream is down
    */
-  look(needed: readonly NeededBlock[], connected: boolean): void {
+  look(needed: readonly NeededBlock[], roundTrip: number | null): void {
     const { pushed } = this.#blocks;
     const now = this.#world.now();
     if (this.#outdated || now < this.#pausedUntil) return;
-    if (pushed && (!connected || now < this.#patientUntil)) return;
+    const way = Math.min(roundTrip ?? 0, LONGEST_WAY_S);
+    if (pushed && (roundTrip === null || now < this.#expectedFrom + PATIENCE_S + way)) return;
     for (const { number, comes } of needed) {
-      if (this.#fetching.size >= AT_ONCE || (pushed && comes > LATE_S)) return;
+      if (this.#fetching.size >= AT_ONCE || (pushed && comes > LATE_S + 2 * way)) return;
       if (!this.#fetching.has(number) && !this.#world.has(number)) void this.#fetch(number);
     }
   }

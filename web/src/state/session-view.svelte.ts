@@ -584,7 +584,7 @@ export class SessionView {
     // A clock that is another would have other motion: another server's does not go on where the one before was.
     if (anew) this.#goesOn &&= sameMotion(this.transport, transport);
     this.transport = transport;
-    this.#feed?.expect(this.#stream.clock.roundTrip);
+    this.#feed?.expect();
     this.#check();
   }
 
@@ -629,8 +629,8 @@ export class SessionView {
   /** Follow the transport once the server's clock is known, and keep the sound in its place. */
   #check(): void {
     if (this.#timeKnown) {
-      const connected = this.connection === "open";
-      this.#feed?.look(this.transport, this.#stream.serverNow(), this.duration, connected);
+      const roundTrip = this.connection === "open" ? this.#stream.clock.roundTrip : null;
+      this.#feed?.look(this.transport, this.#stream.serverNow(), this.duration, roundTrip);
     }
     if (!this.#stream.clock.ready) return;
     if (this.#followed !== this.transport) {
