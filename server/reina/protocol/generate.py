@@ -2,10 +2,10 @@
 
     python -m reina.protocol.generate [--check]
 
-Writes the page's types and frame reader (web/src/generated/protocol.ts), those of the laboratory
-(web/src/generated/lab.ts) and of shows (web/src/generated/show.ts), the description of the stream
-(docs/protocol.md) and the JSON Schema of shows (docs/show.schema.json). The description of the HTTP interface
-is `python -m reina.api.openapi`'s.
+Writes the page's types (web/src/generated/protocol.ts) and frame reader (web/src/generated/frame.ts), the
+types of the laboratory (web/src/generated/lab.ts) and of shows (web/src/generated/show.ts), the description
+of the stream (docs/protocol.md) and the JSON Schema of shows (docs/show.schema.json). The description of the
+HTTP interface is `python -m reina.api.openapi`'s.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from reina.performance import any_player_pattern, schema_parameters
 from reina.protocol import alignment, resources, timeline, transport
 from reina.protocol.documentation import FROM_SERVER, FROM_VIEWER, documentation
 from reina.protocol.lab import LAB_RECEIVED, LAB_SENT
-from reina.protocol.reader import frame_reader
+from reina.protocol.reader import constants, frame_reader
 from reina.protocol.typescript import interfaces
 from reina.protocol.written_part import WrittenPart
 from reina.show import EDITS
@@ -96,7 +96,12 @@ def typescript() -> str:
             "TransportCommand": COMMANDS,
         }.items()
     )
-    return "\n".join([_HEAD, frame_reader(), interfaces(SENT, RECEIVED), unions])
+    return "\n".join([_HEAD, constants(), interfaces(SENT, RECEIVED), unions])
+
+
+def frame_typescript() -> str:
+    """What reads frames: for films and the gallery, and not for the first picture."""
+    return f"{_HEAD}\n{frame_reader()}"
 
 
 def show_typescript() -> str:
@@ -145,6 +150,7 @@ def main() -> int:
     arguments = parser.parse_args()
     files = {
         ROOT / "web/src/generated/protocol.ts": typescript(),
+        ROOT / "web/src/generated/frame.ts": frame_typescript(),
         ROOT / "web/src/generated/show.ts": show_typescript(),
         ROOT / "web/src/generated/lab.ts": lab_typescript(),
         ROOT / "docs/protocol.md": documentation(),

@@ -42,8 +42,16 @@ def _getter(name: str, dtype: DTypeLike, offset: int) -> str:
     )
 
 
+def constants() -> str:
+    """What is said of every stream and every frame, as TypeScript."""
+    return f"""export const PROTOCOL_VERSION = {PROTOCOL_VERSION}
+export const SUBPROTOCOL = "{SUBPROTOCOL}"
+export const HEADER_SIZE = {HEADER.itemsize}
+"""
+
+
 def frame_reader() -> str:
-    """The constants and the classes `Frame` and `FrameReader`, as TypeScript."""
+    """The flags and the classes `Frame` and `FrameReader`, as TypeScript."""
     flags = "\n".join(f"export const FLAG_{flag.name} = {flag.value}" for flag in FrameFlag)
     getters = "\n\n".join(_getter(name, dtype, offset) for name, dtype, offset in fields_of(HEADER))
     predicates = "\n\n".join(
@@ -51,9 +59,8 @@ def frame_reader() -> str:
         f"    return (this.flags & FLAG_{flag.name}) !== 0\n  }}"
         for flag in FrameFlag
     )
-    return f"""export const PROTOCOL_VERSION = {PROTOCOL_VERSION}
-export const SUBPROTOCOL = "{SUBPROTOCOL}"
-export const HEADER_SIZE = {HEADER.itemsize}
+    return f"""import {{ HEADER_SIZE, PROTOCOL_VERSION, type Manifest }} from "./protocol"
+
 {flags}
 
 {_FRAME.replace("%GETTERS%", getters).replace("%PREDICATES%", predicates)}

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 def test_what_is_committed_is_what_is_generated() -> None:
     committed = {
         generate.ROOT / "web/src/generated/protocol.ts": generate.typescript(),
+        generate.ROOT / "web/src/generated/frame.ts": generate.frame_typescript(),
         generate.ROOT / "docs/protocol.md": documentation(),
     }
     assert generate.write_or_check(committed, check=True) == 0

@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { FrameReader, type Manifest } from "../generated/protocol";
+import { FrameReader } from "../generated/frame";
+import type { Manifest } from "../generated/protocol";
 
 /** One frame as the golden file tells it beside its bytes. */
 interface GoldenFrame {

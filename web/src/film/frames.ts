@@ -1,7 +1,8 @@
 /** The frames of a span over HTTP, a bounded piece at a time. */
 
 import { ProblemError, type ReinaApi } from "../connection";
-import { type Frame, FrameReader, HEADER_SIZE, type Hello } from "../generated/protocol";
+import { type Frame, FrameReader } from "../generated/frame";
+import { HEADER_SIZE, type Hello } from "../generated/protocol";
 import type { DrawnFrame } from "../scene";
 import { type FrameSpan, countOf, piecesOf } from "./span";
 

@@ -1,7 +1,8 @@
 /** Single frames of a session over HTTP, with parameters set over those of its show. */
 
 import { ReinaApi } from "../connection";
-import { type Frame, FrameReader, HEADER_SIZE, type Hello, type Score } from "../generated/protocol";
+import { type Frame, FrameReader } from "../generated/frame";
+import { HEADER_SIZE, type Hello, type Score } from "../generated/protocol";
 import type { DrawnFrame } from "../scene";
 import type { Overrides } from "./choices";
 

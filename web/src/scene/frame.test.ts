@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 
-import { Frame, type Manifest } from "../generated/protocol";
+import { Frame } from "../generated/frame";
+import type { Manifest } from "../generated/protocol";
 import { floatIndex, HEADER_BYTES, LayoutError, parameterPrefix, ParameterIndex } from "./frame";
 
 /** Two skeletons, their roots, padding, then three parameters. */

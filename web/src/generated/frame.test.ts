@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { FrameReader, type Manifest } from "./protocol";
+import { FrameReader } from "./frame";
+import type { Manifest } from "./protocol";
 
 interface GoldenFrame {
   epoch: number;
