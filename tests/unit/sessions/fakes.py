@@ -10,7 +10,7 @@ import numpy as np
 
 from reina.instruments import Cast, Casting
 from reina.protocol import build_manifest, decode
-from reina.sessions.frames import EncodedFrames
+from reina.sessions.frames import EncodedFrames, KeptBytes
 from reina.sessions.packed_blocks import PackedBlocks
 
 if TYPE_CHECKING:
@@ -94,16 +94,18 @@ class NumberedPerformance:
         )
 
 
-def encoded(performance: NumberedPerformance | None = None, *, kept: int = 8) -> EncodedFrames:
+def encoded(
+    performance: NumberedPerformance | None = None, *, kept: int = 8, together: KeptBytes | None = None
+) -> EncodedFrames:
     """The frames of a numbered performance."""
     numbered = performance or NumberedPerformance()
     manifest = build_manifest(cast("FrameLayout", numbered.layout))
-    return EncodedFrames(cast("Performance", numbered), manifest, kept=kept)
+    return EncodedFrames(cast("Performance", numbered), manifest, kept=kept, together=together)
 
 
-def packed(frames: EncodedFrames, *, revision: int = 1) -> PackedBlocks:
+def packed(frames: EncodedFrames, *, kept: int = 64) -> PackedBlocks:
     """The same, packed."""
-    return PackedBlocks(frames, cast("FrameLayout", Layout()), revision)
+    return PackedBlocks(frames, cast("FrameLayout", Layout()), 1, kept=kept)
 
 
 def read(frames: EncodedFrames, messages: list[bytes]) -> Frames:
