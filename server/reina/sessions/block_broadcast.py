@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from reina.sessions.block_schedule import BlockSchedule
@@ -57,8 +58,10 @@ class BlockBroadcast:
         Args:
             state: The clock at the time of joining, in the same epoch.
         """
-        needed = BlockSchedule(state, fps=self._blocks.fps).due_until(state.server_time_s + AHEAD_S)
         coming = self._schedule.next
+        # Where nothing is to come any more, of a short loop say, there is an end of what is needed.
+        until_s = state.server_time_s + AHEAD_S if coming else math.inf
+        needed = BlockSchedule(state, fps=self._blocks.fps).due_until(until_s)
         before = [block for block in needed if not coming or block.due_time_s < coming.due_time_s - 1e-6]
         packed = (self._blocks.packed(block.number, self._form) for block in before)
         return [data for data in packed if data is not None]

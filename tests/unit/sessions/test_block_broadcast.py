@@ -19,8 +19,14 @@ if TYPE_CHECKING:
 AT = 1000.0
 
 
-def state(song_time_s: float = 0.0, *, playing: bool = True, at: float = AT) -> ClockState:
-    return ClockState(playing, song_time_s, at, 1.0, None, 7, 10.0)
+def state(
+    song_time_s: float = 0.0,
+    *,
+    playing: bool = True,
+    at: float = AT,
+    loop: tuple[float, float] | None = None,
+) -> ClockState:
+    return ClockState(playing, song_time_s, at, 1.0, loop, 7, 10.0)
 
 
 def numbers(messages: Iterable[bytes]) -> list[int]:
@@ -62,6 +68,14 @@ def test_who_joins_late_gets_what_the_others_have() -> None:
     broadcast.until(AT + 1.2)
     assert numbers(broadcast.catch_up(state(1.5, at=AT + 1.5))) == [1, 2, 3]
     assert numbers(broadcast.until(AT + 2.0)) == [4], "and with the others the next"
+
+
+def test_who_joins_a_loop_whose_blocks_were_all_sent_gets_all_of_them() -> None:
+    loop = (1.0, 6.0)
+    broadcast = BlockBroadcast(made(packed(encoded()), range(10)), "packed", state(1.0, loop=loop))
+    assert numbers(broadcast.until(AT + 30.0)) == [1, 2, 3, 4, 5]
+    late = state(4.5, at=AT + 13.5, loop=loop)
+    assert numbers(broadcast.catch_up(late)) == [4, 5, 1, 2, 3]
 
 
 def test_blocks_are_packed_once_and_on_a_thread() -> None:
