@@ -109,7 +109,7 @@ def create_app(
             disk=chosen.disk,
             staging_bytes=chosen.staging_bytes,
         )
-        await store.prune_songs()
+        await store.loaded.prune_songs()
         store.begin()
         app.state.store = store
         # A password that stands in a file as it is takes a moment.

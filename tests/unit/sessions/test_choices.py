@@ -20,8 +20,9 @@ from reina.music import NotInScoreError
 from reina.protocol.links import rendering_href
 from reina.protocol.transport import Seek, SetLoop
 from reina.sessions.description import note_table
+from reina.sessions.draft import Draft
 from reina.sessions.stage import Stage
-from reina.sessions.store import Draft, SessionStore
+from reina.sessions.store import SessionStore
 from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.renderer import SongRenderer
 
@@ -43,7 +44,7 @@ def a_store(data_dir: Path, stage: Stage) -> SessionStore:
 
 
 async def create(store: SessionStore, score: bytes, **options: Any) -> Session:
-    async with store.staging() as folder:
+    async with store.staging.folder() as folder:
         (folder / "score").write_bytes(score)
         (folder / "song").write_bytes(song(0.1))
         if "show" in options:
@@ -231,7 +232,7 @@ def test_what_cannot_be_chosen_changes_nothing(tmp_path: Path, stage: Stage) -> 
 def test_a_song_has_one_address_for_what_sounds_the_same(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
-        async with store.staging() as folder:
+        async with store.staging.folder() as folder:
             (folder / "score").write_bytes(duet())
             session, _ = await store.create(
                 Draft(folder=folder, score="score", **draft_fields({"written": True}))
