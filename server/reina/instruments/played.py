@@ -55,9 +55,9 @@ class Fingering:
         reasons: Of each note what was chosen and why, or why it cannot be played.
     """
 
-    notes: tuple[NoteFingering | None, ...]
+    notes: Sequence[NoteFingering | None]
     playable: BoolArray
-    reasons: tuple[str, ...]
+    reasons: Sequence[str]
 
 
 @dataclass(frozen=True, eq=False)

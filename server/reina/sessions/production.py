@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, casting_reasons, choice_findings, spoken_name, unplayed_parts
+from reina.instruments.describe import NoteTable
 from reina.instruments.player import plan_glances
 from reina.music import findings_of, retimed, transposed
 from reina.performance import Performance
@@ -71,6 +72,7 @@ class Production:
         show_plan: The show, made ready.
         performance: All of it as a function of time.
         manifest: What its frames hold.
+        note_table: Its notes as the cast plays them.
         packed_score: The score as it is answered with, where it is so long that it is written beforehand.
         weight: About how many bytes all of it but the show takes in memory; 0 until `weighed`.
     """
@@ -85,6 +87,7 @@ class Production:
     show_plan: ShowPlan
     performance: Performance
     manifest: Manifest
+    note_table: NoteTable
     packed_score: PackedScore | None = None
     weight: int = 0
 
@@ -155,6 +158,7 @@ class Production:
             show_plan=show_plan,
             performance=performance,
             manifest=build_manifest(performance.layout),
+            note_table=NoteTable(heard, [(one.instrument, one.played) for one in performers]),
         )
 
     def weighed(self) -> Production:

@@ -19,7 +19,6 @@ from reina.instruments.describe import NO_PITCH, NOT_IN_LINE
 from reina.music import NotInScoreError
 from reina.protocol.links import rendering_href
 from reina.protocol.transport import Seek, SetLoop
-from reina.sessions.description import note_table
 from reina.sessions.draft import Draft
 from reina.sessions.stage import Stage
 from reina.sessions.store import SessionStore
@@ -252,11 +251,11 @@ def test_notes_that_are_left_out_move_with_their_part(tmp_path: Path, stage: Sta
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
         session = await create(store, chords(), written=True)
-        table = note_table(session.production)
+        table = session.production.note_table
         assert [table.note(index).sounding_pitch for index in range(4)] == [58, 62, 60, 63]
         assert table.note(0).reason == NOT_IN_LINE
         await choose(store, session, written=False, transposition=64)
-        top = note_table(session.production).note(3)
+        top = session.production.note_table.note(3)
         assert (top.sounding_pitch, top.valves, top.reason) == (65, None, NO_PITCH)
 
     run(scenario)

@@ -16,6 +16,7 @@ from reina.instruments.brass.mute import MUTE_CHOICE, mute_parameter
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
 from reina.instruments.chart_note import ChartNote
+from reina.instruments.coded_column import coded
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import playable_line
@@ -216,9 +217,9 @@ class ValvedBrass(Instrument):
                 reasons[note] = why(index, taken, primaries, names, onsets)
             begin = end
         return BrassFingering(
-            notes=tuple(notes),
+            notes=coded(notes),
             playable=read_only(playable),
-            reasons=tuple(reasons),
+            reasons=coded(reasons),
             valves=read_only(valves),
             primary=read_only(primary),
             cents=read_only(cents),
