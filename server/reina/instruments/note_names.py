@@ -6,7 +6,7 @@ import numpy as np
 
 from reina.instruments.instrument import Instrument
 from reina.instruments.played import Line, PlayedPart
-from reina.music.arrays import IntArray
+from reina.music.arrays import IntArray, NarrowIntArray
 from reina.music.score import Score
 from reina.notation import Key, keys_of, named, spell
 
@@ -80,7 +80,9 @@ class NoteNames:
         ]
         self._keep(indices, pitches, above, places)
 
-    def _keep(self, indices: IntArray, pitches: IntArray, above: int, places: Sequence[IntArray]) -> None:
+    def _keep(
+        self, indices: NarrowIntArray, pitches: NarrowIntArray, above: int, places: Sequence[IntArray]
+    ) -> None:
         """Keep the names of notes that have none yet."""
         new = ~self._spelled[indices]
         for row, up in enumerate((0, above)):

@@ -14,6 +14,7 @@ from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.cast_plan import complete_cast, seats_of
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
+from reina.sessions.note_messages import JOINED_BYTES, NOTE_BYTES
 from reina.show import Show, ShowError, ShowPlan, Track, UnknownTrack, unknown_choices
 from reina.sound.plan import PlayedParts
 from reina.stage import CastForm, Place, write_default_show
@@ -38,10 +39,6 @@ if TYPE_CHECKING:
     from reina.sessions.packed_score import PackedScore
     from reina.sessions.stage import Stage
     from reina.skeleton import HumanPose
-
-
-AS_TOLD = 1.15
-"""What is told of the notes while they are played is made of the score, and weighs a seventh of it."""
 
 
 def read_show(data: bytes, registry: ParameterRegistry) -> Show:
@@ -164,8 +161,19 @@ class Production:
     def weighed(self) -> Production:
         """The same, with its weight; takes some hundredths of a second."""
         shared = (self.stage, *self.stage.parts, self.show, self.show_plan)
-        held = (self.written_score, self.score, self.rankings, self.performers, self.packed_score)
-        return replace(self, weight=int(AS_TOLD * weight_of(held, shared)))
+        held = (
+            self.written_score,
+            self.score,
+            self.rankings,
+            self.performers,
+            self.note_table,
+            self.show_plan.triggers,
+            self.packed_score,
+        )
+        # What is told of the notes while they are played is made of them when they are.
+        told = NOTE_BYTES if len(self.performers) == 1 else NOTE_BYTES + JOINED_BYTES
+        notes = sum(len(performer.played.line) for performer in self.performers)
+        return replace(self, weight=weight_of(held, shared) + told * notes)
 
     @property
     def performers(self) -> tuple[Performer, ...]:

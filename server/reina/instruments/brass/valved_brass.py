@@ -183,7 +183,7 @@ class ValvedBrass(Instrument):
         valves = np.zeros((count, self.valve_count), dtype=np.bool_)
         playable = np.array([pitch in self.model.chart for pitch in pitches], dtype=np.bool_)
         primary = np.zeros(count, dtype=np.bool_)
-        cents, slide = np.zeros(count), np.zeros(count)
+        cents, slide = [0.0] * count, [0.0] * count
         reasons = [self._out_of_range(pitch) for pitch in pitches]
         notes: list[ValvesFingering | None] = [None] * count
         begin = 0
@@ -222,8 +222,8 @@ class ValvedBrass(Instrument):
             reasons=coded(reasons),
             valves=read_only(valves),
             primary=read_only(primary),
-            cents=read_only(cents),
-            slide=read_only(slide),
+            cents=coded(cents),
+            slide=coded(slide),
         )
 
     @cached_property
