@@ -59,7 +59,7 @@ async def put_alignment(
         corrected = (known or _unknown(session)).with_anchors(anchors).with_offset(fields.offset_s)
         return corrected.with_key(follows=fields.follows_key)
 
-    await store.change_alignment(session, put)
+    await store.edits.change_alignment(session, put)
     return await _resource(session)
 
 
@@ -68,7 +68,7 @@ async def search_alignment(session: Controlled, store: Store) -> AlignmentResour
     """Look for the score in the song anew; what was put right by hand stays."""
     if session.record.song is None:
         raise _no_song()
-    if not store.search_alignment(session):
+    if not store.edits.search_alignment(session):
         raise ProblemError(
             409,
             "undecoded-song",
@@ -105,10 +105,10 @@ async def put_song_analysis(request: Request, session: Controlled, store: Store)
             "The server decodes this song itself",
             f"{song.media_type} is listened to as it was sent; POST alignment/search looks again",
         )
-    async with store.staging(client_address(request.scope)) as folder:
+    async with store.staging.folder(client_address(request.scope)) as folder:
         sent = folder / "song"
-        await _write(request, sent, partial(store.staged.grow, folder))
-        await store.hear_song(session, sent)
+        await _write(request, sent, partial(store.staging.room.grow, folder))
+        await store.recordings.hear(session, sent)
     return await _resource(session)
 
 

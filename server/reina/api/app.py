@@ -111,7 +111,7 @@ def create_app(
             staging_bytes=chosen.staging_bytes,
             blocks_origin=chosen.blocks_origin,
         )
-        await store.prune_songs()
+        await store.loaded.prune_songs()
         store.begin()
         app.state.store = store
         # A password that stands in a file as it is takes a moment.

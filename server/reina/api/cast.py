@@ -73,7 +73,7 @@ async def put_cast(
 
     `{"cast": "auto"}` goes back to the cast that the score asks for by itself.
     """
-    await store.change(session, recast=lambda cast: cast_of(fields, cast.sequence))
+    await store.edits.change(session, recast=lambda cast: cast_of(fields, cast.sequence))
     return await asyncio.to_thread(cast_resource, session.production)
 
 

@@ -46,7 +46,7 @@ async def get_score_file(session: Watched, store: Store) -> ServedFile:
     """The file that the session was made of, as it was sent."""
     # What somebody sent is never to be taken for a page.
     return ServedFile(
-        await store.score_file(session),
+        await store.reading.score_file(session.record),
         media_type="application/octet-stream",
         headers={"Content-Disposition": "attachment"},
     )

@@ -43,8 +43,8 @@ class Observation:
             # A store that keeps its sessions in files alone has no database to ask.
             database=cast("Callable[[], Awaitable[None] | None] | None", getattr(store, "check", None)),
         )
-        SESSIONS_LOADED.set_function(lambda: store.loaded)
-        VIEWERS.set_function(lambda: store.viewers)
+        SESSIONS_LOADED.set_function(lambda: len(store.loaded))
+        VIEWERS.set_function(lambda: store.loaded.viewers)
 
     async def start(self) -> None:
         """Begin to watch."""

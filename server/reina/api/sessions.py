@@ -34,10 +34,10 @@ from reina.music import Score
 from reina.protocol import resources
 from reina.protocol.links import session_links
 from reina.protocol.transport import TransportCommand, TransportState
+from reina.sessions.draft import Draft
 from reina.sessions.score_text import packed_score
 from reina.sessions.session import Session
 from reina.sessions.storage.errors import SessionDamagedError
-from reina.sessions.store import Draft
 
 router = APIRouter(tags=["sessions"], route_class=BoundedRoute)
 
@@ -88,8 +88,8 @@ async def create_session(
     """
     sender = client_address(request.scope)
     await store.require_disk(sender)
-    async with store.staging(sender) as folder:
-        upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
+    async with store.staging.folder(sender) as folder:
+        upload = await receive_upload(request, folder, partial(store.staging.room.grow, folder))
         session, token = await store.create(_draft(folder, upload, request, person))
     if await request.is_disconnected():
         # Whoever sent it has given it up, and nobody else can come to know it.
@@ -190,9 +190,9 @@ async def change_session(
     if wanted.pop("cast", None):
         sequence = wanted.pop("sequence", None)
         refuse_twice(wanted)
-        await store.change(session, **named, recast=lambda cast: cast.found_anew(sequence))
+        await store.edits.change(session, **named, recast=lambda cast: cast.found_anew(sequence))
     else:
-        await store.change(session, **named, recast=lambda cast: cast.changed(**wanted))
+        await store.edits.change(session, **named, recast=lambda cast: cast.changed(**wanted))
     return await _told(request, session)
 
 
@@ -211,7 +211,7 @@ async def renew_control_token(session: Controlled, store: Store) -> resources.Co
 
     Who watches goes on watching: for that the id is enough, which stays.
     """
-    return resources.ControlToken(control_token=await store.renew_token(session))
+    return resources.ControlToken(control_token=await store.edits.renew_token(session))
 
 
 @router.get("/sessions/{session_id}/score", response_model=resources.Score, dependencies=[LARGE_ANSWER])

@@ -58,7 +58,7 @@ class ShowChange:
             require_match(self._if_match, *own, text.etag)
             return step(history)
 
-        return await self._store.change_show(self._session, conditional_step)
+        return await self._store.edits.change_show(self._session, conditional_step)
 
     def outcome(self, after: ShowRevision, *, briefly: bool) -> bytes:
         """What the change came to: `ShowEdited` as JSON, with the text of tracks that is written already.

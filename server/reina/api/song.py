@@ -119,7 +119,7 @@ async def get_song(
     record, is_original = session.record.song, format == "original"
     if record is None:
         return ServedFile(path, media_type=song.media_type, headers=HEADERS)
-    uploaded = await store.song_file(session, is_original=is_original)
+    uploaded = await store.recordings.file(session, is_original=is_original)
     media_type = record.media_type
     if is_original and record.original is not None:
         media_type = media_type_of(PurePath(record.original).suffix)
@@ -190,7 +190,7 @@ async def get_peaks(
     _, path = _song_and_path(session)
     if path is not None:
         uploaded = session.record.song is not None
-        peaks = await (store.peaks(session) if uploaded else store.decoder.peaks(path))
+        peaks = await (store.recordings.peaks(session) if uploaded else store.decoder.peaks(path))
         if peaks is None:
             return Response(status_code=204)
     else:

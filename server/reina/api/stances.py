@@ -97,7 +97,7 @@ async def make_stance(
             )
         return (*known, made)
 
-    await store.change(session, restance=with_it)
+    await store.edits.change(session, restance=with_it)
     stance = stance_resource(session.id, made)
     response.headers["Location"] = stance.href
     return stance
@@ -118,7 +118,7 @@ async def remove_stance(
             )
         return left
 
-    await store.change(session, restance=without_it)
+    await store.edits.change(session, restance=without_it)
 
 
 def _four(numbers: list[float]) -> tuple[float, float, float, float]:

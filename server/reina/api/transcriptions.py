@@ -94,10 +94,10 @@ async def transcribe(
     """
     known.require()
     line = _line(instrument)
-    folder = await store.staging_folder(client_address(request.scope))
-    discard = partial(store.discard_staged, folder)
+    folder = await store.staging.begin(client_address(request.scope))
+    discard = partial(store.staging.discard, folder)
     try:
-        upload = await receive_upload(request, folder, partial(store.staged.grow, folder))
+        upload = await receive_upload(request, folder, partial(store.staging.room.grow, folder))
         song, filename = _song(upload)
         work = known.begin(song, line, title or FilePath(filename or "").stem or "Transcription", discard)
     except BaseException:

@@ -68,9 +68,9 @@ class NoteTable:
         self._player_of_part = {
             part: player for player, (_, played) in enumerate(players) for part in played.parts
         }
-        self._place_in_line = {
-            note: place for _, played in players for place, note in enumerate(played.line.note_index.tolist())
-        }
+        self._place_in_line = np.full(len(score.notes), -1, dtype=np.int32)
+        for _, played in players:
+            self._place_in_line[played.line.note_index] = np.arange(len(played.line))
 
     def note(self, index: int) -> DescribedNote:
         """A note by its place in the score's table."""
@@ -79,8 +79,8 @@ class NoteTable:
         sounding_name, written_name = self._names.of(index)
         player = self._player_of_part.get(note.part)
         instrument, played = self._players[player or 0]
-        place = self._place_in_line.get(index)
-        if place is not None:
+        place = int(self._place_in_line[index])
+        if place >= 0:
             pitch = int(played.line.sounding_pitch[place])
             played_so, reason = played.fingering.notes[place], played.fingering.reasons[place]
         elif player is not None:

@@ -110,16 +110,16 @@ def playable_line(
     if beyond:
         line = maker.fill_in(line, beyond)
     table = np.array(line, dtype=np.float64).reshape(-1, 4)
-    note_index = table[:, 0].astype(np.int64)
+    note_index = table[:, 0].astype(np.int32)
     onset_s, end_s = table[:, 1], table[:, 2]
     rests = onset_s[1:] - end_s[:-1] >= BREATH_S
     return Line(
         note_index=read_only(note_index),
         onset_s=read_only(onset_s),
         end_s=read_only(end_s),
-        sounding_pitch=read_only(table[:, 3].astype(np.int64)),
+        sounding_pitch=read_only(table[:, 3].astype(np.int32)),
         velocity=read_only(notes.velocity[note_index]),
-        phrase=read_only(np.concatenate((np.zeros(1), np.cumsum(rests)))[: len(table)].astype(np.int64)),
+        phrase=read_only(np.concatenate((np.zeros(1), np.cumsum(rests)))[: len(table)].astype(np.int32)),
         dropped=read_only(np.array(sorted(maker.dropped), dtype=np.int64)),
         shortened=read_only(np.array(sorted(maker.shortened - maker.dropped), dtype=np.int64)),
         tongued=read_only(notes.tongued[note_index]),

@@ -6,7 +6,7 @@ import numpy as np
 
 from reina.instruments.instrument import Instrument
 from reina.instruments.played import Line, PlayedPart
-from reina.music.arrays import IntArray
+from reina.music.arrays import IntArray, NarrowIntArray
 from reina.music.score import Score
 from reina.notation import Key, keys_of, named, spell
 
@@ -32,7 +32,7 @@ def spell_line(
 
 
 class NoteNames:
-    """The names of a score's notes; each part is spelled when it is asked for first.
+    """The names of a score's notes; a part that nobody plays is spelled when it is asked for first.
 
     What is played is spelled as the line it is; the rest, part by part, as it stands in the score.
     """
@@ -42,25 +42,28 @@ class NoteNames:
         self._keys = keys_of(score)
         self._lead = players[0][0]
         self._player_of_part = {part: player for player in players for part in player[1].parts}
-        self._names: dict[int, tuple[str, str]] = {}
+        count = len(score.notes)
+        # As they sound, and as they are written.
+        self._pitches = np.zeros((2, count), dtype=np.int16)
+        self._places = np.zeros((2, count), dtype=np.int8)
+        self._spelled = np.zeros(count, dtype=np.bool_)
         for instrument, played in players:
-            self._keep(played.line.note_index, *self._both(instrument, played))
+            self._spell_line(instrument, played)
 
     def of(self, note: int) -> tuple[str, str]:
         """Return what a note is called as it sounds, and as it is written; by its place in the score."""
-        if note not in self._names:
+        if not self._spelled[note]:
             self._spell_part(int(self._score.notes.part[note]))
-        return self._names[note]
+        sounding, written = zip(self._pitches[:, note].tolist(), self._places[:, note].tolist(), strict=True)
+        return named(*sounding), named(*written)
 
-    def _both(self, instrument: Instrument, played: PlayedPart) -> tuple[list[str], list[str]]:
-        pitches, above = played.line.sounding_pitch, instrument.written_pitch(0)
-        names = [
-            spell_line(
-                self._score, played.line, self._keys, moved=played.transposition, written_above_sounding=up
-            )
+    def _spell_line(self, instrument: Instrument, played: PlayedPart) -> None:
+        line, above = played.line, instrument.written_pitch(0)
+        places = [
+            spell_line(self._score, line, self._keys, moved=played.transposition, written_above_sounding=up)
             for up in (0, above)
         ]
-        return _names(pitches, names[0]), _names(pitches + above, names[1])
+        self._keep(line.note_index, line.sounding_pitch, above, places)
 
     def _spell_part(self, part: int) -> None:
         instrument, played = self._player_of_part.get(part, (self._lead, None))
@@ -71,16 +74,18 @@ class NoteNames:
         # What is moved beyond MIDI's pitches stands as in the file.
         pitches = np.where((pitches < 0) | (pitches > 127), notes.sounding_pitch[indices], pitches)
         above = instrument.written_pitch(0)
-        names = [
+        places = [
             spell(pitches + up, notes.onset_beats[indices], self._keys, semitones=moved + up)
             for up in (0, above)
         ]
-        self._keep(indices, _names(pitches, names[0]), _names(pitches + above, names[1]))
+        self._keep(indices, pitches, above, places)
 
-    def _keep(self, indices: IntArray, sounding: Sequence[str], written: Sequence[str]) -> None:
-        for note, *names in zip(indices.tolist(), sounding, written, strict=True):
-            self._names.setdefault(note, (names[0], names[1]))
-
-
-def _names(pitches: IntArray, names: IntArray) -> list[str]:
-    return [named(pitch, name) for pitch, name in zip(pitches.tolist(), names.tolist(), strict=True)]
+    def _keep(
+        self, indices: NarrowIntArray, pitches: NarrowIntArray, above: int, places: Sequence[IntArray]
+    ) -> None:
+        """Keep the names of notes that have none yet."""
+        new = ~self._spelled[indices]
+        for row, up in enumerate((0, above)):
+            self._pitches[row, indices[new]] = pitches[new] + up
+            self._places[row, indices[new]] = places[row][new]
+        self._spelled[indices] = True

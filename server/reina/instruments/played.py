@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reina.instruments.note_fingerings import NoteFingering
-from reina.music.arrays import BoolArray, FloatArray, IntArray
+from reina.music.arrays import BoolArray, FloatArray, IntArray, NarrowIntArray
 from reina.music.warnings import ScoreWarning
 from reina.notation.drums import Struck
 
@@ -31,12 +31,12 @@ class Line:
             where it says nothing of any.
     """
 
-    note_index: IntArray
+    note_index: NarrowIntArray
     onset_s: FloatArray
     end_s: FloatArray
-    sounding_pitch: IntArray
+    sounding_pitch: NarrowIntArray
     velocity: FloatArray
-    phrase: IntArray
+    phrase: NarrowIntArray
     dropped: IntArray
     shortened: IntArray
     tongued: NDArray[np.int8] | None = None
@@ -55,9 +55,9 @@ class Fingering:
         reasons: Of each note what was chosen and why, or why it cannot be played.
     """
 
-    notes: tuple[NoteFingering | None, ...]
+    notes: Sequence[NoteFingering | None]
     playable: BoolArray
-    reasons: tuple[str, ...]
+    reasons: Sequence[str]
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -13,6 +14,10 @@ if TYPE_CHECKING:
 
 Curve: TypeAlias = "tuple[FloatArray, float]"
 """Movements ``(start_s, end_s, value)``, ``(M, 3)``, and the value before the first."""
+
+
+BEFORE_ALL_S = float(np.finfo(np.float64).min)
+"""Times from there on are finite, and a movement at no speed has still come nowhere."""
 
 
 def minimum_jerk(fraction: ArrayLike) -> FloatArray:
@@ -48,26 +53,27 @@ class MotionCurves:
             offsets.append(sum(len(part) for part in starts))
             # A movement before all time puts the first value in place, so that every time lies in some
             # movement.
-            starts.append(np.concatenate([[-np.inf], start]))
+            starts.append(np.concatenate([[BEFORE_ALL_S], start]))
             rates.append(np.concatenate([[0.0], 1.0 / np.maximum(end - start, 1e-9)]))
             values.append(np.concatenate([[initial], value]))
-        self._starts = starts
         self._offsets: IntArray = np.array(offsets, dtype=np.intp)[:, None]
-        self._origin: FloatArray = np.concatenate([np.concatenate([[0.0], part[1:]]) for part in starts])
+        self._starts: FloatArray = np.concatenate(starts)
         self._rate: FloatArray = np.concatenate(rates)
         self._value: FloatArray = np.concatenate(values)
-        self._change: FloatArray = np.concatenate([np.diff(part, prepend=part[0]) for part in values])
 
     def evaluate(self, times_s: FloatArray) -> FloatArray:
         """The curves' values ``(C, F)`` at times ``(F,)``."""
-        place = np.empty((len(self._starts), times_s.size), dtype=np.intp)
-        for row, starts in enumerate(self._starts):
-            place[row] = starts.searchsorted(times_s, side="right")
+        place = np.empty((len(self.names), times_s.size), dtype=np.intp)
+        begins = self._offsets[:, 0].tolist()
+        for row, (begin, end) in enumerate(pairwise([*begins, len(self._starts)])):
+            place[row] = self._starts[begin:end].searchsorted(times_s, side="right")
         place += self._offsets - 1
-        u = (times_s - self._origin[place]) * self._rate[place]
+        u = (times_s - self._starts[place]) * self._rate[place]
         u = np.minimum(np.maximum(u, 0.0), 1.0)
         done = np.minimum(u * u * u * (10.0 + u * (6.0 * u - 15.0)), 1.0)
-        return self._value[place] - self._change[place] * (1.0 - done)
+        value = self._value[place]
+        change = value - self._value[np.maximum(place - 1, self._offsets)]
+        return value - change * (1.0 - done)
 
     def index(self, names: Sequence[str]) -> IntArray:
         """Rows of `evaluate` for curve names; ValueError where one is not there."""

@@ -1,12 +1,14 @@
 """Arrays that nobody changes by accident."""
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+NarrowIntArray = NDArray[np.signedinteger[Any]]
+"""Of whatever width holds its numbers."""
 BoolArray = NDArray[np.bool_]
 
 T = TypeVar("T", bound=np.generic)

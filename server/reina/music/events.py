@@ -98,9 +98,10 @@ class NoteEventEmitter(Generic[N]):
             raise ValueError("a note ends before it begins")
         self._notes = notes
         self._onsets, self._ends, self._pitches = onsets, ends, pitches
-        index = np.arange(len(notes))
+        index = np.arange(len(notes), dtype=np.int32)
         times = np.concatenate((ends, onsets))
         kinds = np.concatenate((np.where(ends > onsets, _OFF, _OFF_OF_TAP), np.full(len(notes), _ON)))
+        kinds = kinds.astype(np.int8)
         order = np.lexsort((np.tile(index, 2), np.tile(pitches, 2), kinds, times))
         self._times = times[order]
         self._kinds = kinds[order]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reina.music.arrays import FloatArray, IntArray
+from reina.music.arrays import FloatArray, NarrowIntArray
 from reina.music.score import Score
 from reina.notation.bars import bars_of
 from reina.notation.measures import Measure, measures_of
@@ -37,7 +37,7 @@ class WrittenPart:
     tempo_marks: tuple[TempoMark, ...]
 
 
-def write_part(score: Score, onset_s: FloatArray, end_s: FloatArray, pitches: IntArray) -> WrittenPart:
+def write_part(score: Score, onset_s: FloatArray, end_s: FloatArray, pitches: NarrowIntArray) -> WrittenPart:
     """Write a line of M notes, one at a time.
 
     Args:

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reina.music.arrays import FloatArray, IntArray, read_only
+from reina.music.arrays import FloatArray, IntArray, NarrowIntArray, read_only
 from reina.notation.keys import Key
 
 LETTERS = "FCGDAEB"
@@ -41,7 +41,9 @@ FORGET_BEATS = 4.0
 """After a rest of this length the note before says nothing of the next one's name."""
 
 
-def spell(pitches: IntArray, onset_beats: FloatArray, keys: Sequence[Key], *, semitones: int = 0) -> IntArray:
+def spell(
+    pitches: NarrowIntArray, onset_beats: FloatArray, keys: Sequence[Key], *, semitones: int = 0
+) -> IntArray:
     """Return the place of each pitch's name on the line of fifths, (N,) int64, within -8 to 12.
 
     Args:

@@ -8,7 +8,6 @@ import numpy as np
 
 from reina.instruments.describe import (
     DescribedNote,
-    NoteTable,
     describe_metres,
     describe_parts,
     describe_tempi,
@@ -164,12 +163,6 @@ def part_choices(ranking: Iterable[PartRanking]) -> list[resources.PartChoice]:
         resources.PartChoice(part=choice.part, score=choice.score, reasons=list(choice.reasons))
         for choice in ranking
     ]
-
-
-def note_table(production: Production) -> NoteTable:
-    """The notes of a production's score, with the fingering of those that are played."""
-    players = [(performer.instrument, performer.played) for performer in production.performers]
-    return NoteTable(production.score, players)
 
 
 def wire_note(note: DescribedNote) -> WireNote:

@@ -40,9 +40,8 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
     neither piece nor limb.
     """
     notes = score.notes
-    part = notes.part.astype(np.int64)
-    joined_to = part.copy()
-    pitch = notes.sounding_pitch.astype(np.int64)
+    joined_to = notes.part.copy()
+    pitch = notes.sounding_pitch.copy()
     pressed: dict[int, tuple[int, ...]] = {}
     struck: dict[int, StrikeFingering] = {}
     for one in played:
@@ -53,7 +52,7 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
                 pressed[note] = played_so.valves
             elif isinstance(played_so, StrikeFingering):
                 struck[note] = played_so
-        joined_to[np.isin(part, one.joined_parts)] = one.part
+        joined_to[np.isin(notes.part, one.joined_parts)] = one.part
     columns = max(map(max, filter(None, pressed.values())), default=0)
     valves = np.zeros((len(notes), columns), dtype=np.bool_)
     for note, down in pressed.items():
@@ -61,13 +60,13 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
     fingered = np.zeros(len(notes), dtype=np.bool_)
     fingered[list(pressed)] = True
     pieces = tuple(sorted({stroke.piece for stroke in struck.values()}))
-    piece, limb = (np.full(len(notes), -1, dtype=np.int64) for _ in range(2))
+    piece, limb = (np.full(len(notes), -1, dtype=np.int8) for _ in range(2))
     for note, stroke in struck.items():
         piece[note] = pieces.index(stroke.piece)
         limb[note] = LIMBS.index(f"{stroke.hand}_hand" if stroke.hand else f"{stroke.foot}_foot")
     return Triggers(
         onset_s=notes.onset_s,
-        part=part,
+        part=notes.part,
         pitch=pitch,
         velocity=notes.velocity,
         valves=valves,

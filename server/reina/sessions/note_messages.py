@@ -16,6 +16,11 @@ if TYPE_CHECKING:
     from reina.music import ClockState, NoteEvent
     from reina.protocol.notes import WireNote
 
+NOTE_BYTES = 26
+"""What a note takes in memory: a time, a kind and an index of its beginning, and of its end."""
+JOINED_BYTES = 24
+"""What it takes beside, where several players' notes are put together: times, pitch and index."""
+
 _MESSAGES = {"note_on": NoteOn, "note_off": NoteOff}
 
 

@@ -7,12 +7,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from reina.instruments import Cast, casting_reasons, choice_findings, spoken_name, unplayed_parts
+from reina.instruments.describe import NoteTable
 from reina.instruments.player import plan_glances
 from reina.music import findings_of, retimed, transposed
 from reina.performance import Performance
 from reina.protocol import Manifest, build_manifest
 from reina.sessions.cast_plan import complete_cast, seats_of
 from reina.sessions.music_arrays import music_form, time_map, triggers, tune_form, tune_of
+from reina.sessions.note_messages import JOINED_BYTES, NOTE_BYTES
 from reina.show import Show, ShowError, ShowPlan, Track, UnknownTrack, unknown_choices
 from reina.sound.plan import PlayedParts
 from reina.stage import CastForm, Place, write_default_show
@@ -37,10 +39,6 @@ if TYPE_CHECKING:
     from reina.sessions.packed_score import PackedScore
     from reina.sessions.stage import Stage
     from reina.skeleton import HumanPose
-
-
-AS_TOLD = 1.15
-"""What is told of the notes while they are played is made of the score, and weighs a seventh of it."""
 
 
 def read_show(data: bytes, registry: ParameterRegistry) -> Show:
@@ -71,6 +69,7 @@ class Production:
         show_plan: The show, made ready.
         performance: All of it as a function of time.
         manifest: What its frames hold.
+        note_table: Its notes as the cast plays them.
         packed_score: The score as it is answered with, where it is so long that it is written beforehand.
         weight: About how many bytes all of it but the show takes in memory; 0 until `weighed`.
     """
@@ -85,6 +84,7 @@ class Production:
     show_plan: ShowPlan
     performance: Performance
     manifest: Manifest
+    note_table: NoteTable
     packed_score: PackedScore | None = None
     weight: int = 0
 
@@ -155,13 +155,25 @@ class Production:
             show_plan=show_plan,
             performance=performance,
             manifest=build_manifest(performance.layout),
+            note_table=NoteTable(heard, [(one.instrument, one.played) for one in performers]),
         )
 
     def weighed(self) -> Production:
         """The same, with its weight; takes some hundredths of a second."""
         shared = (self.stage, *self.stage.parts, self.show, self.show_plan)
-        held = (self.written_score, self.score, self.rankings, self.performers, self.packed_score)
-        return replace(self, weight=int(AS_TOLD * weight_of(held, shared)))
+        held = (
+            self.written_score,
+            self.score,
+            self.rankings,
+            self.performers,
+            self.note_table,
+            self.show_plan.triggers,
+            self.packed_score,
+        )
+        # What is told of the notes while they are played is made of them when they are.
+        told = NOTE_BYTES if len(self.performers) == 1 else NOTE_BYTES + JOINED_BYTES
+        notes = sum(len(performer.played.line) for performer in self.performers)
+        return replace(self, weight=weight_of(held, shared) + told * notes)
 
     @property
     def performers(self) -> tuple[Performer, ...]:

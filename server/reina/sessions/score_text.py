@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reina.sessions.description import note_table, score_head, wire_note
+from reina.sessions.description import score_head, wire_note
 from reina.sessions.packed_score import PackedScore
 from reina.system.json_text import json_text
 
@@ -25,7 +25,7 @@ def packed_score(production: Production) -> PackedScore:
 def _written(production: Production) -> Iterator[bytes]:
     """The document without its title and its last brace: a line for the head, for each note, for the end."""
     yield json_text(score_head(production)).removesuffix(b"}") + b',"notes":[\n'
-    table, count = note_table(production), len(production.score.notes)
+    table, count = production.note_table, len(production.score.notes)
     for begin in range(0, count, AT_ONCE):
         notes = (
             wire_note(table.note(n)).model_dump_json() for n in range(begin, min(begin + AT_ONCE, count))

@@ -30,7 +30,6 @@ from reina.sessions.description import (
     cast_summary,
     found,
     lead_fields,
-    note_table,
     part_choices,
     part_summaries,
     stances_of,
@@ -461,12 +460,12 @@ class Session:
 def note_messages(production: Production) -> NoteMessages:
     """What is told of the played notes; of a long score this takes a while."""
     lines = [performer.played.line for performer in production.performers]
-    notes = np.concatenate([line.note_index for line in lines])
-    onset_s = np.concatenate([line.onset_s for line in lines])
-    end_s = np.concatenate([line.end_s for line in lines])
-    pitch = np.concatenate([line.sounding_pitch for line in lines])
-    order = np.argsort(onset_s, kind="stable")
-    table, index = note_table(production), notes[order].tolist()
-    return NoteMessages(
-        onset_s[order], end_s[order], pitch[order], lambda number: wire_note(table.note(index[number]))
-    )
+    columns = [(line.onset_s, line.end_s, line.sounding_pitch, line.note_index) for line in lines]
+    onset_s, end_s, pitch, index = columns[0]
+    if len(lines) > 1:
+        order = np.argsort(np.concatenate([line.onset_s for line in lines]), kind="stable")
+        onset_s, end_s, pitch, index = (
+            np.concatenate(column)[order] for column in zip(*columns, strict=True)
+        )
+    table = production.note_table
+    return NoteMessages(onset_s, end_s, pitch, lambda number: wire_note(table.note(int(index[number]))))

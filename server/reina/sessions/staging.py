@@ -1,14 +1,18 @@
-"""What is being sent: how large it may be, of all senders together and of one."""
+"""What is being sent: where it is put, and how large it may be, of all senders together and of one."""
 
 from __future__ import annotations
 
+import asyncio
+import shutil
 import threading
+from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
 from reina.sessions.limit_errors import NoRoomError, SenderLimitError
 from reina.system.room import NoRoomLeftError, Room
 
 if TYPE_CHECKING:
+    from collections.abc import AsyncGenerator, Callable
     from pathlib import Path
 
 MEGABYTE = 1_000_000
@@ -85,3 +89,41 @@ class StagingRoom:
             f"too much is being sent to the server at the same time: {figures}; try again soon",
             retry_after_s=RETRY_S,
         )
+
+
+class Staging:
+    """Folders that are being filled with what is sent.
+
+    Args:
+        make: Makes a new one; takes a moment.
+        most_bytes: How large all may be together; one sender's half as much.
+    """
+
+    def __init__(self, make: Callable[[], Path], most_bytes: int = STAGING_BYTES) -> None:
+        self._make = make
+        self.room = StagingRoom(most_bytes)
+        """Counts what comes for them."""
+
+    @asynccontextmanager
+    async def folder(self, sender: str = "") -> AsyncGenerator[Path]:
+        """A new folder; what is not made a session of is removed at the end.
+
+        Args:
+            sender: Who fills it; `room` counts them.
+        """
+        folder = await self.begin(sender)
+        try:
+            yield folder
+        finally:
+            await self.discard(folder)
+
+    async def begin(self, sender: str = "") -> Path:
+        """A new folder; whoever asked for it has it discarded."""
+        folder = await asyncio.to_thread(self._make)
+        self.room.begin(folder, sender)
+        return folder
+
+    async def discard(self, folder: Path) -> None:
+        """Remove a folder of `begin`, if it is still there."""
+        await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+        self.room.end(folder)

@@ -35,7 +35,7 @@ async def sweep_unseen(store: SessionStore, after_s: float) -> None:
                 if ended:
                     _log.info("ended %d sessions that nobody had seen for %g days", ended, after_s / DAY_S)
             else:
-                await store.sightings.keep(store.watched)
+                await store.sightings.keep(store.loaded.watched)
         except (InputError, OSError) as error:
             _log.warning("sessions that nobody sees could not be ended: %s", error)
         await asyncio.sleep(every_s)

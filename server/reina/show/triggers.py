@@ -2,13 +2,16 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
-from reina.curves.arrays import BoolArray, FloatArray, IntArray
+from reina.curves.arrays import BoolArray, FloatArray
 from reina.show.time_map import TimeMap
 
+Numbers = NDArray[np.signedinteger[Any]]
+"""Small ones: of the narrowest type that holds them."""
 Occasion = Literal["notes", "beats", "bars"]
 OCCASIONS: tuple[Occasion, ...] = get_args(Occasion)
 Limb = Literal["left_hand", "right_hand", "left_foot", "right_foot"]
@@ -19,8 +22,8 @@ def _no_floats() -> FloatArray:
     return np.zeros(0)
 
 
-def _no_integers() -> IntArray:
-    return np.zeros(0, dtype=np.int64)
+def _no_numbers() -> Numbers:
+    return np.zeros(0, dtype=np.int8)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,16 +45,16 @@ class Triggers:
     """
 
     onset_s: FloatArray = field(default_factory=_no_floats)
-    part: IntArray = field(default_factory=_no_integers)
-    pitch: IntArray = field(default_factory=_no_integers)
+    part: Numbers = field(default_factory=_no_numbers)
+    pitch: Numbers = field(default_factory=_no_numbers)
     velocity: FloatArray = field(default_factory=_no_floats)
     valves: BoolArray = field(default_factory=lambda: np.zeros((0, 0), dtype=np.bool_))
     fingered: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
     pieces: tuple[str, ...] = ()
-    piece: IntArray = field(default_factory=_no_integers)
-    limb: IntArray = field(default_factory=_no_integers)
+    piece: Numbers = field(default_factory=_no_numbers)
+    limb: Numbers = field(default_factory=_no_numbers)
     end_s: float = 0.0
-    joined_to: IntArray = field(default_factory=_no_integers)
+    joined_to: Numbers = field(default_factory=_no_numbers)
 
     def __post_init__(self) -> None:
         counts = {column.shape[0] for column in (self.onset_s, self.part, self.pitch, self.velocity)}
@@ -63,7 +66,7 @@ class Triggers:
             object.__setattr__(self, "joined_to", self.part)
         for name in ("piece", "limb"):
             if getattr(self, name).size == 0:
-                object.__setattr__(self, name, np.full(self.onset_s.size, -1, dtype=np.int64))
+                object.__setattr__(self, name, np.full(self.onset_s.size, -1, dtype=np.int8))
         others = {
             column.shape[0] for column in (self.valves, self.fingered, self.joined_to, self.piece, self.limb)
         }

@@ -1,22 +1,26 @@
 """Python objects on their way between the server's processes.
 
-What arrays hold travels beside the pickle (PEP 574): it is copied once, without the interpreter's lock. What
-both ends have already, such as the rigs, travels as its number.
+What arrays hold travels beside the pickle (PEP 574): it is copied once, without the interpreter's lock.
+Arrays that nobody writes to and that hold the same share it at the other end. What both ends have already,
+such as the rigs, travels as its number.
 """
 
 from __future__ import annotations
 
+import hashlib
 import io
 import pickle
 import struct
 from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 _COUNT = struct.Struct("<Q")
 _SIZE = struct.Struct("<Q?")
-"""Bytes of a buffer, and whether it may not be written to."""
+"""Bytes of a piece, and whether it may not be written to."""
+_NUMBER = struct.Struct("<I")
+"""In which piece a buffer is."""
 
 
 def send(file: BinaryIO, value: object, shared: Sequence[object] = ()) -> None:
@@ -33,9 +37,19 @@ def send(file: BinaryIO, value: object, shared: Sequence[object] = ()) -> None:
     buffers: list[pickle.PickleBuffer] = []
     body = io.BytesIO()
     _Pickler(body, shared, buffers).dump(value)
-    pieces = [body.getbuffer(), *(buffer.raw() for buffer in buffers)]
-    head = b"".join(_SIZE.pack(piece.nbytes, piece.readonly) for piece in pieces)
-    file.write(_COUNT.pack(len(pieces)) + head)
+    pieces, numbers = [body.getbuffer()], list[int]()
+    known: dict[bytes, int] = {}
+    for raw in (buffer.raw() for buffer in buffers):
+        number = len(pieces)
+        if raw.readonly:
+            number = known.setdefault(hashlib.sha256(raw).digest(), number)
+        if number == len(pieces):
+            pieces.append(raw)
+        numbers.append(number)
+    file.write(
+        _COUNT.pack(len(pieces)) + b"".join(_SIZE.pack(piece.nbytes, piece.readonly) for piece in pieces)
+    )
+    file.write(_COUNT.pack(len(numbers)) + b"".join(map(_NUMBER.pack, numbers)))
     for piece in pieces:
         file.write(piece)
     file.flush()
@@ -54,12 +68,12 @@ def receive(file: BinaryIO, shared: Sequence[object] = ()) -> Any:
     (count,) = _COUNT.unpack(_exactly(file, _COUNT.size))
     head = _exactly(file, count * _SIZE.size)
     (length, _), *sizes = _SIZE.iter_unpack(head)
+    (count,) = _COUNT.unpack(_exactly(file, _COUNT.size))
+    numbers = [number for (number,) in _NUMBER.iter_unpack(_exactly(file, count * _NUMBER.size))]
     body = file.read(length)
     if len(body) < length:
         raise EOFError("the other process is gone")
-    # Each is read when its turn comes, so that what takes them over may let go of them one by one.
-    buffers = (_piece(file, size, readonly) for size, readonly in sizes)
-    return _Unpickler(io.BytesIO(body), shared, buffers).load()
+    return _Unpickler(io.BytesIO(body), shared, _buffers(file, sizes, numbers)).load()
 
 
 class _Pickler(pickle.Pickler):
@@ -80,6 +94,16 @@ class _Unpickler(pickle.Unpickler):
 
     def persistent_load(self, pid: int) -> object:
         return self._shared[pid]
+
+
+def _buffers(file: BinaryIO, sizes: list[tuple[int, bool]], numbers: list[int]) -> Iterator[memoryview]:
+    """Each buffer, read when its turn comes, so that what takes them over may let go of them one by one."""
+    last = {number: place for place, number in enumerate(numbers)}
+    kept: dict[int, memoryview] = {}
+    for place, number in enumerate(numbers):
+        if number not in kept:
+            kept[number] = _piece(file, *sizes[number - 1])
+        yield kept.pop(number) if last[number] == place else kept[number]
 
 
 def _piece(file: BinaryIO, size: int, readonly: bool) -> memoryview:

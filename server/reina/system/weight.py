@@ -52,7 +52,8 @@ class _Scales:
         if isinstance(held, (str, bytes, bytearray)):
             return sys.getsizeof(held)
         if isinstance(held, memoryview):
-            return held.nbytes
+            # Arrays of one buffer each have a view of their own.
+            return self._once(held.obj, held.nbytes)
         if isinstance(held, np.ndarray):
             return self._array(cast("np.ndarray[Any, Any]", held), depth)
         if isinstance(held, dict):
@@ -64,9 +65,17 @@ class _Scales:
             return sys.getsizeof(several) + self._many(several, len(several), depth)
         return self._object(held, depth)
 
+    def _once(self, held: object, size: int) -> int:
+        if id(held) in self._seen:
+            return 0
+        self._seen.add(id(held))
+        return size
+
     def _array(self, array: np.ndarray[Any, Any], depth: int) -> int:
         # Of a mapped file it is the map, which numpy's own types do not say.
         base = cast("object", array.base)
+        if isinstance(base, memoryview):
+            return sys.getsizeof(array) + self.weigh(base, depth + 1)
         if base is not None and not isinstance(base, np.ndarray):
             return self.weigh(base, depth + 1) or array.nbytes
         if base is not None:

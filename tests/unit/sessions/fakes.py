@@ -138,4 +138,4 @@ async def choose(store: SessionStore, session: Session, **fields: Any) -> None:
     named = {name: fields.pop(name) for name in ("title", "public") if name in fields}
     if "joined_parts" in fields:
         fields["joined_parts"] = tuple(fields["joined_parts"])
-    await store.change(session, **named, recast=lambda cast: cast.changed(**fields))
+    await store.edits.change(session, **named, recast=lambda cast: cast.changed(**fields))

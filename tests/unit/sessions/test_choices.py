@@ -19,9 +19,9 @@ from reina.instruments.describe import NO_PITCH, NOT_IN_LINE
 from reina.music import NotInScoreError
 from reina.protocol.links import rendering_href
 from reina.protocol.transport import Seek, SetLoop
-from reina.sessions.description import note_table
+from reina.sessions.draft import Draft
 from reina.sessions.stage import Stage
-from reina.sessions.store import Draft, SessionStore
+from reina.sessions.store import SessionStore
 from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.renderer import SongRenderer
 
@@ -43,7 +43,7 @@ def a_store(data_dir: Path, stage: Stage) -> SessionStore:
 
 
 async def create(store: SessionStore, score: bytes, **options: Any) -> Session:
-    async with store.staging() as folder:
+    async with store.staging.folder() as folder:
         (folder / "score").write_bytes(score)
         (folder / "song").write_bytes(song(0.1))
         if "show" in options:
@@ -231,7 +231,7 @@ def test_what_cannot_be_chosen_changes_nothing(tmp_path: Path, stage: Stage) -> 
 def test_a_song_has_one_address_for_what_sounds_the_same(tmp_path: Path, stage: Stage) -> None:
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
-        async with store.staging() as folder:
+        async with store.staging.folder() as folder:
             (folder / "score").write_bytes(duet())
             session, _ = await store.create(
                 Draft(folder=folder, score="score", **draft_fields({"written": True}))
@@ -251,11 +251,11 @@ def test_notes_that_are_left_out_move_with_their_part(tmp_path: Path, stage: Sta
     async def scenario() -> None:
         store = a_store(tmp_path, stage)
         session = await create(store, chords(), written=True)
-        table = note_table(session.production)
+        table = session.production.note_table
         assert [table.note(index).sounding_pitch for index in range(4)] == [58, 62, 60, 63]
         assert table.note(0).reason == NOT_IN_LINE
         await choose(store, session, written=False, transposition=64)
-        top = note_table(session.production).note(3)
+        top = session.production.note_table.note(3)
         assert (top.sounding_pitch, top.valves, top.reason) == (65, None, NO_PITCH)
 
     run(scenario)

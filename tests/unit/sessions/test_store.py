@@ -15,12 +15,14 @@ from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
 from reina.protocol.transport import Play, Seek, SetLoop, SetRate
 from reina.sessions.clock_keeping import ClockKeeping
+from reina.sessions.draft import Draft
 from reina.sessions.limit_errors import NoRoomError, PieceTooLargeError, SenderLimitError, ServerBusyError
+from reina.sessions.session_edits import SessionEndedError
 from reina.sessions.sightings import DAY_S
 from reina.sessions.stage import Stage
 from reina.sessions.storage.errors import SessionDamagedError
 from reina.sessions.storage.session_storage import SessionStorage
-from reina.sessions.store import Draft, SessionEndedError, SessionStore
+from reina.sessions.store import SessionStore
 from reina.sessions.usage import DiskBound
 from reina.show import Show
 from reina.sound.renderer import SongRenderer
@@ -58,7 +60,7 @@ class Desk:
         )
 
     async def create(self, score: bytes, **options: Any) -> Session:
-        async with self.store.staging() as folder:
+        async with self.store.staging.folder() as folder:
             (folder / "score").write_bytes(score)
             (folder / "song").write_bytes(song(0.1))
             # The score is not looked for in a song that is none.
@@ -98,10 +100,10 @@ def test_idle_sessions_beyond_the_bound_are_unloaded_and_come_back(tmp_path: Pat
     async def scenario() -> None:
         desk = Desk(tmp_path, stage, loaded=3)
         made = [await desk.create(scale(4)) for _ in range(5)]
-        assert desk.store.loaded == 3
+        assert len(desk.store.loaded) == 3
         for session in made:
             assert (await desk.get(session.id)).id == session.id
-        assert desk.store.loaded == 3
+        assert len(desk.store.loaded) == 3
 
     run(scenario)
 
@@ -113,7 +115,7 @@ def test_a_session_that_plays_unwatched_is_unloaded_and_goes_on(tmp_path: Path, 
         playing.control(SetRate(action="rate", rate=0.5))
         before = playing.control(Play(action="play"))
         await desk.create(scale(4))
-        assert desk.store.loaded == 1
+        assert len(desk.store.loaded) == 1
         desk.now.time_s += 5.0
         found = await desk.get(playing.id)
         assert found is not playing
@@ -206,8 +208,8 @@ def test_sessions_that_play_unwatched_stay_within_the_bytes(tmp_path: Path, stag
         made = [await desk.create(scale(400)) for _ in range(6)]
         for session in made:
             (await desk.get(session.id)).control(Play(action="play"))
-            assert desk.store.weight <= 3.5 * one.weight
-        assert desk.store.loaded == 3
+            assert desk.store.loaded.weight <= 3.5 * one.weight
+        assert len(desk.store.loaded) == 3
         desk.now.time_s += 20.0
         for session in made:
             found = await desk.get(session.id)
@@ -337,7 +339,7 @@ def test_another_part_keeps_the_show_and_begins_an_epoch(tmp_path: Path, stage: 
         desk = Desk(tmp_path, stage)
         session = await desk.create(duet())
         show = Show(title="Kept")
-        await desk.store.change_show(session, lambda history: history.then(show))
+        await desk.store.edits.change_show(session, lambda history: history.then(show))
         epoch = session.transport().epoch
         await choose(desk.store, session, part=0)
         assert session.transport().epoch == epoch + 1
@@ -371,7 +373,7 @@ def test_whoever_comes_too_late_to_end_or_change_a_session_is_told_so(tmp_path: 
             desk.store.delete(session),
             desk.store.delete(session),
             choose(desk.store, session, part=0),
-            desk.store.change_show(session, lambda history: history.then(Show(title="Late"))),
+            desk.store.edits.change_show(session, lambda history: history.then(Show(title="Late"))),
             return_exceptions=True,
         )
         assert outcomes[0] is None
@@ -389,7 +391,7 @@ def test_a_session_ended_while_it_is_read_does_not_come_back(tmp_path: Path, sta
         await asyncio.sleep(0)
         await asyncio.to_thread(desk.store.storage.remove, made.id)
         assert await asked is None
-        assert desk.store.loaded == 0
+        assert len(desk.store.loaded) == 0
 
     run(scenario)
 
@@ -401,7 +403,7 @@ def test_an_endless_loop_that_nobody_watches_is_unloaded(tmp_path: Path, stage: 
         looping.clock.set_loop(0.0, 1.0)
         looping.clock.play()
         await desk.create(scale(4))
-        assert desk.store.loaded == 1
+        assert len(desk.store.loaded) == 1
 
     run(scenario)
 

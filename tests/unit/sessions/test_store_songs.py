@@ -14,12 +14,13 @@ from tests.integration.scores import duet, relay, scale, show, song
 from tests.kept import kept
 from tests.unit.sessions.fakes import HandClock, choose, draft_fields
 
+from reina.sessions.draft import Draft
 from reina.sessions.note_messages import NoteMessages
 from reina.sessions.production import Production
 from reina.sessions.session import Session
 from reina.sessions.song import RenderedSong
 from reina.sessions.stage import Stage
-from reina.sessions.store import Draft, SessionStore
+from reina.sessions.store import SessionStore
 from reina.sessions.viewer import Viewer
 from reina.show import Show
 from reina.sound.events import SAMPLE_RATE
@@ -96,7 +97,7 @@ class Desk:
         self.store = SessionStore(data_dir, stage, self.renderer, now=HandClock(), **options)
 
     async def create(self, score: bytes, *, with_song: bool = False, **options: Any) -> Session:
-        async with self.store.staging() as folder:
+        async with self.store.staging.folder() as folder:
             (folder / "score").write_bytes(score)
             if with_song:
                 (folder / "song").write_bytes(song(0.1))
@@ -247,11 +248,11 @@ def test_songs_beyond_the_bound_go_and_those_that_are_listened_to_go_last(
             await choose(desk.store, other, transposition=transposition)
             await ready(other)
         desk.renderer.cache.most_bytes = SONG_BYTES
-        await desk.store.prune_songs()
+        await desk.store.loaded.prune_songs()
         assert desk.songs() == [kept]
         await desk.store.aclose()
         again = Desk(tmp_path, stage, song_cache_bytes=0)
-        await again.store.prune_songs()
+        await again.store.loaded.prune_songs()
         assert again.songs() == [], "no session is loaded: none needs a song"
 
     run(scenario)
@@ -312,7 +313,7 @@ def test_what_a_viewer_hears_instead_of_the_song_is_their_own(tmp_path: Path, st
         assert len(paths | {own}) == 4
         assert session.song_state() == state_of_all, "for everybody else nothing has changed"
         # What is heard is in use; once another part is played, it is not.
-        assert paths | {own} == desk.store.songs_in_use()
+        assert paths | {own} == desk.store.loaded.songs_in_use()
         await choose(desk.store, session, transposition=2)
         assert session.heard.paths == set()
         await desk.store.delete(session)
@@ -366,7 +367,7 @@ def test_a_session_that_goes_is_let_go_of_without_the_collector(
             sending = asyncio.create_task(viewer.run())
             session.join(viewer)
             retitled = replace(session.production.show, title="Other")
-            await desk.store.change_show(session, lambda history: history.then(retitled))
+            await desk.store.edits.change_show(session, lambda history: history.then(retitled))
             if not with_song:
                 session.song_state(Hearing(transposition=2))
                 await until(lambda: session.song.request is not None)

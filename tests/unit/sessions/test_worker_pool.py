@@ -63,6 +63,20 @@ def test_arrays_come_back_as_they_were() -> None:
     with_pool(scenario)
 
 
+def test_equal_arrays_that_nobody_writes_to_come_back_as_one() -> None:
+    async def scenario(pool: WorkerPool) -> None:
+        sent = [np.arange(1000.0), np.arange(1000.0), np.arange(1000.0), np.ones(10), np.arange(1000.0)]
+        for array in (*sent[:2], sent[3], sent[4]):
+            array.flags.writeable = False
+        got = cast("list[NDArray[np.float64]]", await pool.run(list, sent))
+        for one, other in zip(got, sent, strict=True):
+            np.testing.assert_array_equal(one, other)
+        assert [np.shares_memory(got[0], other) for other in got] == [True, True, False, False, True]
+        assert got[2].flags.writeable
+
+    with_pool(scenario)
+
+
 def test_what_is_shared_stays_one() -> None:
     shared = InputError("shared")
 

@@ -26,6 +26,12 @@ def test_arrays_texts_and_views_count_once() -> None:
     assert weight_of([array, "x" * 1000], shared=[array]) < 2000
 
 
+def test_arrays_of_one_buffer_weigh_what_the_buffer_does() -> None:
+    buffer = bytearray(800_000)
+    arrays = [np.frombuffer(buffer, dtype=kind) for kind in (np.float64, np.int8, np.int64)]
+    assert weight_of(arrays) == pytest.approx(800_000, rel=0.01)
+
+
 def test_many_objects_weigh_about_what_they_take() -> None:
     tracemalloc.start()
     held = [Held(f"held {n}", (n + 0.5, n + 0.25), np.full(20, float(n))) for n in range(20_000)]

@@ -23,9 +23,9 @@ from reina.sessions.limit_errors import (
     SenderLimitError,
     ServerBusyError,
 )
+from reina.sessions.session_edits import SessionEndedError
 from reina.sessions.storage.errors import DatabaseError, SessionDamagedError
 from reina.sessions.storage.file_store import StoreAwayError, StoredFileLostError, StoreFullError
-from reina.sessions.store import SessionEndedError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
 from reina.sound.transcription.posteriors import NoRuntimeError

@@ -1,12 +1,13 @@
 """How the notes of a line are fingered on valved brass."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
 from reina.instruments.brass.chart import Valves
 from reina.instruments.note_fingerings import ValvesFingering
 from reina.instruments.played import Fingering, PlayedPart
-from reina.music.arrays import BoolArray, FloatArray
+from reina.music.arrays import BoolArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,8 +25,8 @@ class BrassFingering(Fingering):
 
     valves: BoolArray
     primary: BoolArray
-    cents: FloatArray
-    slide: FloatArray
+    cents: Sequence[float]
+    slide: Sequence[float]
 
 
 @dataclass(frozen=True, eq=False)

@@ -128,7 +128,7 @@ def _vibrato(played: PlayedPart) -> FloatArray:
 
 def _slide(played: PlayedPart) -> FloatArray:
     """The third slide is out for the notes that ask for it, moved in the time before them."""
-    line, slide = played.line, brass_fingering(played).slide
+    line, slide = played.line, np.array(brass_fingering(played).slide)
     before = np.concatenate([[0.0], slide[:-1]])
     moves = slide != before
     interval = np.diff(line.onset_s, prepend=-np.inf)

@@ -16,6 +16,7 @@ from reina.instruments.brass.mute import MUTE_CHOICE, mute_parameter
 from reina.instruments.brass.phrase import Choice, Costs, choose
 from reina.instruments.brass.reasons import why
 from reina.instruments.chart_note import ChartNote
+from reina.instruments.coded_column import coded
 from reina.instruments.instrument import Instrument
 from reina.instruments.joined_parts import check_parts, notes_of_parts
 from reina.instruments.line import playable_line
@@ -182,7 +183,7 @@ class ValvedBrass(Instrument):
         valves = np.zeros((count, self.valve_count), dtype=np.bool_)
         playable = np.array([pitch in self.model.chart for pitch in pitches], dtype=np.bool_)
         primary = np.zeros(count, dtype=np.bool_)
-        cents, slide = np.zeros(count), np.zeros(count)
+        cents, slide = [0.0] * count, [0.0] * count
         reasons = [self._out_of_range(pitch) for pitch in pitches]
         notes: list[ValvesFingering | None] = [None] * count
         begin = 0
@@ -216,13 +217,13 @@ class ValvedBrass(Instrument):
                 reasons[note] = why(index, taken, primaries, names, onsets)
             begin = end
         return BrassFingering(
-            notes=tuple(notes),
+            notes=coded(notes),
             playable=read_only(playable),
-            reasons=tuple(reasons),
+            reasons=coded(reasons),
             valves=read_only(valves),
             primary=read_only(primary),
-            cents=read_only(cents),
-            slide=read_only(slide),
+            cents=coded(cents),
+            slide=coded(slide),
         )
 
     @cached_property

@@ -170,12 +170,12 @@ def _line(score: Score, indices: IntArray) -> Line:
     onset_s = notes.onset_s[indices]
     rests = np.diff(onset_s, prepend=onset_s[:1]) >= 4.0 * BREATH_S
     return Line(
-        note_index=read_only(indices),
+        note_index=read_only(indices.astype(np.int32)),
         onset_s=read_only(onset_s),
         end_s=read_only(notes.end_s[indices]),
-        sounding_pitch=read_only(notes.sounding_pitch[indices].astype(np.int64)),
+        sounding_pitch=read_only(notes.sounding_pitch[indices].astype(np.int32)),
         velocity=read_only(notes.velocity[indices]),
-        phrase=read_only(np.cumsum(rests).astype(np.int64)),
+        phrase=read_only(np.cumsum(rests).astype(np.int32)),
         dropped=read_only(np.zeros(0, dtype=np.int64)),
         shortened=read_only(np.zeros(0, dtype=np.int64)),
         tongued=None,

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from reina.instruments.coded_column import coded
 from reina.instruments.drums.hit import MIRRORED, DrumHit, Hand
 from reina.instruments.note_fingerings import NoteFingering, StrikeFingering
 from reina.instruments.played import Fingering, PlayedPart, Strokes
@@ -49,8 +50,8 @@ class DrumFingering(Fingering):
         """Return it as who leads with the other hand does it: limbs change sides, pieces keep their names."""
         return replace(
             self,
-            notes=tuple(_mirrored(note) for note in self.notes),
-            reasons=tuple(_mirror_words(reason) for reason in self.reasons),
+            notes=coded(_mirrored(note) for note in self.notes),
+            reasons=coded(_mirror_words(reason) for reason in self.reasons),
             hits=tuple(replace(hit, limb=MIRRORED[hit.limb]) for hit in self.hits),
             chokes=tuple(choke.mirrored() for choke in self.chokes),
             handedness="right" if self.handedness == "left" else "left",

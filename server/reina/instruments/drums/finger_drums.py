@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 
+from reina.instruments.coded_column import coded
 from reina.instruments.drums.chokes import find_chokes
 from reina.instruments.drums.drum_map import PEDAL_CONTROLLER, drum_map, kit_of, strike
 from reina.instruments.drums.drum_part import DrumFingering, Handedness
@@ -129,14 +130,14 @@ def finger_drums(
         )
         for hit, limb in mimed
     )
-    fingerings = tuple(
+    fingerings = coded(
         None if limb is None else _fingering(limb, said.piece, said.zone)
         for limb, said in zip(limbs, strikes, strict=True)
     )
     fingering = DrumFingering(
         notes=fingerings,
         playable=read_only(np.array([limb is not None for limb in limbs], dtype=np.bool_)),
-        reasons=tuple(reasons),
+        reasons=coded(reasons),
         hits=hits,
         hit_notes=tuple(hit for hit, _ in mimed),
         chokes=chokes,

@@ -199,16 +199,22 @@ def read_and_plan(
     )
     if len(score.notes) < LONG_NOTES:
         return production
+    _write(production.show)
     return replace(production, packed_score=packed_score(production))
 
 
 def read_written_show(data: bytes, registry: ParameterRegistry) -> Show:
     """What `Reader.show` does; it is written too, which takes as long as reading it."""
     show = read_show(data, registry)
+    _write(show)
+    return show
+
+
+def _write(show: Show) -> None:
+    """Put the text of its tracks with a show."""
     for track in show.tracks:
         if isinstance(track, Track):
             write_with(track, show.time)
-    return show
 
 
 def read_written_track(data: bytes, parameter: Parameter, unit: TimeUnit) -> Track:

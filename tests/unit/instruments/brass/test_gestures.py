@@ -36,8 +36,8 @@ def played(notes: list[Note], velocity: float = 0.7, slide: list[float] | None =
         reasons=("",) * count,
         valves=valves & playable[:, None],
         primary=np.ones(count, dtype=np.bool_),
-        cents=np.zeros(count),
-        slide=np.zeros(count) if slide is None else np.array(slide),
+        cents=(0.0,) * count,
+        slide=(0.0,) * count if slide is None else tuple(slide),
     )
     return BrassPart(0, 0, line, fingering, ())
 

@@ -40,8 +40,8 @@ def played(notes: list[Note], velocity: float = 0.7) -> PlayedPart:
         reasons=("",) * count,
         valves=valves,
         primary=np.ones(count, dtype=np.bool_),
-        cents=np.zeros(count),
-        slide=np.zeros(count),
+        cents=(0.0,) * count,
+        slide=(0.0,) * count,
     )
     return BrassPart(0, 0, line, fingering, ())
 
