@@ -78,8 +78,9 @@ class NoteNames:
         self._keep(indices, _names(pitches, names[0]), _names(pitches + above, names[1]))
 
     def _keep(self, indices: IntArray, sounding: Sequence[str], written: Sequence[str]) -> None:
-        for note, *names in zip(indices.tolist(), sounding, written, strict=True):
-            self._names.setdefault(note, (names[0], names[1]))
+        shared: dict[tuple[str, str], tuple[str, str]] = {}
+        for note, both in zip(indices.tolist(), zip(sounding, written, strict=True), strict=True):
+            self._names.setdefault(note, shared.setdefault(both, both))
 
 
 def _names(pitches: IntArray, names: IntArray) -> list[str]:

@@ -420,7 +420,7 @@ def note_messages(production: Production) -> NoteMessages:
     end_s = np.concatenate([line.end_s for line in lines])
     pitch = np.concatenate([line.sounding_pitch for line in lines])
     order = np.argsort(onset_s, kind="stable")
-    table, index = note_table(production), notes[order].tolist()
+    table, index = note_table(production), notes[order]
     return NoteMessages(
-        onset_s[order], end_s[order], pitch[order], lambda number: wire_note(table.note(index[number]))
+        onset_s[order], end_s[order], pitch[order], lambda number: wire_note(table.note(int(index[number])))
     )
