@@ -1,10 +1,10 @@
 """Memory of sessions: loaded and watched by nobody, and playing with a viewer each.
 
-Run as ``python tests/benchmarks/bench_memory.py``; ``--source`` measures another work tree's server. The base
-is the server after its first sessions have come and gone. Then sessions are made, each is watched for a moment
-and paused, and the memory is read: that of idle ones. Then all play, a viewer each, for some seconds of
-frames, and it is read again. A session's share is the difference over their number, of the server's resident
-memory. A piece of 150 notes is a minute of music, one of 3,000 a long one.
+Run as ``python tests/benchmarks/bench_memory.py``; ``--source`` measures another work tree's server. The
+base is the server after its first sessions have come and gone. Then sessions are made, each is watched for a
+moment and paused, and the memory is read: that of idle ones. Then all play, a viewer each, for some seconds
+of frames, and it is read again. A session's share is the difference over their number, of the server's
+resident memory. A piece of 150 notes is half a minute of music, one of 3,000 a long one.
 """
 
 from __future__ import annotations

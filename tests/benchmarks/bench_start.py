@@ -1,10 +1,10 @@
 """From the start of `reina serve` to its first answer, and what it holds in memory then.
 
-Run as ``python tests/benchmarks/bench_start.py``; ``--source`` measures another work tree's server. Timed from
-before the process begins to the answer of ``GET /api/v1/health``, several times over one data directory, after
-a start that is not counted: files are cached, compiled modules are kept and the database is there, as at every
-start but the first. Memory at rest is read when the server has answered and has nothing to do: resident, and
-the part of it that is the process's own (what is mapped from libraries' files can be dropped by the system).
+Run as ``python tests/benchmarks/bench_start.py``; ``--source`` measures another work tree's server. Timed
+from before the process begins to the answer of ``GET /api/v1/health``, several times over one data directory,
+after a start that is not counted: files are cached, compiled modules are kept and the database is there, as
+at every start but the first. Memory at rest is read when the server has answered and has nothing to do:
+resident, and the part of it that is the process's own (what is mapped from libraries' files can be dropped).
 The processor's time is that of the server until then, which another program's load does not change as much.
 """
 

@@ -1,7 +1,5 @@
 """Models whose fields are described by the docstrings below them."""
 
-from __future__ import annotations
-
 import ast
 import inspect
 import sys
