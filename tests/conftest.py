@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 # What tests call by name may be in .venv alone: Node, where `make` brought it.
 os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
 
+# Else each of the hundreds of servers and processes that tests start would compile Reina's modules anew.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
 
 @pytest.fixture(scope="session")
 def postgresql_server() -> Iterator[PostgreSQL]:

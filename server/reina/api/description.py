@@ -13,6 +13,7 @@ from starlette.routing import Route
 
 from reina.api.http.conditions import IF_NONE_MATCH_TEXT
 from reina.api.http.problems import MEDIA_TYPE
+from reina.api.sessions import session_form
 from reina.show.document import ShowDocument
 from reina.show.edits import Edit
 from reina.system.json_text import json_text
@@ -85,6 +86,8 @@ def describe(app: FastAPI) -> None:
                 if (security := operation.get("security")) == [SIGNED_IN]:
                     # FastAPI cannot say that a server may ask for it, and need not.
                     security.insert(0, {})
+        # It follows from a model's schema, which takes a while: not when the route is declared.
+        document["paths"]["/api/v1/sessions"]["post"].update(session_form())
         _describe_links(document["paths"])
         return document
 

@@ -45,7 +45,7 @@ LISTED = 100
 MAX_LISTED = 1000
 
 
-def _form() -> dict[str, Any]:
+def session_form() -> dict[str, Any]:
     """The form of POST /sessions: its files, and the fields as they are declared; nothing in it is null."""
     files = {
         "score": "MIDI, MusicXML or JSON, gzip'd or zipped if need be, at most {} MB",
@@ -78,7 +78,7 @@ _COMMANDS: dict[str, Any] = {
 }
 
 
-@router.post("/sessions", status_code=201, openapi_extra=_form())
+@router.post("/sessions", status_code=201)
 async def create_session(
     request: Request, response: Response, store: Store, person: Uploader
 ) -> resources.CreatedSession:

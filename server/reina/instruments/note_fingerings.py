@@ -5,17 +5,18 @@ An instrument gives each note one of these. A kind that none of them tells is ad
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
+
+from reina.system.described import DescribedModel
 
 Side = Literal["left", "right"]
 
 
-class _NoteFingering(BaseModel):
+class _NoteFingering(DescribedModel):
     model_config = ConfigDict(
         extra="forbid",
         frozen=True,
         allow_inf_nan=False,
-        use_attribute_docstrings=True,
         json_schema_serialization_defaults_required=True,
     )
 

@@ -4,11 +4,9 @@ import re
 from dataclasses import replace
 from pathlib import PurePath
 
-from reina.music.document.reader import read_json
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.music.file_kinds import kind_of
 from reina.music.limits import DEFAULT_LIMITS, Limits
-from reina.music.midi import read_midi
 from reina.music.musicxml.detect import is_musicxml
 from reina.music.packed import unpack
 from reina.music.score import Score
@@ -59,8 +57,8 @@ def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limit
     title = _title(filename) if filename else "Untitled"
     if is_musicxml(data):
         _check_sequence(sequence, "a MusicXML document")
-        # What reads XML takes a while to import, and most scores need it not.
-        from reina.music.musicxml import read_musicxml
+        # Each kind's reader is imported when the first of its kind comes: nobody sends all of them.
+        from reina.music.musicxml.reader import read_musicxml
 
         return read_musicxml(data, title=title, limits=limits)
     is_json = data[:64].lstrip(b" \t\r\n").startswith(JSON_BEGINNINGS)
@@ -68,7 +66,11 @@ def _read(data: bytes, filename: str | None, sequence: int | None, limits: Limit
         _check_sequence(sequence, "a JSON score")
     try:
         if is_json:
+            from reina.music.document.reader import read_json
+
             return read_json(data, title=title, limits=limits)
+        from reina.music.midi import read_midi
+
         return read_midi(data, title=title, sequence=sequence, limits=limits)
     except (NotInScoreError, ScoreLimitError):
         raise

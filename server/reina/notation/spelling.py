@@ -16,6 +16,7 @@ Names of two accidentals are never used: in a key where they would be right the 
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -137,8 +138,12 @@ def octave(pitch: int, name: int) -> int:
     return (pitch - alteration(name)) // 12 - 1
 
 
+@lru_cache(maxsize=4096)
 def named(pitch: int, name: int) -> str:
-    """Return a pitch's name for people, ``"F♯5"``; C4 is 60."""
+    """Return a pitch's name for people, ``"F♯5"``; C4 is 60.
+
+    All notes of a name share one text.
+    """
     return f"{letter(name)}{ACCIDENTALS[alteration(name)]}{octave(pitch, name)}"
 
 

@@ -1,9 +1,11 @@
 """The base of every model on the wire."""
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import ConfigDict
+
+from reina.system.described import DescribedModel
 
 
-class WireModel(BaseModel):
+class WireModel(DescribedModel):
     """Immutable, and strict about fields that the contract does not name.
 
     A default is for whoever builds the model in Python; what the server sends always holds every field,
@@ -14,7 +16,6 @@ class WireModel(BaseModel):
         extra="forbid",
         frozen=True,
         allow_inf_nan=False,
-        use_attribute_docstrings=True,
         json_schema_serialization_defaults_required=True,
     )
 

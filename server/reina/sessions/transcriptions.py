@@ -6,7 +6,6 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
-from reina.music.midi.writer import write_midi
 from reina.protocol.links import transcription_href
 from reina.protocol.resources import Transcription, TranscriptionLinks, TranscriptionStatus
 from reina.sessions.record import new_id
@@ -151,6 +150,9 @@ class Transcriptions:
 
         try:
             score = await self._transcriber.transcribe(song, line, work.title, follow)
+            # What few ask for is imported when it is asked for.
+            from reina.music.midi.writer import write_midi
+
             work.midi = await asyncio.to_thread(write_midi, score)
             work.notes, work.progress = len(score.notes), 1.0
             work.has_beat = all(warning.kind != NO_BEAT for warning in score.warnings)

@@ -7,12 +7,13 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from reina.curves.value_types import LARGEST, STRICT
+from reina.system.described import DescribedModel
 
 
-class ShowModel(BaseModel):
+class ShowModel(DescribedModel):
     """Immutable, and strict: no field that is not declared, no number in quotes."""
 
-    model_config = STRICT | ConfigDict(frozen=True, use_attribute_docstrings=True)
+    model_config = STRICT | ConfigDict(frozen=True)
     null_is_said: ClassVar[bool] = False
     """Whether null says something; else it is read as what is not given, and nobody needs to write it."""
 
@@ -21,7 +22,7 @@ class ShowModel(BaseModel):
         cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
         """The schema, without null where it says nothing."""
-        schema = handler(core_schema)
+        schema = super().__get_pydantic_json_schema__(core_schema, handler)
         properties: dict[str, Any] = handler.resolve_ref_schema(schema).get("properties", {})
         for name, field in properties.items():
             kinds: list[Any] = field.get("anyOf", [])

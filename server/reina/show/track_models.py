@@ -28,10 +28,6 @@ from reina.curves.parameter import Parameter
 from reina.curves.value_types import VALUE_TYPES, Bounds, Number, TypeName, numbers, one_of
 from reina.show.document import ShowKeyframe, ShowTrack
 
-WITHOUT_SOURCE = {"use_attribute_docstrings": False}
-"""Models that are made while the server runs have no source to look for docstrings in. Pydantic would parse
-what it takes for it, which in some Pythons fails now and then while another thread runs."""
-
 
 class _Keyframe(ShowKeyframe):
     """What is read as a keyframe of one interpolation has its options, and no other field."""
@@ -79,7 +75,6 @@ def _models(kind: TypeName, bounds: Bounds, kinds: Kinds) -> TrackModels:
     values = create_model(
         f"keyframe_{name}",
         __base__=_Keyframe,
-        __cls_kwargs__=WITHOUT_SOURCE,
         value=(VALUE_TYPES[kind].annotation(bounds), ...),
         in_tangent=(slope_or_none, None),
         out_tangent=(slope_or_none, None),
@@ -103,7 +98,7 @@ def _models(kind: TypeName, bounds: Bounds, kinds: Kinds) -> TrackModels:
 
 def _track(name: str, item: Any) -> type[ShowTrack]:
     keyframes: Any = Annotated[tuple[item, ...], Strict(strict=False)]
-    return create_model(name, __base__=ShowTrack, __cls_kwargs__=WITHOUT_SOURCE, keyframes=(keyframes, ()))
+    return create_model(name, __base__=ShowTrack, keyframes=(keyframes, ()))
 
 
 class _Made:
@@ -156,7 +151,7 @@ def _keyframe_model(
 ) -> type[ShowKeyframe]:
     fields: dict[str, Any] = {option.name: (option.annotation, option.default) for option in options}
     fields["interpolation"] = (one_of(tuple(names)), default if default in names else ...)
-    return create_model(f"{base.__name__}_{names[0]}", __base__=base, __cls_kwargs__=WITHOUT_SOURCE, **fields)
+    return create_model(f"{base.__name__}_{names[0]}", __base__=base, **fields)
 
 
 def _told_apart(members: Mapping[str, Any], tags: Mapping[str, str], default: str) -> Any:

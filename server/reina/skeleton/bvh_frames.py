@@ -90,7 +90,7 @@ def _plain_numbers(text: str) -> FloatArray | None:
     if max(map(len, words), default=0) > MAX_DIGITS:
         return None
     try:
-        values = np.array(words, dtype=np.float64)
+        values = np.array([float(word) for word in words])
     except ValueError:
         return None
     return values if np.all(np.abs(values) <= LARGEST) else None

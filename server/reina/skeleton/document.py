@@ -78,12 +78,21 @@ class Node:
         entries = self._list()
         if len(entries) != count:
             raise self.fail(f"here belongs a list of {count} numbers, not of {len(entries)}")
-        return np.array([Node(entry, f"{self.path}/{i}").number() for i, entry in enumerate(entries)])
+        # A rig has thousands; only what is no plain number is looked at more closely.
+        return np.array(
+            [
+                entry
+                if type(entry) is float and math.isfinite(entry)
+                else Node(entry, f"{self.path}/{i}").number()
+                for i, entry in enumerate(entries)
+            ]
+        )
 
     def quaternion(self) -> FloatArray:
         """A unit quaternion x, y, z, w ``(4,)``, scaled to full precision."""
         q = self.numbers(4)
-        length = float(np.sqrt(np.sum(q * q)))
+        x, y, z, w = q.tolist()
+        length = math.sqrt(x * x + y * y + z * z + w * w)
         if abs(length - 1.0) > _UNIT_TOLERANCE:
             raise self.fail(f"quaternions are unit (x, y, z, w); this one has length {length:.6g}")
         return q / length

@@ -13,9 +13,8 @@ import re
 import sys
 import threading
 import time
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, TextIO, cast
-
-import structlog
 
 from reina.errors import InputError
 from reina.system.failure import MOST_FRAMES, Failure, failure_of, shown_file
@@ -25,6 +24,8 @@ from reina.system.log_rate import Seldom
 if TYPE_CHECKING:
     from collections.abc import Callable, MutableMapping
     from types import TracebackType
+
+    import structlog
 
     EventDict = MutableMapping[str, Any]
 
@@ -51,15 +52,15 @@ _WRITTEN_FRAME = re.compile(r'File "([^"]+)", line (\d+), in (\S+)')
 _WRITTEN_TRACEBACK = "Traceback (most recent call last)"
 
 
-structlog.configure(
-    processors=[structlog.stdlib.ProcessorFormatter.wrap_for_formatter],
-    wrapper_class=structlog.stdlib.BoundLogger,
-    logger_factory=structlog.stdlib.LoggerFactory(),
-)
-
-
 def logger(name: str) -> structlog.stdlib.BoundLogger:
     """A logger of events with fields, by the name of its module."""
+    import structlog
+
+    structlog.configure(
+        processors=[structlog.stdlib.ProcessorFormatter.wrap_for_formatter],
+        wrapper_class=structlog.stdlib.BoundLogger,
+        logger_factory=structlog.stdlib.LoggerFactory(),
+    )
     made: structlog.stdlib.BoundLogger = structlog.get_logger(name)
     return made
 
@@ -110,19 +111,7 @@ def configure(
     lowest = _one_of(LEVEL_VARIABLE, level, LEVELS, "info")
     handler = logging.StreamHandler(to)
     handler.addFilter(_OnceAMinute(now))
-    render: Any = _json if chosen == "json" else structlog.dev.ConsoleRenderer(colors=to.isatty())
-    handler.setFormatter(
-        structlog.stdlib.ProcessorFormatter(
-            processors=[
-                _described,
-                structlog.contextvars.merge_contextvars,
-                _failed,
-                structlog.stdlib.ProcessorFormatter.remove_processors_meta,
-                _cleaned,
-                render,
-            ]
-        )
-    )
+    handler.setFormatter(_Lines(as_json=chosen == "json", colors=to.isatty()))
     root = logging.getLogger()
     root.handlers = [handler]
     root.setLevel(lowest.upper())
@@ -140,6 +129,39 @@ def _one_of(variable: str, given: str | None, known: tuple[str, ...], otherwise:
     if named not in known:
         raise InputError(f"{variable} is {' or '.join(known)}, not {named!r}")
     return named
+
+
+class _Lines(logging.Formatter):
+    """Lines as structlog writes them, which is imported with the first: most processes of long work log none.
+
+    Args:
+        as_json: Whether each line is an object in JSON.
+        colors: Whether a line that is not has colours.
+    """
+
+    def __init__(self, *, as_json: bool, colors: bool) -> None:
+        super().__init__()
+        self._as_json, self._colors = as_json, colors
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The line of a record."""
+        return self._written.format(record)
+
+    @cached_property
+    def _written(self) -> logging.Formatter:
+        import structlog
+
+        render: Any = _json if self._as_json else structlog.dev.ConsoleRenderer(colors=self._colors)
+        return structlog.stdlib.ProcessorFormatter(
+            processors=[
+                _described,
+                structlog.contextvars.merge_contextvars,
+                _failed,
+                structlog.stdlib.ProcessorFormatter.remove_processors_meta,
+                _cleaned,
+                render,
+            ]
+        )
 
 
 class _OnceAMinute(logging.Filter):

@@ -6,7 +6,7 @@ from tests.unit.music.midi_bytes import meta, midi, name, off, on, tempo
 
 from reina.music import Score, read_score
 from reina.music.lyrics import lyric_lines
-from reina.music.midi import write_midi
+from reina.music.midi.writer import write_midi
 from reina.music.texts import ScoreText
 
 NOTES = [on(0, 60), off(4800, 60)]

@@ -11,7 +11,7 @@ import pytest
 from tests.unit.music.mutations import midi_seeds
 
 from reina.music import Control, MetreMap, Notes, Part, Score, TempoMap, TimeSignature, read_score
-from reina.music.midi import write_midi
+from reina.music.midi.writer import write_midi
 
 SCORES = sorted((Path(__file__).parents[3] / "examples/scores").iterdir())
 HALF_A_TICK = 0.5 / 960 + 1e-9

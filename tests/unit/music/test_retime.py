@@ -8,7 +8,7 @@ from tests.integration.scores import duet, scale
 
 from reina.music import MetreMap, Score, TempoMap, TimeSignature, from_second_zero, read_score, retimed
 from reina.music.arrays import BoolArray, FloatArray
-from reina.music.midi import write_midi
+from reina.music.midi.writer import write_midi
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from alembic.autogenerate import compare_metadata
+from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
+from alembic.script import ScriptDirectory
 
 from reina.curves import Parameter, ParameterRegistry
 from reina.sessions.record import SESSION_ID, SessionRecord, created_now, new_id
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.sleeping_show import known_tracks, wake
-from reina.sessions.storage.database import FILE, Database, database_url
+from reina.sessions.storage.database import FILE, HEAD, Database, database_url
 from reina.sessions.storage.errors import (
     DatabaseAwayError,
     DatabaseError,
@@ -626,3 +628,9 @@ def test_what_is_written_by_many_at_once_is_all_there(keeper: Keeper) -> None:
     assert keeper.storage.usage().sessions == 12
     for each in made[12:]:
         assert keeper.storage.file(each, "score").is_file()
+
+
+def test_the_schema_that_a_start_looks_for_is_the_last_migrations() -> None:
+    config = Config()
+    config.set_main_option("script_location", "reina.sessions.storage:migrations")
+    assert ScriptDirectory.from_config(config).get_current_head() == HEAD

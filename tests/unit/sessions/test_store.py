@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import threading
 import time
+import tracemalloc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -422,5 +424,29 @@ def test_a_damaged_session_does_not_hide_the_others(tmp_path: Path, stage: Stage
             with pytest.raises(SessionDamagedError, match=f"{damaged.id!r} is kept and cannot be read"):
                 await again.store.get(damaged.id)
         assert (await again.get(whole.id)).record == whole.record
+
+    run(scenario)
+
+
+def test_what_an_idle_session_and_one_that_plays_take_in_memory(tmp_path: Path, stage: Stage) -> None:
+    async def scenario() -> None:
+        desk = Desk(tmp_path, stage)
+        await desk.create(scale(150))  # what all share is there
+        gc.collect()
+        tracemalloc.start()
+        try:
+            made = [await desk.create(scale(150)) for _ in range(3)]
+            gc.collect()
+            idle = tracemalloc.get_traced_memory()[0] / len(made)
+            for session in made:
+                # As many frames as are kept, and more.
+                for second in range(int(session.clock.duration_s)):
+                    await session.ready(float(second))
+            playing = tracemalloc.get_traced_memory()[0] / len(made)
+        finally:
+            tracemalloc.stop()
+        assert idle <= 500_000
+        assert idle < playing <= 5_000_000
+        assert all(session.audience.frames.weight for session in made)
 
     run(scenario)

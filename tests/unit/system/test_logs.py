@@ -68,7 +68,7 @@ def log() -> Iterator[Log]:
 
 def test_both_kinds_of_loggers_write_one_object_a_line(log: Log) -> None:
     logging.getLogger("reina.sessions").warning("a worker ended with status %s", 3)
-    structlog.get_logger("reina.api").info("request", method="GET", status=200)
+    logs.logger("reina.api").info("request", method="GET", status=200)
     first, second = log.events
     assert first.pop("timestamp").endswith("Z")
     assert first == {
@@ -118,7 +118,7 @@ def test_a_traceback_that_somebody_has_written_out_is_told_by_its_frames(log: Lo
 
 def test_an_error_is_told_once_whoever_tells_of_it(log: Log) -> None:
     error = ValueError("x")
-    structlog.get_logger("reina.api").error("a request failed", exc_info=error)
+    logs.logger("reina.api").error("a request failed", exc_info=error)
     logging.getLogger("uvicorn.error").error("Exception in ASGI application", exc_info=error)
     assert [event["event"] for event in log.events] == ["a request failed"]
 
@@ -126,7 +126,7 @@ def test_an_error_is_told_once_whoever_tells_of_it(log: Log) -> None:
 def test_what_repeats_is_told_once_a_minute_and_counted(log: Log) -> None:
     for number in range(50):
         logging.getLogger("reina").warning("the viewer %s is gone", number)
-        structlog.get_logger("reina").warning("limit", kind="connections" if number % 2 else "bytes")
+        logs.logger("reina").warning("limit", kind="connections" if number % 2 else "bytes")
     log.now += 61
     logging.getLogger("reina").warning("the viewer %s is gone", 50)
     told = [(event["event"], event.get("kind"), event.get("repeated")) for event in log.events]
@@ -163,7 +163,7 @@ TOKEN, SESSION = new_token(), new_id()
 )
 def test_no_secret_is_written(log: Log, text: str) -> None:
     logging.getLogger("reina").warning("%s", text)
-    structlog.get_logger("reina").warning("field", field=text, several=[text])
+    logs.logger("reina").warning("field", field=text, several=[text])
     try:
         fail(ValueError(text))
     except ValueError:

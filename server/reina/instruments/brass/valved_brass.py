@@ -1,5 +1,6 @@
 """A valved brass instrument: whatever its table says, it chooses a part, makes it playable and fingers it."""
 
+import sys
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Literal
@@ -214,7 +215,7 @@ class ValvedBrass(Instrument):
                 primary[note] = choice.rank == 0
                 cents[note] = choice.cents
                 slide[note] = self._slide(pitches[note], choice, end_s[note] - onset_s[note] >= SLIDE_FROM_S)
-                reasons[note] = why(index, taken, primaries, names, onsets)
+                reasons[note] = sys.intern(why(index, taken, primaries, names, onsets))
             begin = end
         return BrassFingering(
             notes=coded(notes),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from reina.instruments.player.held_pose import HeldPose
     from reina.rotations.arrays import FloatArray
-    from reina.skeleton import HumanPose, MotionClip, Rig
+    from reina.skeleton import HumanPose, Rig
 
 STANCES: tuple[str, ...] = ("none", "breathing", "swaying", "shifting")
 """Choices of ``player/stance`` that there always are: none, or a clip of the rig by its name; one that the
@@ -50,7 +51,7 @@ class Stances:
         self.joints = tuple(name for name in TRUNK if name in rig.skeleton)
         """Columns of the turns."""
         self._tables = {
-            choice: (_table(rig, rig.clips[name], name, self.joints), rig.clips[name].frame_time_s)
+            choice: (_table(rig, name, self.joints), rig.clips[name].frame_time_s)
             for choice, name in enumerate(STANCES)
             if name in rig.clips
         }
@@ -87,14 +88,20 @@ class Stances:
         return None if total is None else total.reshape(len(times_s), -1, 3)
 
 
-def _table(rig: Rig, clip: MotionClip, name: str, joints: tuple[str, ...]) -> FloatArray:
-    """Turns and shift of a clip's frames but the last, which is the first again, ``(F - 1, 3 J + 3)``."""
+@lru_cache(maxsize=32)
+def _table(rig: Rig, name: str, joints: tuple[str, ...]) -> FloatArray:
+    """Turns and shift of a clip's frames but the last, which is the first again, ``(F - 1, 3 J + 3)``.
+
+    All sessions whose player is of one rig share it.
+    """
+    clip = rig.clips[name]
     rotations, roots = retarget(clip, rig.skeleton, {joint: joint for joint in clip.names})
     moved = rotations[:, [rig.skeleton.index(joint) for joint in joints]]
     turns = log(multiply(conjugate(moved[0]), moved))
     table = np.concatenate([turns.reshape(len(clip), -1), roots - roots[0]], axis=1)
     if len(table) < 2 or np.abs(table[-1]).max() > _SEAM:
         raise ValueError(f"the clip {name!r} does not end where it begins, so it cannot be looped")
+    table.flags.writeable = False
     return table[:-1]
 
 

@@ -11,7 +11,6 @@ from typing import cast as typed
 from reina.curves.shown import shown
 from reina.instruments.as_played import score_as_played
 from reina.music import from_second_zero, read_score
-from reina.music.midi import write_midi
 from reina.music.packed import GZIP_MAGIC, ZIP_MAGICS
 from reina.sessions.production import Production, read_show
 from reina.sessions.score_text import packed_score
@@ -150,6 +149,9 @@ class Reader:
 
     async def midi(self, production: Production, *, owner: Hashable = None) -> bytes:
         """Write the score of a production as its players play it, as a MIDI file."""
+        # What few ask for is imported when it is asked for.
+        from reina.music.midi.writer import write_midi
+
         played = [performer.played for performer in production.performers]
         score = await asyncio.to_thread(lambda: from_second_zero(score_as_played(production.score, played)))
         return await self._read(MIDI_BYTES * len(score.notes), write_midi, score, owner=owner)
