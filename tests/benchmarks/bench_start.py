@@ -36,6 +36,7 @@ def main() -> int:
     print(heading(__file__))
     took_s: list[float] = []
     busy_s: list[float] = []
+    resident, own, workers = 0.0, 0.0, list[int]()
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(1 + options.starts):
             begin = time.perf_counter()
