@@ -23,9 +23,9 @@ class Loaded:
     is_idle: bool = True
 
 
-def leaving(loaded: Iterable[Loaded], adding: int, **options: int) -> list[str]:
+def leaving(loaded: Iterable[Loaded], adding: int, coming: int = 0) -> list[str]:
     sessions = cast("list[Session]", list(loaded))
-    gone = cast("list[Loaded]", BOUND.leaving(sessions, adding, **options))
+    gone = cast("list[Loaded]", BOUND.leaving(sessions, adding, coming=coming))
     return [session.name for session in gone]
 
 
