@@ -85,23 +85,23 @@ def test_a_restart_goes_on_where_the_clock_is(tmp_path: Path) -> None:
 def test_who_watches_is_not_turned_out_for_who_comes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with server_with(tmp_path, monkeypatch, memory_mb=6) as (server, client):
         sound = ("s.wav", song())
-        first = upload(client, large_score(6_000), "s.json", song=sound)
+        first = upload(client, large_score(11_000), "s.json", song=sound)
 
         async def watched() -> httpx.Response:
             async with watch(server, first.id):
                 return await asyncio.to_thread(
                     client.post,
                     "/api/v1/sessions",
-                    files={"score": ("s.json", large_score(6_000)), "song": sound},
+                    files={"score": ("s.json", large_score(11_000)), "song": sound},
                 )
 
         refused = asyncio.run(watched())
         assert (refused.status_code, problem(refused)) == (503, "busy")
         assert int(refused.headers["Retry-After"]) > 0
-        never = client.post("/api/v1/sessions", files={"score": ("s.json", large_score(12_000))})
+        never = client.post("/api/v1/sessions", files={"score": ("s.json", large_score(22_000))})
         assert (never.status_code, problem(never)) == (413, "piece-too-large")
         assert "REINA_MEMORY_MB" in never.json()["detail"]
-        upload(client, large_score(6_000), "s.json", song=sound)
+        upload(client, large_score(11_000), "s.json", song=sound)
 
 
 def test_quotas_are_told_with_their_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

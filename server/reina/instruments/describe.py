@@ -13,6 +13,7 @@ from reina.instruments.note_fingerings import NoteFingering, ValvesFingering
 from reina.instruments.note_names import NoteNames
 from reina.instruments.played import PlayedPart
 from reina.instruments.ranking import PartRanking
+from reina.music.arrays import read_only
 from reina.music.findings import Finding, findings_of
 from reina.music.lyrics import lyric_lines
 from reina.music.score import Score
@@ -68,9 +69,10 @@ class NoteTable:
         self._player_of_part = {
             part: player for player, (_, played) in enumerate(players) for part in played.parts
         }
-        self._place_in_line = np.full(len(score.notes), -1, dtype=np.int32)
+        place_in_line = np.full(len(score.notes), -1, dtype=np.int32)
         for _, played in players:
-            self._place_in_line[played.line.note_index] = np.arange(len(played.line))
+            place_in_line[played.line.note_index] = np.arange(len(played.line))
+        self._place_in_line = read_only(place_in_line)
 
     def note(self, index: int) -> DescribedNote:
         """A note by its place in the score's table."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.instruments import StrikeFingering, ValvesFingering, who_has_tune
+from reina.music.arrays import read_only
 from reina.show import LIMBS, TimeMap, Triggers
 from reina.stage import MusicForm
 
@@ -67,15 +68,15 @@ def triggers(score: Score, played: Sequence[PlayedPart]) -> Triggers:
     return Triggers(
         onset_s=notes.onset_s,
         part=notes.part,
-        pitch=pitch,
+        pitch=read_only(pitch),
         velocity=notes.velocity,
-        valves=valves,
-        fingered=fingered,
+        valves=read_only(valves),
+        fingered=read_only(fingered),
         pieces=pieces,
-        piece=piece,
-        limb=limb,
+        piece=read_only(piece),
+        limb=read_only(limb),
         end_s=score.duration_s,
-        joined_to=joined_to,
+        joined_to=read_only(joined_to),
     )
 
 
