@@ -92,13 +92,14 @@ export class BlockPlayer {
    */
   frameAt(transport: TransportState, serverTime: number, duration: number): PlayedFrame | null {
     const songTime = songTimeAt(transport, serverTime, duration);
-    const index = frameOf(songTime, this.#fps);
+    const last = this.#lastOf(transport, duration);
+    const index = Math.min(frameOf(songTime, this.#fps), last);
     const present = this.#blocks.get(blockOf(index));
     if (present !== undefined) this.#before = null;
     const kept = present ?? this.#before?.get(blockOf(index));
     const frame = kept?.block.frames[index % BLOCK_FRAMES];
     if (kept === undefined || frame === undefined) return this.drawn;
-    const next = this.#nextOf(transport, index, duration);
+    const next = index < last ? this.#blendable(index + 1) : undefined;
     const u = next === undefined ? 0 : Math.max(songTime * this.#fps - index, 0);
     const drawn = this.#drawn;
     this.#blend.blend(frame, next ?? frame, u, drawn.floats);
@@ -113,14 +114,17 @@ export class BlockPlayer {
     return drawn;
   }
 
-  /** The frame that the one at `index` is blended into; undefined where there is none, or must not be. */
-  #nextOf(transport: TransportState, index: number, duration: number): Float32Array | undefined {
-    const next = index + 1;
+  /** The last frame that is come to: the present one while paused, else before a loop's end, or the song's. */
+  #lastOf(transport: TransportState, duration: number): number {
     const loop = loopAhead(transport);
-    const last = loop === null ? frameOf(duration, this.#fps) : -frameOf(-loop.end_s, this.#fps) - 1;
-    if (!transport.playing || next > last) return undefined;
-    const block = this.#at(next);
-    return block === undefined || isCut(block, next % BLOCK_FRAMES) ? undefined : block.frames[next % BLOCK_FRAMES];
+    if (!transport.playing) return frameOf(transport.song_time_s, this.#fps);
+    return loop === null ? frameOf(duration, this.#fps) : -frameOf(-loop.end_s, this.#fps) - 1;
+  }
+
+  /** A frame that the one before may be blended into; undefined where it is not here, or a cut. */
+  #blendable(index: number): Float32Array | undefined {
+    const block = this.#at(index);
+    return block === undefined || isCut(block, index % BLOCK_FRAMES) ? undefined : block.frames[index % BLOCK_FRAMES];
   }
 
   /** Whether the way from one frame to another goes over a cut, or over so much that it is one. */
