@@ -74,8 +74,8 @@ class _Scales:
     def _array(self, array: np.ndarray[Any, Any], depth: int) -> int:
         # Of a mapped file it is the map, which numpy's own types do not say.
         base = cast("object", array.base)
-        if isinstance(base, memoryview):
-            return sys.getsizeof(array) + self.weigh(base, depth + 1)
+        if type(base) is memoryview:
+            return sys.getsizeof(array) + self.weigh(cast("object", base), depth + 1)
         if base is not None and not isinstance(base, np.ndarray):
             return self.weigh(base, depth + 1) or array.nbytes
         if base is not None:
