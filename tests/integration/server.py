@@ -32,7 +32,7 @@ class Running:
     def api(self) -> str:
         return f"{self.address}/api/v1"
 
-    def stream(self, session: str, **query: int) -> str:
+    def stream(self, session: str, **query: object) -> str:
         """The address of a session's WebSocket."""
         asked = "&".join(f"{name}={value}" for name, value in query.items())
         return f"{self.api.replace('http', 'ws', 1)}/sessions/{session}/stream?{asked}"

@@ -63,6 +63,7 @@ FILLED = {
     "rendering": "0123456789abcdef",
     "transcription_id": "0123456789abcdef",
     "number": "0",
+    "revision": "0123456789abcdef",
 }
 
 

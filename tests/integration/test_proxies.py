@@ -158,3 +158,33 @@ def test_nginx_takes_so_many_uploads_of_one_address_and_no_more(tmp_path: Path) 
     assert uploads[:10] == [200] * 10
     assert 429 in uploads
     assert others == {200}
+
+
+def test_a_packed_block_is_asked_for_once_however_many_watch(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("REINA_BLOCKS_ORIGIN", "self")
+    with contextlib.ExitStack() as opened:
+        running = opened.enter_context(serve(tmp_path / "data", "--no-page", "--allow-host", "localhost"))
+        through = opened.enter_context(proxy("nginx", urlsplit(running.address).port or 0, tmp_path))
+        client = opened.enter_context(
+            httpx.Client(base_url=through.address, verify=tls(through), timeout=PATIENCE_S)
+        )
+        with httpx.Client(base_url=running.address) as direct:
+            owned = upload(direct, scale(8), song=("s.wav", song()))
+            blocks = direct.get(f"{owned.path}/manifest").json()["blocks"]
+            assert blocks == {**blocks, "pushed": False, "href": f"{owned.path}/blocks/{blocks['revision']}"}
+            wanted = direct.get(f"{blocks['href']}/0").content
+        asked = [client.get(f"{blocks['href']}/0") for _ in range(300)]
+        assert {answer.status_code for answer in asked} == {200}, "no rate is kept of blocks"
+        assert {answer.content for answer in asked} == {wanted}
+        assert [answer.headers["X-Cache"] for answer in asked] == ["MISS", *["HIT"] * 299]
+        lossless = client.get(f"{blocks['href']}/0", params={"form": "lossless"})
+        assert lossless.headers["X-Cache"] == "MISS"
+        assert lossless.content != wanted
+        other = client.get(f"{owned.path}/blocks/{'0' * 16}/0")
+        assert (other.status_code, other.headers["X-Cache"]) == (410, "MISS")
+        running.process.terminate()
+        running.process.wait(PATIENCE_S)
+        kept = client.get(f"{blocks['href']}/0")
+        assert (kept.status_code, kept.headers["X-Cache"]) == (200, "HIT")

@@ -67,7 +67,7 @@ class Watcher:
 
 
 @asynccontextmanager
-async def watch(server: Running, session: str, **query: int) -> AsyncGenerator[Watcher]:
+async def watch(server: Running, session: str, **query: object) -> AsyncGenerator[Watcher]:
     """Join a session."""
     async with websockets.connect(
         server.stream(session, **query), subprotocols=[websockets.Subprotocol(SUBPROTOCOL)], max_size=None

@@ -23,6 +23,7 @@ PACKAGES = {"nginx": "nginx-light", "caddy": "caddy"}
 PATIENCE_S = 30.0
 NGINX_MAIN = """
 daemon off;
+{user}
 pid {folder}/pid;
 error_log stderr;
 events {{ worker_connections 512; }}
@@ -88,10 +89,13 @@ def nginx_command(folder: Path, port: int, upstream: int, certificate: Path, key
         ("/etc/ssl/reina/fullchain.pem", str(certificate)),
         ("/etc/ssl/reina/privkey.pem", str(key)),
         ("/var/log/nginx/reina.log", str(folder / "access")),
+        ("/var/cache/nginx/reina", str(folder / "cache")),
         ("Host $host;", "Host $http_host;"),
     )
     (folder / "reina.conf").write_text(config)
-    (folder / "nginx.conf").write_text(NGINX_MAIN.format(folder=folder))
+    # What is only for who runs the tests its workers could not keep blocks in.
+    user = "user root;" if os.geteuid() == 0 else ""
+    (folder / "nginx.conf").write_text(NGINX_MAIN.format(folder=folder, user=user))
     return [program("nginx"), "-p", str(folder), "-c", str(folder / "nginx.conf"), "-e", "stderr"]
 
 

@@ -12,6 +12,7 @@ from fastapi import Depends, FastAPI
 import reina
 from reina.api import (
     alignment,
+    blocks,
     cast,
     catalogue,
     curves,
@@ -108,6 +109,7 @@ def create_app(
             memory_bytes=chosen.memory_bytes,
             disk=chosen.disk,
             staging_bytes=chosen.staging_bytes,
+            blocks_origin=chosen.blocks_origin,
         )
         await store.prune_songs()
         store.begin()
@@ -146,6 +148,7 @@ def create_app(
         sessions,
         files,
         frames,
+        blocks,
         export,
         song,
         alignment,

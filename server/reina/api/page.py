@@ -10,6 +10,7 @@ from reina.api.http.content_policy import page_policy
 from reina.api.http.files import IMMUTABLE, REVALIDATED, ServedFile, file_below
 from reina.api.http.problems import ProblemError
 from reina.api.settings import Settings
+from reina.sessions.session import OWN_ORIGIN
 
 router = APIRouter(include_in_schema=False)
 
@@ -66,7 +67,9 @@ def _document(request: Request, settings: Settings, name: str, *, framed: bool =
             "The page has not been built",
             "`make setup` builds it; the API answers without it",
         )
-    policy = page_policy(path, request.headers.get("host", ""), framed=framed)
+    origin = settings.blocks_origin
+    fetched = [origin] if origin and origin != OWN_ORIGIN else []
+    policy = page_policy(path, request.headers.get("host", ""), framed=framed, fetched=fetched)
     shared = {"Cross-Origin-Resource-Policy": "cross-origin"} if framed else {}
     return ServedFile(path, headers={"Content-Security-Policy": policy, **shared})
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from reina.api.accounts import Accounts
 from reina.errors import InputError
 from reina.sessions.memory_bound import MEMORY_BYTES
+from reina.sessions.session import OWN_ORIGIN
 from reina.sessions.sightings import DAY_S
 from reina.sessions.staging import STAGING_BYTES
 from reina.sessions.usage import DiskBound
@@ -26,6 +27,7 @@ LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 MEGABYTE = 1_000_000
+_ORIGIN = re.compile(r"https?://([A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(:\d{1,5})?")
 
 
 def _count(variable: str, default: int, what: str) -> int:
@@ -105,6 +107,7 @@ class Settings:
         log_requests: Whether each request is a line in the log.
         upload_password_file: Holds the passwords of those who may upload; None: everybody may.
         user_header: What a trusted proxy tells in who is signed in there; empty: nothing.
+        blocks_origin: Where pages fetch packed blocks, as `Session` has it; empty: the stream has them.
     """
 
     database: str = field(default_factory=lambda: os.environ.get("REINA_DATABASE", ""))
@@ -127,6 +130,7 @@ class Settings:
     log_requests: bool = False
     upload_password_file: Path | None = field(default_factory=_upload_password_file)
     user_header: str = field(default_factory=lambda: os.environ.get("REINA_USER_HEADER", ""))
+    blocks_origin: str = field(default_factory=lambda: os.environ.get("REINA_BLOCKS_ORIGIN", ""))
 
 
 def settings_of(data_dir: Path | None, database: str | None) -> Settings:
@@ -164,6 +168,20 @@ def require_sign_in(settings: Settings) -> None:
         raise InputError(f"REINA_USER_HEADER is the name of a header, X-Forwarded-User say, not {header!r}")
     if settings.upload_password_file is not None:
         Accounts.read(settings.upload_password_file)
+
+
+def require_blocks_origin(settings: Settings) -> None:
+    """See that pages can be told where to fetch packed blocks.
+
+    Raises:
+        InputError: It is no origin.
+    """
+    origin = settings.blocks_origin
+    if origin and origin != OWN_ORIGIN and not _ORIGIN.fullmatch(origin):
+        raise InputError(
+            f"REINA_BLOCKS_ORIGIN is an origin, https://blocks.example.org, or {OWN_ORIGIN!r} for the "
+            f"server's own, not {origin!r}"
+        )
 
 
 def require_writable(data_dir: Path) -> None:

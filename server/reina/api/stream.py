@@ -16,6 +16,7 @@ from reina.protocol.messages import Lead, Pong, StreamError, viewer_message
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
+    from reina.sessions.packed_blocks import Form
     from reina.sessions.session import Session
     from reina.sessions.store import SessionStore
 
@@ -23,6 +24,9 @@ router = APIRouter()
 
 MAX_FRAMES_PER_MESSAGE = 12
 SIZES = {str(size): size for size in range(1, MAX_FRAMES_PER_MESSAGE + 1)}
+PACKED: "dict[str, Form | None]" = {"0": None, "1": "packed", "lossless": "lossless"}
+"""What may be asked for in place of frames: packed blocks of a form."""
+ASKED_FOR = {"frames_per_message", "packed"}
 CLOSED_UNDER_WAY = 1006
 
 
@@ -57,37 +61,42 @@ async def stream(
     socket: WebSocket,
     session_id: str,
     frames_per_message: Annotated[str, Query()] = "1",
+    packed: Annotated[str, Query()] = "0",
 ) -> None:
     """Refuse before the handshake ends, or send until either side goes."""
     store: SessionStore = socket.app.state.store
     now: Callable[[], float] = socket.app.state.now
     session, problem = await _found(store, session_id)
-    size = SIZES.get(frames_per_message)
+    size, form = SIZES.get(frames_per_message), PACKED.get(packed)
     if session is not None and SUBPROTOCOL not in socket.scope["subprotocols"]:
         offered = ", ".join(socket.scope["subprotocols"]) or "none"
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
-    elif session is not None and (unknown := set(socket.query_params) - {"frames_per_message"}):
-        detail = f"the stream may be asked for frames_per_message, not for {', '.join(sorted(unknown))[:100]}"
+    elif session is not None and (unknown := set(socket.query_params) - ASKED_FOR):
+        known, asked = " and ".join(sorted(ASKED_FOR)), ", ".join(sorted(unknown))[:100]
+        detail = f"the stream may be asked for {known}, not for {asked}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     elif session is not None and size is None:
         detail = f"frames_per_message is 1 to {MAX_FRAMES_PER_MESSAGE}, not {frames_per_message[:20]}"
+        problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
+    elif session is not None and packed not in PACKED:
+        detail = f"packed is {', '.join(PACKED)}, not {packed[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     if problem or session is None or size is None:
         if problem:
             await socket.send_denial_response(problem.response())
         return
     with session.asked():
-        await _send_until_the_end(socket, session, size, now)
+        await _send_until_the_end(socket, session, size, form, now)
     store.sightings.note(session.id)
 
 
 async def _send_until_the_end(
-    socket: WebSocket, session: "Session", size: int, now: Callable[[], float]
+    socket: WebSocket, session: "Session", size: int, form: "Form | None", now: Callable[[], float]
 ) -> None:
     await socket.accept(subprotocol=SUBPROTOCOL)
-    viewer = Viewer(WebSocketConnection(socket), frames_per_message=size)
-    await session.ready()
+    viewer = Viewer(WebSocketConnection(socket), frames_per_message=size, form=form)
+    await session.ready(form=form)
     session.join(viewer)
     sending = asyncio.create_task(viewer.run())
     receiving = asyncio.create_task(_receive(socket, viewer, session, now))

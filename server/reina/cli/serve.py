@@ -19,7 +19,14 @@ import uvicorn
 from reina.api.app import create_app
 from reina.api.http.proxies import TrustedProxies
 from reina.api.http.rates import Rates
-from reina.api.settings import days, require_page, require_sign_in, require_writable, settings_of
+from reina.api.settings import (
+    days,
+    require_blocks_origin,
+    require_page,
+    require_sign_in,
+    require_writable,
+    settings_of,
+)
 from reina.cli.connection_limits import ConnectionLimits, raise_file_limit
 from reina.cli.connections import Connections
 from reina.cli.environment import switch
@@ -183,6 +190,7 @@ def _run(arguments: argparse.Namespace, held: contextlib.ExitStack) -> int:
             require_page(settings)
         require_writable(settings.data_dir)
         require_sign_in(settings)
+        require_blocks_origin(settings)
         held.enter_context(locked(settings.data_dir))
         _provide_soundfont(settings)
         stage = _stage(settings)

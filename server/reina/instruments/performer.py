@@ -21,6 +21,7 @@ from reina.instruments.player.skeleton_layout import SkeletonLayout
 from reina.instruments.player.stances import Stances
 from reina.kinematics import MotionCurves
 from reina.rotations import same_hemisphere
+from reina.skeleton import reaches
 
 if TYPE_CHECKING:
     from reina.curves import Parameter
@@ -109,7 +110,13 @@ class Performer:
 
         in_frame = {"player": player_rig, **rigs}
         self.skeletons = tuple(
-            SkeletonLayout(self.prefix + name, rig.name, rig.skeleton.names, engagement.number)
+            SkeletonLayout(
+                self.prefix + name,
+                rig.name,
+                rig.skeleton.names,
+                engagement.number,
+                tuple(reaches(rig).tolist()),
+            )
             for name, rig in in_frame.items()
         )
         """The player's and the instrument's."""

@@ -19,6 +19,7 @@ from reina.protocol.manifest import (
     ParameterManifest,
     SkeletonManifest,
 )
+from reina.protocol.packed_block import Steps, pack, unpack
 
 __all__ = [
     "HEADER",
@@ -30,10 +31,13 @@ __all__ = [
     "Manifest",
     "ParameterManifest",
     "SkeletonManifest",
+    "Steps",
     "build_manifest",
     "decode",
     "encode_block",
     "frame_dtype",
     "join",
+    "pack",
     "stamp",
+    "unpack",
 ]

@@ -19,6 +19,11 @@ def session_href(session_id: str) -> str:
     return f"{API}/sessions/{session_id}"
 
 
+def blocks_href(session_id: str, revision: str) -> str:
+    """What the addresses of a session's packed blocks begin with."""
+    return f"{session_href(session_id)}/blocks/{revision}"
+
+
 def stance_href(session_id: str, name: str) -> str:
     """A session's own stance."""
     return f"{session_href(session_id)}/stances/{quote(name, safe='')}"

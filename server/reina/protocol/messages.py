@@ -52,6 +52,17 @@ class StreamLinks(WireModel):
     """Rig name to its description."""
 
 
+class FrameBlocks(WireModel):
+    """The frames, packed: 60 to a block, which never changes."""
+
+    revision: str
+    """Which state of score, cast and show they are of: 16 hexadecimal digits; a block's header has it."""
+    href: str
+    """Block n stands at `{href}/{n}`, for any cache to keep; at another origin where there is one for it."""
+    pushed: bool
+    """Whether those who ask the stream for packed blocks get them; else they fetch them ahead of time."""
+
+
 class Hello(Manifest):
     """First on every stream: whoever joins late or again needs nothing else."""
 
@@ -61,6 +72,7 @@ class Hello(Manifest):
     duration_s: float
     """Song time at which the clock stops: the player has settled, and the song is over."""
     links: StreamLinks
+    blocks: FrameBlocks
     song: SongState
     alignment: AlignmentState
     transport: TransportState
@@ -116,6 +128,15 @@ class ScoreChanged(WireModel):
     duration_s: float
     """How long the music now lasts."""
     song: SongState
+
+
+class BlocksChanged(FrameBlocks):
+    """Score, cast or show changed: the frames are of another revision from here on.
+
+    `transport` follows; so does `hello` before it, where frames hold something else.
+    """
+
+    type: Literal["blocks_changed"] = "blocks_changed"
 
 
 class SongReady(WireModel):
@@ -189,6 +210,7 @@ ServerMessage = Annotated[
     | Transport
     | ShowChanged
     | ScoreChanged
+    | BlocksChanged
     | SongReady
     | AlignmentChanged
     | NoteOn

@@ -89,6 +89,9 @@ class EncodedFrames:
         together: Where the bytes of all are counted.
     """
 
+    thread = _EVALUATING
+    """Where they are evaluated ahead, and packed."""
+
     def __init__(
         self,
         performance: Performance,
@@ -107,7 +110,11 @@ class EncodedFrames:
 
     async def ready(self, first_s: float, last_s: float) -> None:
         """Have the blocks from one song time to another evaluated on a thread."""
-        await self.evaluated(range(self._number(first_s), self._number(last_s) + 1))
+        await self.evaluated(self.numbers(first_s, last_s))
+
+    def numbers(self, first_s: float, last_s: float) -> range:
+        """The blocks from one song time to another."""
+        return range(self._number(first_s), self._number(last_s) + 1)
 
     async def evaluated(self, blocks: Iterable[int]) -> None:
         """Have some blocks evaluated on a thread, those that are not there yet."""
@@ -175,6 +182,10 @@ class EncodedFrames:
         """Drop every block: what an idle session need not keep."""
         self._blocks.clear()
         self._together.drop(self)
+
+    def count(self, added: int) -> None:
+        """Count so many bytes more, or less, as kept of them."""
+        self._together.add(self, added)
 
     @property
     def weight(self) -> int:

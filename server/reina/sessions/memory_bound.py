@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 MEGABYTE = 1_000_000
 MEMORY_BYTES = 1000 * MEGABYTE
 """How many bytes the sessions in memory may weigh together, by `Session.weight`."""
+IDLE_BYTES = 150 * MEGABYTE
+"""How many of these the idle ones may have: one is loaded again when somebody comes."""
 RETRY_S = 10
 """When to ask again: somebody may have stopped watching by then."""
 
@@ -26,10 +28,12 @@ class MemoryBound:
     Attributes:
         most_sessions: So many sessions; those that somebody watches or asks something of stay beyond it.
         most_bytes: So many bytes of them, of which nothing stays beyond it.
+        most_idle_bytes: So many bytes of those that nobody watches or asks something of.
     """
 
     most_sessions: int
     most_bytes: int = MEMORY_BYTES
+    most_idle_bytes: int = IDLE_BYTES
 
     def leaving(
         self, loaded: Iterable[Session], adding: int, *, coming: int = 0, staying: Session | None = None
@@ -54,14 +58,18 @@ class MemoryBound:
             )
         above = sum(session.weight for session in sessions) + adding + coming - self.most_bytes
         too_many = len(sessions) + (staying is None) - self.most_sessions
+        idle = [session for session in sessions if session is not staying and session.is_idle]
+        # What is new is idle until somebody joins it.
+        new = adding + coming if staying is None else 0
+        idle_above = sum(session.weight for session in idle) + new - self.most_idle_bytes
         leaving: list[Session] = []
-        for session in sessions:
-            if above <= 0 and too_many <= 0:
+        for session in idle:
+            if above <= 0 and too_many <= 0 and idle_above <= 0:
                 break
-            if session is not staying and session.is_idle:
-                leaving.append(session)
-                above -= session.weight
-                too_many -= 1
+            leaving.append(session)
+            above -= session.weight
+            idle_above -= session.weight
+            too_many -= 1
         if above > 0:
             raise ServerBusyError(
                 f"the pieces that are being watched take all of the {self.most_bytes / MEGABYTE:.0f} MB that "

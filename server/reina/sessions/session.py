@@ -13,8 +13,17 @@ import numpy as np
 from reina.music import ClockError, ClockState, MusicClock, ScoreWarning, findings_of
 from reina.performance import TAIL_S
 from reina.protocol import resources
-from reina.protocol.links import rendering_href, session_links, stream_links
-from reina.protocol.messages import AlignmentChanged, Hello, ScoreChanged, ShowChanged, SongReady, StreamError
+from reina.protocol.links import blocks_href, rendering_href, session_links, stream_links
+from reina.protocol.messages import (
+    AlignmentChanged,
+    BlocksChanged,
+    FrameBlocks,
+    Hello,
+    ScoreChanged,
+    ShowChanged,
+    SongReady,
+    StreamError,
+)
 from reina.protocol.transport import Pause, Play, Seek, SetLoop, SetRate, TransportState
 from reina.sessions.audience import Audience
 from reina.sessions.description import (
@@ -30,9 +39,11 @@ from reina.sessions.description import (
     wire_note,
 )
 from reina.sessions.frames import EncodedFrames
+from reina.sessions.frames_revision import frames_revision
 from reina.sessions.heard_songs import HeardSongs
 from reina.sessions.kept_clock import KeptClock
 from reina.sessions.note_messages import NoteMessages
+from reina.sessions.packed_blocks import PackedBlocks
 from reina.sessions.show_fit import show_warnings
 from reina.sessions.show_revision import changed_paths
 from reina.sessions.song import Song, song_state
@@ -44,6 +55,7 @@ if TYPE_CHECKING:
 
     from reina.protocol.messages import SongState
     from reina.protocol.transport import TransportCommand
+    from reina.sessions.packed_blocks import Form
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
     from reina.sessions.show_revision import ShowRevision
@@ -52,6 +64,8 @@ if TYPE_CHECKING:
     from reina.sound.alignment.alignment import Alignment
     from reina.sound.hearing import Hearing
 
+OWN_ORIGIN = "self"
+"""Packed blocks are fetched from where the session is."""
 FIRST_S = 0.3
 """Seconds of frames that are evaluated before a change: what is sent at once, and a margin."""
 
@@ -74,6 +88,8 @@ class Session:
         wall: The present, seconds since 1970.
         alignment: What is known of where the score is heard in the song.
         clock_changed: Called whenever the clock has been changed.
+        blocks_origin: Where packed blocks are to be fetched from, ``https://blocks.example.org``, or
+            `OWN_ORIGIN` for where the session is; empty: the stream has them.
     """
 
     def __init__(
@@ -89,8 +105,10 @@ class Session:
         wall: Callable[[], float] = time.time,
         alignment: Alignment | None = None,
         clock_changed: Callable[[Session], None] = lambda _: None,
+        blocks_origin: str = "",
     ) -> None:
         self.record = record
+        self._blocks_origin = blocks_origin
         self._wall = wall
         self._clock_changed = clock_changed
         self._asking = 0
@@ -104,8 +122,8 @@ class Session:
         if record.clock != KeptClock():
             self.clock.resume(record.clock.state(now(), wall()))
         self._kept_epoch = self.clock.epoch
-        frames = EncodedFrames(production.performance, production.manifest)
-        self.audience = Audience(frames, self.clock, notes, now=now)
+        blocks = self._blocks_of(production, record, show_revision)
+        self.audience = Audience(blocks, self.clock, notes, now=now, pushes_blocks=not blocks_origin)
         self._make_song = song
         self.song = song(self)
         # A session that held itself would only be let go of by the collector, which hardly ever runs.
@@ -129,7 +147,7 @@ class Session:
     @property
     def weight(self) -> int:
         """About how many bytes it takes in memory."""
-        return self.production.weight + self.show_revision.weight + self.audience.frames.weight
+        return self.production.weight + self.show_revision.weight + self.blocks.frames.weight
 
     @contextmanager
     def asked(self) -> Generator[None]:
@@ -179,11 +197,24 @@ class Session:
             href = f"{href}&stem={hearing.stem}&player={hearing.player}&semitones={hearing.transposition}"
         return song_state(song, href, f"{session_links(self.id).song}/segments")
 
-    def hello(self, state: ClockState | None = None) -> Hello:
+    @property
+    def blocks(self) -> PackedBlocks:
+        """Its frames, packed."""
+        return self.audience.blocks
+
+    def frame_blocks(self, blocks: PackedBlocks | None = None) -> FrameBlocks:
+        """Where its packed blocks are to be had; those that are sent now when None."""
+        revision = (blocks or self.blocks).revision
+        origin = "" if self._blocks_origin == OWN_ORIGIN else self._blocks_origin
+        href = f"{origin}{blocks_href(self.id, revision)}"
+        return FrameBlocks(revision=revision, href=href, pushed=not self._blocks_origin)
+
+    def hello(self, state: ClockState | None = None, blocks: PackedBlocks | None = None) -> Hello:
         """What a viewer hears first.
 
         Args:
             state: The clock; as it is now when None.
+            blocks: The frames that will be sent; those that are sent now when None.
         """
         manifest = self.production.manifest
         return Hello(
@@ -192,6 +223,7 @@ class Session:
             title=self.record.title,
             duration_s=self.clock.duration_s,
             links=stream_links(self.id, {skeleton.rig for skeleton in manifest.skeletons}),
+            blocks=self.frame_blocks(blocks),
             song=self.song_state(),
             alignment=self.alignment.state(),
             transport=transport_state(state or self.clock.state()),
@@ -241,20 +273,25 @@ class Session:
     async def ready(
         self,
         song_time_s: float | None = None,
-        frames: EncodedFrames | None = None,
+        blocks: PackedBlocks | None = None,
         *,
         rate: float | None = None,
+        form: Form | None = None,
     ) -> None:
         """Have the frames evaluated on a thread that are sent first when somebody joins or something changes.
 
         Args:
             song_time_s: From there on; from the present on when None.
-            frames: Those that will be sent; those that are sent now when None.
+            blocks: The frames that will be sent; those that are sent now when None.
             rate: How fast it will play; as fast as now when None.
+            form: Also packed so, beside the forms that others are sent.
         """
         first_s = self.audience.song_time_s() if song_time_s is None else song_time_s
         ahead_s = FIRST_S * (rate or self.clock.state().rate)
-        await (frames or self.audience.frames).ready(first_s, first_s + ahead_s)
+        forms = self.audience.forms
+        if form is not None:
+            forms.add(form)
+        await (blocks or self.blocks).ready(first_s, first_s + ahead_s, forms)
 
     def join(self, viewer: Viewer) -> None:
         """Let somebody watch."""
@@ -321,10 +358,11 @@ class Session:
             show_revision: The other show, with its history.
         """
         paths = await asyncio.to_thread(changed_paths, self.show_revision.show, show_revision.show)
-        frames = await self._frames_of(production)
+        blocks = self._blocks_of(production, self.record, show_revision)
+        await self._prepare(blocks)
         path = paths[0] if paths is not None and len(paths) == 1 else None
         self.show_revision = show_revision
-        self._replace(production, frames)
+        self._replace(production, blocks)
         self.audience.announce(ShowChanged(path=path, paths=paths, **dict(show_revision.state)))
 
     async def change_cast(self, record: SessionRecord, production: Production) -> None:
@@ -335,7 +373,8 @@ class Session:
         """
         another_piece = production.score.sequence != self.production.score.sequence
         notes = await asyncio.to_thread(note_messages, production)
-        frames = await self._frames_of(production, 0.0 if another_piece else None)
+        blocks = self._blocks_of(production, record, self.show_revision)
+        await self._prepare(blocks, 0.0 if another_piece else None)
         another_layout = production.manifest != self.production.manifest
         another_sound = another_piece or production.cast.sound != self.production.cast.sound
         self.record = record
@@ -346,8 +385,8 @@ class Session:
         if self.clock.duration_s != self._duration_s():
             self.clock.set_duration(self._duration_s())
         if another_layout:
-            self.audience.announce(self.hello())
-        self._replace(production, frames, notes)
+            self.audience.announce(self.hello(blocks=blocks))
+        self._replace(production, blocks, notes)
         if record.song is None and another_sound:
             self.renew_song()
         self.audience.announce(
@@ -393,18 +432,25 @@ class Session:
         elif self.song.error is not None:
             self.audience.announce(StreamError(title="There is no sound", detail=self.song.error))
 
-    async def _frames_of(self, production: Production, song_time_s: float | None = None) -> EncodedFrames:
+    def _blocks_of(
+        self, production: Production, record: SessionRecord, show_revision: ShowRevision
+    ) -> PackedBlocks:
         frames = EncodedFrames(production.performance, production.manifest)
+        revision = frames_revision(production.stage, record, show_revision, self.alignment.alignment)
+        return PackedBlocks(frames, production.performance.layout, revision)
+
+    async def _prepare(self, blocks: PackedBlocks, song_time_s: float | None = None) -> None:
         if len(self.audience):
-            await self.ready(song_time_s, frames)
-        return frames
+            await self.ready(song_time_s, blocks)
 
     def _replace(
-        self, production: Production, frames: EncodedFrames, notes: NoteMessages | None = None
+        self, production: Production, blocks: PackedBlocks, notes: NoteMessages | None = None
     ) -> None:
         self.production = production
         self.clock.touch()
-        self.audience.restart(frames, notes)
+        if blocks.revision != self.blocks.revision:
+            self.audience.announce(BlocksChanged(**dict(self.frame_blocks(blocks))))
+        self.audience.restart(blocks, notes)
         self._clock_changed(self)
 
     def _duration_s(self) -> float:

@@ -20,6 +20,7 @@ from reina.instruments.player import Engagement
 from reina.performance import schema_parameters, show_parameters
 from reina.skeleton import load_hold, load_rig
 from reina.stage import stage_registry
+from reina.system.digest import digest_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -46,12 +47,14 @@ class Stage:
         holds: How who holds what: (player, instrument) -> the hold.
         kinds: The instruments by name.
         parameters: What a show can move beside the players.
+        digest: Says which rigs and holds they are.
     """
 
     rigs: Mapping[str, Rig]
     holds: Mapping[tuple[str, str], Hold]
     kinds: Mapping[str, Instrument]
     parameters: tuple[Parameter, ...] = tuple(stage_registry())
+    digest: str = ""
 
     @property
     def parts(self) -> tuple[object, ...]:
@@ -88,7 +91,8 @@ class Stage:
         }
         rigs = {name: load_rig(rigs_dir / name) for name in names}
         kinds = {instrument: INSTRUMENTS[instrument] for _, instrument in holds}
-        return cls(rigs=rigs, holds=holds, kinds=kinds)
+        digest = digest_of(rigs_dir, "*/rig.json", "*/holds/*.json", "*/clips/*.bvh")
+        return cls(rigs=rigs, holds=holds, kinds=kinds, digest=digest)
 
     @property
     def instruments(self) -> tuple[str, ...]:

@@ -143,6 +143,7 @@ class SessionStore:
         decoder: Tells what uploaded songs are.
         reader: Reads scores and shows.
         aligner: Finds scores in uploaded songs.
+        blocks_origin: Where pages fetch packed blocks, as `Session` has it.
     """
 
     def __init__(
@@ -160,6 +161,7 @@ class SessionStore:
         decoder: SongDecoder | None = None,
         reader: Reader | None = None,
         aligner: Aligner | None = None,
+        blocks_origin: str = "",
     ) -> None:
         self.stage = stage
         self.reader = reader or Reader(stage)
@@ -169,6 +171,7 @@ class SessionStore:
         self._renderer = renderer
         renderer.cache.in_use = self._listened_to
         self._aligner = aligner or Aligner()
+        self._blocks_origin = blocks_origin
         self._now = now
         self._wall = wall
         self._bound = MemoryBound(loaded, memory_bytes)
@@ -895,6 +898,7 @@ class SessionStore:
             wall=self._wall,
             alignment=read.alignment,
             clock_changed=self._clocks.note,
+            blocks_origin=self._blocks_origin,
         )
         self._sessions[session.id] = session
         return session

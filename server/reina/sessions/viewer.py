@@ -6,16 +6,22 @@ import asyncio
 import contextlib
 import math
 from collections import deque
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
+from reina.performance import BLOCK_FRAMES
 from reina.sessions.broadcast import LEAD_S
 from reina.system.metrics import limit_hit, tally
+
+if TYPE_CHECKING:
+    from reina.sessions.packed_blocks import Form
 
 GOING_AWAY = 1001
 INTERNAL_ERROR = 1011
 TRY_AGAIN_LATER = 1013
 FRAMES_WAITING = 12
 """Most frames that wait for a viewer, beside what a greater lead brings; of more the oldest are dropped."""
+BLOCKS_WAITING = 16
+"""Most packed blocks that wait; one that is dropped the viewer fetches."""
 FRAMES_A_SECOND = 60
 """As many frames are due in a second at most."""
 MESSAGES_WAITING = 256
@@ -48,10 +54,15 @@ class Viewer:
     Args:
         connection: Where it goes.
         frames_per_message: How many frames the viewer wants in a binary message.
+        form: The form of the packed blocks that it wants in place of frames; None for frames.
     """
 
-    def __init__(self, connection: Connection, *, frames_per_message: int = 1) -> None:
-        self.frames_per_message = frames_per_message
+    def __init__(
+        self, connection: Connection, *, frames_per_message: int = 1, form: Form | None = None
+    ) -> None:
+        self.form: Form | None = form
+        """The form of the packed blocks that it is sent; None where it is sent frames."""
+        self.frames_per_message = frames_per_message if form is None else BLOCK_FRAMES
         self.lead_s = LEAD_S
         """How long before they are due its frames are sent, seconds."""
         self.dropped = 0
@@ -120,6 +131,8 @@ class Viewer:
             ended.cancel()
 
     def _most_waiting(self) -> int:
+        if self.form is not None:
+            return BLOCKS_WAITING
         frames = FRAMES_WAITING + math.ceil((self.lead_s - LEAD_S) * FRAMES_A_SECOND)
         return max(2, frames // self.frames_per_message)
 

@@ -9,6 +9,7 @@ from reina.skeleton.joint_aliases import humanoid_name
 from reina.skeleton.load_rig import load_rig, read_rig
 from reina.skeleton.mirror import ACROSS, Mirror, mirrored_hold, other_side
 from reina.skeleton.motion_clip import MotionClip
+from reina.skeleton.reach import reaches
 from reina.skeleton.read_bvh import PositionMeaning, read_bvh
 from reina.skeleton.retarget import blended, clip_of_motion, looped, retarget
 from reina.skeleton.rig import (
@@ -67,6 +68,7 @@ __all__ = [
     "other_side",
     "pose_numbers",
     "pose_of",
+    "reaches",
     "read_bvh",
     "read_hold",
     "read_rig",

@@ -19,6 +19,7 @@ def test_each_message_is_told_by_its_type() -> None:
         "transport",
         "show_changed",
         "score_changed",
+        "blocks_changed",
         "alignment_changed",
         "song_ready",
         "note_on",

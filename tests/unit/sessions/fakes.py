@@ -10,7 +10,8 @@ import numpy as np
 
 from reina.instruments import Cast, Casting
 from reina.protocol import build_manifest, decode
-from reina.sessions.frames import EncodedFrames
+from reina.sessions.frames import EncodedFrames, KeptBytes
+from reina.sessions.packed_blocks import PackedBlocks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,6 +28,7 @@ class Skeleton:
     rig: str = "trumpeter"
     joints: tuple[str, ...] = ("hips", "spine", "head")
     player: int = 0
+    reaches: tuple[float, ...] = (1.0, 0.5, 0.2)
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,8 @@ class Parameter:
     type: str = "number"
     length: int = 1
     blend: bool = True
+    minimum: float | None = None
+    maximum: float | None = None
 
 
 @dataclass(frozen=True)
@@ -90,11 +94,18 @@ class NumberedPerformance:
         )
 
 
-def encoded(performance: NumberedPerformance | None = None, *, kept: int = 8) -> EncodedFrames:
+def encoded(
+    performance: NumberedPerformance | None = None, *, kept: int = 8, together: KeptBytes | None = None
+) -> EncodedFrames:
     """The frames of a numbered performance."""
     numbered = performance or NumberedPerformance()
     manifest = build_manifest(cast("FrameLayout", numbered.layout))
-    return EncodedFrames(cast("Performance", numbered), manifest, kept=kept)
+    return EncodedFrames(cast("Performance", numbered), manifest, kept=kept, together=together)
+
+
+def packed(frames: EncodedFrames, *, kept: int = 64) -> PackedBlocks:
+    """The same, packed."""
+    return PackedBlocks(frames, cast("FrameLayout", Layout()), 1, kept=kept)
 
 
 def read(frames: EncodedFrames, messages: list[bytes]) -> Frames:

@@ -5,7 +5,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, read
+from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, packed, read
 
 from reina.instruments import ValvesFingering
 from reina.music import MusicClock
@@ -90,7 +90,7 @@ class Hall:
         self.frames = encoded(self.performance)
         onsets = np.arange(3.0)
         notes = NoteMessages(onsets, onsets + 0.5, np.array([60, 61, 62]), note)
-        self.audience = Audience(self.frames, self.clock, notes, now=self.now)
+        self.audience = Audience(packed(self.frames), self.clock, notes, now=self.now)
 
     def join(self, frames_per_message: int = 1) -> Inbox:
         inbox = Inbox(frames_per_message)
@@ -254,7 +254,7 @@ def test_an_edit_is_in_the_next_frames() -> None:
         hall.read(inbox)
         edited = NumberedPerformance(cuts=frozenset({30}))
         hall.clock.touch()
-        hall.audience.restart(encoded(edited))
+        hall.audience.restart(packed(encoded(edited)))
         got = hall.read(inbox)
         assert got["index"][0] == 30
         assert got["flags"][0] & FrameFlag.CUT

@@ -174,6 +174,16 @@ export interface ShowState {
   redo: number
 }
 
+/** The frames, packed: 60 to a block, which never changes. */
+export interface FrameBlocks {
+  /** Which state of score, cast and show they are of: 16 hexadecimal digits; a block's header has it. */
+  revision: string
+  /** Block n stands at {href}/{n}, for any cache to keep; at another origin where there is one for it. */
+  href: string
+  /** Whether those who ask the stream for packed blocks get them; else they fetch them ahead of time. */
+  pushed: boolean
+}
+
 /** How far a session's score is in time with its song. */
 export interface AlignmentState {
   /**
@@ -287,6 +297,7 @@ export interface Hello extends Manifest {
   /** Song time at which the clock stops: the player has settled, and the song is over. */
   duration_s: number
   links: StreamLinks
+  blocks: FrameBlocks
   song: SongState
   alignment: AlignmentState
   transport: TransportState
@@ -326,6 +337,15 @@ export interface ScoreChanged {
   /** How long the music now lasts. */
   duration_s: number
   song: SongState
+}
+
+/**
+ * Score, cast or show changed: the frames are of another revision from here on.
+ *
+ * transport follows; so does hello before it, where frames hold something else.
+ */
+export interface BlocksChanged extends FrameBlocks {
+  type: "blocks_changed"
 }
 
 /** The song can be fetched. */
@@ -1384,6 +1404,7 @@ export type ServerMessage =
   | Transport
   | ShowChanged
   | ScoreChanged
+  | BlocksChanged
   | SongReady
   | AlignmentChanged
   | NoteOn

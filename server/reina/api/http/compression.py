@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MIN_BYTES = 1000
-PLAIN = re.compile(r"/api/v1/(sessions/[^/]+/(frames|song)|rigs/[^/]+/.+|examples/.+|lab/bvh)$")
+PLAIN = re.compile(r"/api/v1/(sessions/[^/]+/(frames|song|blocks/.+)|rigs/[^/]+/.+|examples/.+|lab/bvh)$")
 """Floats, sound and models hardly shrink, and their ranges and lengths are to stay what they are."""
 REFUSED = re.compile(rb"(^|,)\s*gzip\s*;\s*q=0(\.0*)?\s*(,|$)", re.IGNORECASE)
 """gzip is named as what is not wanted (RFC 9110, 12.4.2)."""

@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
 DATA_POLICY = "default-src 'none'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'; sandbox"
@@ -63,13 +64,14 @@ def _hashes_of(path: Path, modified_ns: int) -> tuple[tuple[str, ...], tuple[str
     return inline_hashes(path.read_text("utf-8"))
 
 
-def page_policy(path: Path, host: str, *, framed: bool = False) -> str:
+def page_policy(path: Path, host: str, *, framed: bool = False, fetched: Sequence[str] = ()) -> str:
     """The policy of a page.
 
     Args:
         path: The page's document; read, so not for the event loop.
         host: The server's own name with its port, as the page asked for it; already known to be allowed.
         framed: Whether other sites may show it in a frame.
+        fetched: Origins beside the server's own that it fetches from.
     """
     scripts, styles = _hashes_of(path, path.stat().st_mtime_ns)
     directives = {
@@ -85,7 +87,7 @@ def page_policy(path: Path, host: str, *, framed: bool = False) -> str:
         "font-src": ("'self'", "data:"),
         "worker-src": ("'self'", "blob:"),
         # Not every browser takes the stream's scheme for the page's own; a model's pictures are blobs.
-        "connect-src": ("'self'", f"ws://{host}", f"wss://{host}", "blob:", "data:"),
+        "connect-src": ("'self'", f"ws://{host}", f"wss://{host}", "blob:", "data:", *fetched),
         "frame-src": ("'none'",),
         "object-src": ("'none'",),
         "base-uri": ("'none'",),

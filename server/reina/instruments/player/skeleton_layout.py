@@ -12,9 +12,11 @@ class SkeletonLayout:
         rig: Its rig.
         joints: Its joints' names, parents first.
         player: Whose it is: a place in the cast, the first being 0.
+        reaches: How far what each joint turns is from it at most, metres.
     """
 
     name: str
     rig: str
     joints: tuple[str, ...]
-    player: int = 0
+    player: int
+    reaches: tuple[float, ...]

@@ -1,0 +1,49 @@
+"""Which state of score, cast and show frames are of: the same on every server, and after every start."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import reina
+from reina.system.digest import digest_of
+
+if TYPE_CHECKING:
+    from reina.sessions.record import SessionRecord
+    from reina.sessions.show_revision import ShowRevision
+    from reina.sessions.stage import Stage
+    from reina.sound.alignment.alignment import Alignment
+
+
+def frames_revision(
+    stage: Stage, record: SessionRecord, show_revision: ShowRevision, alignment: Alignment | None
+) -> int:
+    """64 bits that are others whenever the frames are.
+
+    Args:
+        stage: Who plays on what.
+        record: The score's file, the cast and the stances.
+        show_revision: The show.
+        alignment: Where the score is heard in the song.
+    """
+    scores = [file.digest for file in record.files if file.name == "score"]
+    stances = [stance.model_dump_json() for stance in record.stances]
+    moved = alignment if alignment is not None and alignment.moves else None
+    said = (
+        _code_digest(),
+        stage.digest,
+        *scores,
+        repr(record.cast),
+        *stances,
+        show_revision.text.etag,
+        repr(moved),
+    )
+    return int.from_bytes(hashlib.sha256("\n".join(said).encode()).digest()[:8], "little")
+
+
+@cache
+def _code_digest() -> str:
+    """Of what evaluates the frames: another version gives other frames."""
+    return digest_of(Path(reina.__file__).parent, "**/*.py")
