@@ -117,11 +117,11 @@ def test_the_golden_values_encode_to_the_golden_bytes(golden: dict[str, Any], ma
         )
         encoded = encode_block(manifest, cast("FrameBlock", block))
         message += stamp(
-            [encoded],
+            memoryview(encoded.view(np.uint8)),
             epoch=frame["epoch"] + 256,
-            due_time_s=np.array([frame["due_time_s"]]),
-            flags=np.array([frame["flags"] & 3], np.uint16),
-        ).tobytes()
+            due_time_s=frame["due_time_s"],
+            flags=frame["flags"] & 3,
+        )
     assert message == golden_bytes()
 
 

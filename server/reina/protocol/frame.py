@@ -7,6 +7,7 @@ the page's reader and the documentation are derived from it.
 
 from __future__ import annotations
 
+import struct
 from enum import IntFlag
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -40,6 +41,8 @@ HEADER = np.dtype(
     ]
 )
 """What every frame begins with, whatever its manifest says."""
+_HEADER = struct.Struct("<" + "".join(HEADER[place].char for place in range(len(HEADER))))
+"""The same for single frames, sixty times a second."""
 
 
 class FrameFlag(IntFlag):
@@ -177,22 +180,18 @@ def join(runs: Sequence[Frames]) -> Frames:
     return np.concatenate([run.view(np.uint8) for run in runs]).view(runs[0].dtype)
 
 
-def stamp(
-    runs: Sequence[Frames], *, epoch: int, due_time_s: NDArray[np.float64], flags: NDArray[np.uint16]
-) -> Frames:
-    """A copy of encoded frames, with what is known only as they are sent.
+def stamp(frame: memoryview, *, epoch: int, due_time_s: float, flags: int) -> bytes:
+    """A copy of an encoded frame, with what is known only as it is sent.
 
     Args:
-        runs: Encoded frames, F in all.
+        frame: The frame's bytes.
         epoch: The clock's epoch; its low eight bits are sent.
-        due_time_s: (F,) server times at which the frames are to be seen.
-        flags: (F,) flags beside those that the frames have.
+        due_time_s: Server time at which the frame is to be seen.
+        flags: Flags beside those that it has.
     """
-    stamped = join(runs)
-    stamped["epoch"] = epoch & 0xFF
-    stamped["due_time_s"] = due_time_s
-    stamped["flags"] |= flags
-    return stamped
+    version, _, own, index, song_time_s, _ = _HEADER.unpack_from(frame)
+    head = _HEADER.pack(version, epoch & 0xFF, own | flags, index, song_time_s, due_time_s)
+    return head + frame[HEADER.itemsize :]
 
 
 def decode(manifest: Manifest, data: bytes) -> Frames:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from reina.music import NoteEventEmitter
@@ -54,6 +55,18 @@ class NoteMessages:
         """`note_off` of every note that sounds: others are told of from now on."""
         at_s = self._emitter.position_s
         return [self._message("note_off", index, at_s) for index in self._emitter.sounding]
+
+    @property
+    def due_s(self) -> float:
+        """Server time before which `advance` has nothing to tell; infinity while nothing moves."""
+        state = self._state
+        if state is None or not state.playing:
+            return math.inf
+        next_s = self._emitter.next_time_s
+        if state.loop is not None:
+            # At a loop's end notes are ended that have not come to theirs.
+            next_s = min(next_s, state.loop[1])
+        return self._until_s + max(0.0, next_s - self._emitter.position_s) / state.rate
 
     def advance(self, now: float) -> list[str]:
         """What ends and begins up to server time `now`, since the call before."""

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from reina.music import ClockState
@@ -13,8 +12,7 @@ GRID_TOLERANCE = 1e-6
 """Frames: a song time this close before a frame counts as on it, so that seeking to k / fps shows frame k."""
 
 
-@dataclass(frozen=True, slots=True)
-class DueFrame:
+class DueFrame(NamedTuple):
     """One frame to be sent."""
 
     index: int
