@@ -14,6 +14,7 @@ from reina.protocol import (
     FrameError,
     Manifest,
     build_manifest,
+    bytes_of,
     decode,
     encode_block,
     frame_dtype,
@@ -117,7 +118,7 @@ def test_the_golden_values_encode_to_the_golden_bytes(golden: dict[str, Any], ma
         )
         encoded = encode_block(manifest, cast("FrameBlock", block))
         message += stamp(
-            memoryview(encoded.view(np.uint8)),
+            bytes_of(encoded),
             epoch=frame["epoch"] + 256,
             due_time_s=frame["due_time_s"],
             flags=frame["flags"] & 3,

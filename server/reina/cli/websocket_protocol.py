@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.protocol import State
@@ -38,7 +38,8 @@ class TextProtocol(WebSocketsSansIOProtocol):
         super().handle_connect(event)
         if self.response.status_code == HTTPStatus.SWITCHING_PROTOCOLS:
             self._line = DirectLine(self.transport)
-            self.scope["extensions"][DIRECT_LINE] = self._line
+            extensions = cast("dict[str, object]", self.scope.get("extensions"))
+            extensions[DIRECT_LINE] = self._line
 
     def connection_lost(self, exc: Exception | None) -> None:
         """The viewer has gone."""

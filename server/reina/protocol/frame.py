@@ -41,8 +41,6 @@ HEADER = np.dtype(
     ]
 )
 """What every frame begins with, whatever its manifest says."""
-_HEADER = struct.Struct("<" + "".join(HEADER[place].char for place in range(len(HEADER))))
-"""The same for single frames, sixty times a second."""
 
 
 class FrameFlag(IntFlag):
@@ -62,6 +60,16 @@ class FrameError(InputError):
 
 def _aligned(offset: int) -> int:
     return -(-offset // ALIGNMENT) * ALIGNMENT
+
+
+def fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, np.dtype[Any], int]]:
+    """Name, type and offset in bytes of each field, in their order."""
+    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
+    return [(name, field[0], field[1]) for name, field in fields.items()]
+
+
+_HEADER = struct.Struct("<" + "".join(field.char for _, field, _ in fields_of(HEADER)))
+"""The same for one frame at a time, sixty times a second."""
 
 
 @lru_cache
@@ -84,12 +92,6 @@ def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
             "itemsize": _aligned(end),
         }
     )
-
-
-def fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, np.dtype[Any], int]]:
-    """Name, type and offset in bytes of each field, in their order."""
-    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
-    return [(name, field[0], field[1]) for name, field in fields.items()]
 
 
 def _offset(dtype: np.dtype[np.void], field: str) -> int:
@@ -178,6 +180,11 @@ def join(runs: Sequence[Frames]) -> Frames:
     this goes by bytes.
     """
     return np.concatenate([run.view(np.uint8) for run in runs]).view(runs[0].dtype)
+
+
+def bytes_of(frames: Frames) -> memoryview:
+    """The bytes of whole frames, padding and all; a view, not a copy."""
+    return frames.view(np.uint8).data
 
 
 def stamp(frame: memoryview, *, epoch: int, due_time_s: float, flags: int) -> bytes:

@@ -15,7 +15,7 @@ from reina.sessions.broadcast import Broadcast
 from reina.sessions.description import transport_message
 from reina.sessions.frames import FRAMES_PER_BLOCK
 from reina.sessions.ticker import TICKER
-from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR
+from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR, count_sent
 from reina.system.metrics import tally
 
 if TYPE_CHECKING:
@@ -238,10 +238,10 @@ class Audience:
                 broadcast = BlockBroadcast(self.blocks, viewer.form, state)
                 self._block_broadcasts[viewer.form] = broadcast
             for message in broadcast.catch_up(state):
-                viewer.post_frames(binary_frame(message))
+                _post_frames([viewer], message)
             return
         for message in self._broadcast(viewer.lead_s).catch_up(state, viewer.frames_per_message):
-            viewer.post_frames(binary_frame(message))
+            _post_frames([viewer], message)
 
     def _regroup(self) -> None:
         """Who is sent what is another from now on."""
@@ -375,8 +375,11 @@ class Audience:
 
 def _post_frames(viewers: list[Viewer], message: bytes) -> None:
     frame = binary_frame(message)
+    sent = 0
     for viewer in viewers:
-        viewer.post_frames(frame)
+        if viewer.post_frames(frame):
+            sent += 1
+    count_sent(frame, viewers[0].frames_per_message, sent)
 
 
 def _end_of(state: ClockState) -> float:

@@ -10,9 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-import numpy as np
-
-from reina.protocol import FrameFlag, encode_block, join, stamp
+from reina.protocol import FrameFlag, bytes_of, encode_block, join, stamp
 from reina.system.metrics import EVALUATION
 
 if TYPE_CHECKING:
@@ -213,7 +211,7 @@ class EncodedFrames:
         number, row = divmod(index, FRAMES_PER_BLOCK)
         frames, sent = self.block(number), self._sent
         if sent is None or sent[0] is not frames:
-            self._sent = sent = (frames, memoryview(frames.view(np.uint8)))
+            self._sent = sent = (frames, bytes_of(frames))
         size = self.manifest.frame_size
         return sent[1][row * size : (row + 1) * size]
 

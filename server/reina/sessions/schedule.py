@@ -15,7 +15,7 @@ GRID_TOLERANCE = 1e-6
 class DueFrame(NamedTuple):
     """One frame to be sent."""
 
-    index: int
+    index: int  # pyright: ignore[reportIncompatibleMethodOverride] - a frame, no place in the tuple
     due_time_s: float
     """Server time at which its song time is heard."""
     first: bool = False

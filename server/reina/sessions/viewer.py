@@ -29,6 +29,18 @@ MESSAGES_WAITING = 256
 """Most control messages that wait; when more come, the viewer is closed with 1013 and may come again."""
 
 
+def count_sent(frame: bytes, frames: int, viewers: int) -> None:
+    """Count a binary message that so many viewers were sent.
+
+    Args:
+        frame: The message as a WebSocket frame.
+        frames: How many frames of the stage are in it.
+        viewers: How many.
+    """
+    tally.frames_sent += frames * viewers
+    tally.stream_bytes += len(frame) * viewers
+
+
 class Line(Protocol):
     """What whole WebSocket frames are written into."""
 
@@ -45,7 +57,10 @@ class Line(Protocol):
 class Connection(Protocol):
     """What a viewer is reached by."""
 
-    line: Line
+    @property
+    def line(self) -> Line:
+        """What is written into."""
+        ...
 
     async def close(self, code: int, reason: str) -> None:
         """End the connection, though nobody reads at the other end."""
@@ -77,6 +92,7 @@ class Viewer:
         self._connection = connection
         self._line = connection.line
         self._line.on_free = self._send_waiting
+        self._write = self._line.write
         self._texts: deque[bytes] | None = None
         self._frames: deque[bytes] | None = None
         self._ending: asyncio.Task[None] | None = None
@@ -90,7 +106,7 @@ class Viewer:
         if self._ending is not None:
             return
         if not self._line.is_full:
-            self._line.write(frame)
+            self._write(frame)
             return
         if self._texts is None:
             self._texts = deque()
@@ -109,25 +125,21 @@ class Viewer:
         if self._frames is not None:
             self._frames = deque(self._frames, maxlen=self._most_waiting())
 
-    def post_frames(self, frame: bytes) -> None:
+    def post_frames(self, frame: bytes) -> bool:
         """Send a binary message; where it has to wait, in place of the oldest when too many do.
 
         Args:
             frame: The message as a WebSocket frame.
+
+        Returns:
+            Whether it went out at once, for who counts what all viewers were sent (`count_sent`).
         """
-        if self._ending is not None:
-            return
-        if not self._line.is_full:
-            self._line.write(frame)
-            tally.frames_sent += self.frames_per_message
-            tally.stream_bytes += len(frame)
-            return
-        if self._frames is None:
-            self._frames = deque(maxlen=self._most_waiting())
-        if len(self._frames) == self._frames.maxlen:
-            self.dropped += 1
-            tally.frames_lost += self.frames_per_message
-        self._frames.append(frame)
+        if not self._line.is_full and self._ending is None:
+            self._write(frame)
+            return True
+        if self._ending is None:
+            self._queue(frame)
+        return False
 
     def end(self, code: int, reason: str) -> None:
         """Close the connection; what waits is not sent any more."""
@@ -148,6 +160,14 @@ class Viewer:
         """Messages that wait to be sent."""
         return len(self._texts or ()) + len(self._frames or ())
 
+    def _queue(self, frame: bytes) -> None:
+        if self._frames is None:
+            self._frames = deque(maxlen=self._most_waiting())
+        if len(self._frames) == self._frames.maxlen:
+            self.dropped += 1
+            tally.frames_lost += self.frames_per_message
+        self._frames.append(frame)
+
     def _most_waiting(self) -> int:
         if self.form is not None:
             return BLOCKS_WAITING
@@ -157,9 +177,11 @@ class Viewer:
     def _send_waiting(self) -> None:
         texts, frames = self._texts, self._frames
         while texts and not self._line.is_full:
-            self.post_text(texts.popleft())
+            self._write(texts.popleft())
         while frames and not self._line.is_full:
-            self.post_frames(frames.popleft())
+            frame = frames.popleft()
+            self._write(frame)
+            count_sent(frame, self.frames_per_message, 1)
         # Who keeps up again has no queue.
         if not texts:
             self._texts = None

@@ -65,8 +65,9 @@ class Inbox(Viewer):
     def post_text(self, frame: bytes) -> None:
         self.texts.append(json.loads(message_of(frame)))
 
-    def post_frames(self, frame: bytes) -> None:
+    def post_frames(self, frame: bytes) -> bool:
         self.posted.append(frame)
+        return True
 
     def drop_frames(self) -> None:
         self.posted.clear()

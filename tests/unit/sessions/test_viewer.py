@@ -133,9 +133,10 @@ def test_what_is_sent_and_what_is_lost_is_counted() -> None:
     before = replace(tally)
     wire, viewer = lagging(frames_per_message=3)
     for _ in range(5):
-        viewer.post_frames(binary(123))
+        assert not viewer.post_frames(binary(123))
     assert tally.frames_sent == before.frames_sent, "what waits is not sent"
     wire.let()
     assert tally.frames_sent - before.frames_sent == 4 * 3
     assert tally.frames_lost - before.frames_lost == 3
     assert tally.stream_bytes - before.stream_bytes == 4 * len(binary(123))
+    assert viewer.post_frames(binary(4)), "counted by who sends it to many"
