@@ -281,11 +281,12 @@ class Audience:
             self._broadcasts[lead_s] = broadcast
         return broadcast
 
-    def _due_frames(self, now: float) -> set[int]:
+    def _blocks_until(self, now: float) -> list[int]:
+        """The blocks of the frames that are due by then, by their numbers."""
         due: set[int] = set()
         for broadcast, viewers in self._by_lead():
             due |= broadcast.frames_until(now, viewers.keys())
-        return due
+        return sorted({frame // FRAMES_PER_BLOCK for frame in due})
 
     def _post(self, texts: Iterable[str]) -> None:
         for text in texts:
@@ -327,27 +328,30 @@ class Audience:
 
     def _next_time(self, now: float) -> float:
         """Server time at which something is due again; the schedule's own, though a turn was late."""
-        frames = [broadcast.next_time() for broadcast in self._broadcasts.values()]
-        # A block that is to be packed first has a turn of its own, when it is.
-        blocks = [broadcast.next_time() for broadcast in self._block_broadcasts.values()]
-        return min(
-            max(self._notes.due_s, now + SOON_S),
-            max(self._ends_s, now + SOON_S),
-            *(time for time in frames if time is not None),
-            *(time for time in blocks if time is not None and time > now),
-        )
+        next_s = max(min(self._notes.due_s, self._ends_s), now + SOON_S)
+        for broadcast in self._broadcasts.values():
+            time_s = broadcast.next_time()
+            if time_s is not None and time_s < next_s:
+                next_s = time_s
+        for broadcast in self._block_broadcasts.values():
+            time_s = broadcast.next_time()
+            # A block that is to be packed first has a turn of its own, when it is.
+            if time_s is not None and now < time_s < next_s:
+                next_s = time_s
+        return next_s
 
     def _missing(self, now: float) -> list[int]:
         """The blocks of the frames that are due and still to be evaluated; one that is due soon is begun."""
-        if now < self._known_until_s and self.frames.has(self._known):
+        if now >= self._known_until_s:
+            self._known_until_s = now + LOOKING_S
+            self._known = frozenset(self._blocks_until(self._known_until_s))
+            for number in self._blocks_until(self._known_until_s + AHEAD_S):
+                if not self.frames.has([number]):
+                    self.frames.prefetch(number)
+                    break
+        if self.frames.has(self._known):
             return []
-        until_s = now + LOOKING_S
-        self._known = frozenset(frame // FRAMES_PER_BLOCK for frame in self._due_frames(until_s))
-        self._known_until_s = until_s
-        missing = [] if self.frames.has(self._known) else self.frames.missing(self._due_frames(now))
-        if self._broadcasts and not missing and self._state.playing:
-            self.frames.prefetch(self.song_time_s(max(self._broadcasts) + AHEAD_S))
-        return missing
+        return [number for number in self._blocks_until(now) if not self.frames.has([number])]
 
     def _make(self, make: Callable[..., object], *of: object) -> None:
         """Have something made on the thread, unless something is: there is a turn when it is there."""

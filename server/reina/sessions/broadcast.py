@@ -91,10 +91,7 @@ class Broadcast:
         frames: set[int] = set()
         for size in sizes:
             schedule = self._schedules.get(size) or FrameSchedule(self._state, fps=self._fps)
-            ahead = copy.copy(schedule)
-            while ahead.next and ahead.next.due_time_s <= now + self.lead_s:
-                for frame in ahead.take(size):
-                    frames.update(range(frame.index - frame.skipped, frame.index + 1))
+            frames |= schedule.frames_until(now + self.lead_s, size)
         return frames
 
     def catch_up(self, state: ClockState, size: int) -> list[bytes]:

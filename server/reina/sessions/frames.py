@@ -123,17 +123,12 @@ class EncodedFrames:
             if number not in self._blocks:
                 await loop.run_in_executor(_EVALUATING, self.block, number)
 
-    def missing(self, frames: Iterable[int]) -> list[int]:
-        """The blocks of some frames that are still to be evaluated, by their numbers."""
-        return sorted({frame // FRAMES_PER_BLOCK for frame in frames} - self._blocks.keys())
-
     def has(self, blocks: Iterable[int]) -> bool:
         """Whether all of some blocks are there, by their numbers."""
         return all(number in self._blocks for number in blocks)
 
-    def prefetch(self, song_time_s: float) -> None:
-        """Begin to evaluate the block of a song time on a thread, unless one is being evaluated."""
-        number = self._number(song_time_s)
+    def prefetch(self, number: int) -> None:
+        """Begin to evaluate a block on a thread, unless one is being evaluated."""
         if number not in self._blocks and (self._ahead is None or self._ahead.done()):
             self._ahead = _EVALUATING.submit(self.block, number)
 
