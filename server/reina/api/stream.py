@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from reina.api.http.access import unknown_session
 from reina.api.http.direct_line import DIRECT_LINE, DirectLine
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from reina.sessions.packed_blocks import Form
     from reina.sessions.session import Session
     from reina.sessions.store import SessionStore
-    from reina.sessions.viewer import Line
 
 router = APIRouter()
 
@@ -36,15 +35,17 @@ GONE = (WebSocketDisconnect, OSError, RuntimeError)
 """What sending raises once the viewer has gone, or was closed under it, as for a message too large."""
 
 
-class AsgiLine:
-    """Frames are passed on as ASGI has them: to a server that offers no `DirectLine`.
+class AsgiConnection:
+    """A viewer's connection behind an ASGI server that offers no `DirectLine`.
 
     Args:
         socket: The WebSocket.
+        patience: What ends who waits for the viewer.
     """
 
-    def __init__(self, socket: WebSocket) -> None:
+    def __init__(self, socket: WebSocket, patience: asyncio.Timeout) -> None:
         self._socket = socket
+        self._patience = patience
         self._sending: asyncio.Task[None] | None = None
         self.is_full = False
         """Whether a frame is still being sent."""
@@ -56,31 +57,6 @@ class AsgiLine:
         self.is_full = True
         self._sending = asyncio.create_task(self._send(message_of(frame)))
 
-    async def _send(self, data: bytes | str) -> None:
-        kind = "bytes" if isinstance(data, bytes) else "text"
-        # Whoever leaves does so in the middle of a message: who receives hears of it.
-        with contextlib.suppress(*GONE):
-            await self._socket.send({"type": "websocket.send", kind: data})
-            self.is_full = False
-            if self.on_free is not None:
-                self.on_free()
-
-
-class WebSocketConnection:
-    """A WebSocket as a viewer's connection.
-
-    Args:
-        socket: The WebSocket.
-        patience: What ends who waits for the viewer.
-    """
-
-    def __init__(self, socket: WebSocket, patience: asyncio.Timeout) -> None:
-        self._socket = socket
-        self._patience = patience
-        line: DirectLine | None = socket.scope.get("extensions", {}).get(DIRECT_LINE)
-        self.line: Line = line or AsgiLine(socket)
-        """What is written into."""
-
     async def close(self, code: int, reason: str) -> None:
         """Say goodbye; a viewer that does not read is told when it reads again, if it does so soon."""
         try:
@@ -91,6 +67,63 @@ class WebSocketConnection:
                 self._patience.reschedule(asyncio.get_running_loop().time())
         except GONE:
             pass
+
+    async def _send(self, data: bytes | str) -> None:
+        kind = "bytes" if isinstance(data, bytes) else "text"
+        # Whoever leaves does so in the middle of a message: who receives hears of it.
+        with contextlib.suppress(*GONE):
+            await self._socket.send({"type": "websocket.send", kind: data})
+            self.is_full = False
+            if self.on_free is not None:
+                self.on_free()
+
+
+class Watching:
+    """Somebody who watches a session, from joining to leaving.
+
+    Args:
+        viewer: Who.
+        session: What.
+        store: Keeps the session.
+        now: Server time, seconds.
+    """
+
+    __slots__ = ("_now", "_session", "_store", "_viewer")
+
+    def __init__(
+        self, viewer: Viewer, session: "Session", store: "SessionStore", now: Callable[[], float]
+    ) -> None:
+        self._viewer = viewer
+        self._session = session
+        self._store = store
+        self._now = now
+        session.join(viewer)
+
+    def hear(self, message: str) -> None:
+        """Answer what the viewer says."""
+        received_s = self._now()
+        try:
+            said = viewer_message.validate_json(message)
+        except ValidationError:
+            detail = (
+                'viewers send {"type": "ping", "id": 1} or {"type": "lead", "lead_s": 0.5} (0.1 to 1.5), '
+                "and nothing else"
+            )
+            self._say(StreamError(title="Not understood", detail=detail))
+        else:
+            if isinstance(said, Lead):
+                self._session.take_lead(self._viewer, said.lead_s)
+            else:
+                self._say(Pong(id=said.id, server_time_s=received_s))
+
+    def leave(self) -> None:
+        """It has gone."""
+        self._session.leave(self._viewer)
+        self._viewer.let_go()
+        self._store.sightings.note(self._session.id)
+
+    def _say(self, message: BaseModel) -> None:
+        self._viewer.post_text(text_frame(message.model_dump_json()))
 
 
 @router.websocket("/sessions/{session_id}/stream")
@@ -124,28 +157,29 @@ async def stream(
             await socket.send_denial_response(problem.response())
         return
     with session.asked():
-        await _send_until_the_end(socket, session, size, form, now)
-    store.sightings.note(session.id)
+        await socket.accept(subprotocol=SUBPROTOCOL)
+        await session.ready(form=form)
+        line: DirectLine | None = socket.scope.get("extensions", {}).get(DIRECT_LINE)
+        if line is not None:
+            viewer = Viewer(line, frames_per_message=size, form=form)
+            watching = Watching(viewer, session, store, now)
+            line.hand_over(watching.hear, watching.leave)
+            return
+        patience = asyncio.timeout(None)
+        viewer = Viewer(AsgiConnection(socket, patience), frames_per_message=size, form=form)
+        await _listen(socket, Watching(viewer, session, store, now), patience)
 
 
-async def _send_until_the_end(
-    socket: WebSocket, session: "Session", size: int, form: "Form | None", now: Callable[[], float]
-) -> None:
-    await socket.accept(subprotocol=SUBPROTOCOL)
-    patience = asyncio.timeout(None)
+async def _listen(socket: WebSocket, watching: Watching, patience: asyncio.Timeout) -> None:
     try:
         async with patience:
-            viewer = Viewer(WebSocketConnection(socket, patience), frames_per_message=size, form=form)
-            await session.ready(form=form)
-            session.join(viewer)
-            try:
-                await _receive(socket, viewer, session, now)
-            finally:
-                session.leave(viewer)
-                viewer.let_go()
+            while (message := await socket.receive())["type"] != "websocket.disconnect":
+                watching.hear(message.get("text") or "")
     except TimeoutError:
         if not patience.expired():
             raise
+    finally:
+        watching.leave()
 
 
 async def _found(store: "SessionStore", session_id: str) -> "tuple[Session | None, ProblemError | None]":
@@ -155,27 +189,3 @@ async def _found(store: "SessionStore", session_id: str) -> "tuple[Session | Non
     except InputError as error:
         return None, problem_of_input(error)
     return session, unknown_session(session_id) if session is None else None
-
-
-async def _receive(socket: WebSocket, viewer: Viewer, session: "Session", now: Callable[[], float]) -> None:
-    """Answer what the viewer says until it goes."""
-    while True:
-        message = await socket.receive()
-        received_s = now()
-        if message["type"] == "websocket.disconnect":
-            return
-        try:
-            said = viewer_message.validate_json(message.get("text") or "")
-        except ValidationError:
-            detail = (
-                'viewers send {"type": "ping", "id": 1} or {"type": "lead", "lead_s": 0.5} (0.1 to 1.5), '
-                "and nothing else"
-            )
-            error = StreamError(title="Not understood", detail=detail)
-            viewer.post_text(text_frame(error.model_dump_json()))
-        else:
-            if isinstance(said, Lead):
-                session.take_lead(viewer, said.lead_s)
-            else:
-                pong = Pong(id=said.id, server_time_s=received_s)
-                viewer.post_text(text_frame(pong.model_dump_json()))

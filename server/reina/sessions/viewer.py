@@ -41,8 +41,8 @@ def count_sent(frame: bytes, frames: int, viewers: int) -> None:
     tally.stream_bytes += len(frame) * viewers
 
 
-class Line(Protocol):
-    """What whole WebSocket frames are written into."""
+class Connection(Protocol):
+    """What a viewer is reached by: whole WebSocket frames are written into it."""
 
     is_full: bool
     """Whether what was written is still on its way, so that nothing more is to be written."""
@@ -51,15 +51,6 @@ class Line(Protocol):
 
     def write(self, frame: bytes) -> None:
         """Send a frame on its way; into a connection that ends it goes unsaid."""
-        ...
-
-
-class Connection(Protocol):
-    """What a viewer is reached by."""
-
-    @property
-    def line(self) -> Line:
-        """What is written into."""
         ...
 
     async def close(self, code: int, reason: str) -> None:
@@ -90,9 +81,7 @@ class Viewer:
         self.dropped = 0
         """Binary messages that it was too slow for."""
         self._connection = connection
-        self._line = connection.line
-        self._line.on_free = self._send_waiting
-        self._write = self._line.write
+        connection.on_free = self._send_waiting
         self._texts: deque[bytes] | None = None
         self._frames: deque[bytes] | None = None
         self._ending: asyncio.Task[None] | None = None
@@ -105,8 +94,8 @@ class Viewer:
         """
         if self._ending is not None:
             return
-        if not self._line.is_full:
-            self._write(frame)
+        if not self._connection.is_full:
+            self._connection.write(frame)
             return
         if self._texts is None:
             self._texts = deque()
@@ -134,8 +123,8 @@ class Viewer:
         Returns:
             Whether it went out at once, for who counts what all viewers were sent (`count_sent`).
         """
-        if not self._line.is_full and self._ending is None:
-            self._write(frame)
+        if not self._connection.is_full and self._ending is None:
+            self._connection.write(frame)
             return True
         if self._ending is None:
             self._queue(frame)
@@ -149,7 +138,7 @@ class Viewer:
 
     def let_go(self) -> None:
         """It has gone: nothing is waited for any more."""
-        self._line.on_free = None
+        self._connection.on_free = None
 
     def drop_frames(self) -> None:
         """Forget the frames that wait: a new epoch has made them worthless."""
@@ -176,11 +165,11 @@ class Viewer:
 
     def _send_waiting(self) -> None:
         texts, frames = self._texts, self._frames
-        while texts and not self._line.is_full:
-            self._write(texts.popleft())
-        while frames and not self._line.is_full:
+        while texts and not self._connection.is_full:
+            self._connection.write(texts.popleft())
+        while frames and not self._connection.is_full:
             frame = frames.popleft()
-            self._write(frame)
+            self._connection.write(frame)
             count_sent(frame, self.frames_per_message, 1)
         # Who keeps up again has no queue.
         if not texts:

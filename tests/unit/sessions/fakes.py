@@ -127,10 +127,6 @@ class Wire:
         self._held = False
 
     @property
-    def line(self) -> Wire:
-        return self
-
-    @property
     def sent(self) -> list[str | bytes]:
         """What was written, as messages."""
         return [message_of(frame) for frame in self.frames]
