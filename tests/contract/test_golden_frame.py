@@ -14,6 +14,7 @@ from reina.protocol import (
     FrameError,
     Manifest,
     build_manifest,
+    bytes_of,
     decode,
     encode_block,
     frame_dtype,
@@ -117,11 +118,11 @@ def test_the_golden_values_encode_to_the_golden_bytes(golden: dict[str, Any], ma
         )
         encoded = encode_block(manifest, cast("FrameBlock", block))
         message += stamp(
-            [encoded],
+            bytes_of(encoded),
             epoch=frame["epoch"] + 256,
-            due_time_s=np.array([frame["due_time_s"]]),
-            flags=np.array([frame["flags"] & 3], np.uint16),
-        ).tobytes()
+            due_time_s=frame["due_time_s"],
+            flags=frame["flags"] & 3,
+        )
     assert message == golden_bytes()
 
 

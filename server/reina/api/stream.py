@@ -3,16 +3,18 @@
 import asyncio
 import contextlib
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from reina.api.http.access import unknown_session
+from reina.api.http.direct_line import DIRECT_LINE, DirectLine
 from reina.api.http.problems import ProblemError, problem_of_input
 from reina.errors import InputError
 from reina.protocol import SUBPROTOCOL
 from reina.protocol.messages import Lead, Pong, StreamError, viewer_message
+from reina.protocol.websocket import message_of, text_frame
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
@@ -27,33 +29,101 @@ SIZES = {str(size): size for size in range(1, MAX_FRAMES_PER_MESSAGE + 1)}
 PACKED: "dict[str, Form | None]" = {"0": None, "1": "packed", "lossless": "lossless"}
 """What may be asked for in place of frames: packed blocks of a form."""
 ASKED_FOR = {"frames_per_message", "packed"}
-CLOSED_UNDER_WAY = 1006
+CLOSING_GRACE_S = 10.0
+"""How long a viewer that is closed for being too slow is waited for."""
+GONE = (WebSocketDisconnect, OSError, RuntimeError)
+"""What sending raises once the viewer has gone, or was closed under it, as for a message too large."""
 
 
-class WebSocketConnection:
-    """A WebSocket as a viewer's connection; sending raises WebSocketDisconnect once the viewer has gone."""
+class AsgiConnection:
+    """A viewer's connection behind an ASGI server that offers no `DirectLine`.
 
-    def __init__(self, socket: WebSocket) -> None:
+    Args:
+        socket: The WebSocket.
+        patience: What ends who waits for the viewer.
+    """
+
+    def __init__(self, socket: WebSocket, patience: asyncio.Timeout) -> None:
         self._socket = socket
+        self._patience = patience
+        self._sending: asyncio.Task[None] | None = None
+        self.is_full = False
+        """Whether a frame is still being sent."""
+        self.on_free: Callable[[], None] | None = None
+        """Called when it is not any more."""
 
-    async def send_bytes(self, data: bytes) -> None:
-        """Send a binary message."""
-        await self._send({"type": "websocket.send", "bytes": data})
-
-    async def send_text(self, data: str) -> None:
-        """Send a text message."""
-        await self._send({"type": "websocket.send", "text": data})
+    def write(self, frame: bytes) -> None:
+        """Begin to send a frame."""
+        self.is_full = True
+        self._sending = asyncio.create_task(self._send(message_of(frame)))
 
     async def close(self, code: int, reason: str) -> None:
-        """Say goodbye."""
-        await self._socket.close(code, reason)
-
-    async def _send(self, message: dict[str, Any]) -> None:
+        """Say goodbye; a viewer that does not read is told when it reads again, if it does so soon."""
         try:
-            await self._socket.send(message)
-        except RuntimeError as error:
-            # What the ASGI server raises when the connection was closed under it, as for a message too large.
-            raise WebSocketDisconnect(CLOSED_UNDER_WAY) from error
+            async with asyncio.timeout(CLOSING_GRACE_S):
+                await self._socket.close(code, reason)
+        except TimeoutError:
+            with contextlib.suppress(RuntimeError):  # it has gone meanwhile
+                self._patience.reschedule(asyncio.get_running_loop().time())
+        except GONE:
+            pass
+
+    async def _send(self, data: bytes | str) -> None:
+        kind = "bytes" if isinstance(data, bytes) else "text"
+        # Whoever leaves does so in the middle of a message: who receives hears of it.
+        with contextlib.suppress(*GONE):
+            await self._socket.send({"type": "websocket.send", kind: data})
+            self.is_full = False
+            if self.on_free is not None:
+                self.on_free()
+
+
+class Watching:
+    """Somebody who watches a session, from joining to leaving.
+
+    Args:
+        viewer: Who.
+        session: What.
+        store: Keeps the session.
+        now: Server time, seconds.
+    """
+
+    __slots__ = ("_now", "_session", "_store", "_viewer")
+
+    def __init__(
+        self, viewer: Viewer, session: "Session", store: "SessionStore", now: Callable[[], float]
+    ) -> None:
+        self._viewer = viewer
+        self._session = session
+        self._store = store
+        self._now = now
+        session.join(viewer)
+
+    def hear(self, message: str) -> None:
+        """Answer what the viewer says."""
+        received_s = self._now()
+        try:
+            said = viewer_message.validate_json(message)
+        except ValidationError:
+            detail = (
+                'viewers send {"type": "ping", "id": 1} or {"type": "lead", "lead_s": 0.5} (0.1 to 1.5), '
+                "and nothing else"
+            )
+            self._say(StreamError(title="Not understood", detail=detail))
+        else:
+            if isinstance(said, Lead):
+                self._session.take_lead(self._viewer, said.lead_s)
+            else:
+                self._say(Pong(id=said.id, server_time_s=received_s))
+
+    def leave(self) -> None:
+        """It has gone."""
+        self._session.leave(self._viewer)
+        self._viewer.let_go()
+        self._store.sightings.note(self._session.id)
+
+    def _say(self, message: BaseModel) -> None:
+        self._viewer.post_text(text_frame(message.model_dump_json()))
 
 
 @router.websocket("/sessions/{session_id}/stream")
@@ -87,28 +157,29 @@ async def stream(
             await socket.send_denial_response(problem.response())
         return
     with session.asked():
-        await _send_until_the_end(socket, session, size, form, now)
-    store.sightings.note(session.id)
+        await socket.accept(subprotocol=SUBPROTOCOL)
+        await session.ready(form=form)
+        line: DirectLine | None = socket.scope.get("extensions", {}).get(DIRECT_LINE)
+        if line is not None:
+            viewer = Viewer(line, frames_per_message=size, form=form)
+            watching = Watching(viewer, session, store, now)
+            line.hand_over(watching.hear, watching.leave)
+            return
+        patience = asyncio.timeout(None)
+        viewer = Viewer(AsgiConnection(socket, patience), frames_per_message=size, form=form)
+        await _listen(socket, Watching(viewer, session, store, now), patience)
 
 
-async def _send_until_the_end(
-    socket: WebSocket, session: "Session", size: int, form: "Form | None", now: Callable[[], float]
-) -> None:
-    await socket.accept(subprotocol=SUBPROTOCOL)
-    viewer = Viewer(WebSocketConnection(socket), frames_per_message=size, form=form)
-    await session.ready(form=form)
-    session.join(viewer)
-    sending = asyncio.create_task(viewer.run())
-    receiving = asyncio.create_task(_receive(socket, viewer, session, now))
+async def _listen(socket: WebSocket, watching: Watching, patience: asyncio.Timeout) -> None:
     try:
-        await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
+        async with patience:
+            while (message := await socket.receive())["type"] != "websocket.disconnect":
+                watching.hear(message.get("text") or "")
+    except TimeoutError:
+        if not patience.expired():
+            raise
     finally:
-        session.leave(viewer)
-        for task in (sending, receiving):
-            task.cancel()
-            # Whoever leaves does so in the middle of a message: that is no error.
-            with contextlib.suppress(asyncio.CancelledError, WebSocketDisconnect, OSError):
-                await task
+        watching.leave()
 
 
 async def _found(store: "SessionStore", session_id: str) -> "tuple[Session | None, ProblemError | None]":
@@ -118,25 +189,3 @@ async def _found(store: "SessionStore", session_id: str) -> "tuple[Session | Non
     except InputError as error:
         return None, problem_of_input(error)
     return session, unknown_session(session_id) if session is None else None
-
-
-async def _receive(socket: WebSocket, viewer: Viewer, session: "Session", now: Callable[[], float]) -> None:
-    """Answer what the viewer says until it goes."""
-    while True:
-        message = await socket.receive()
-        received_s = now()
-        if message["type"] == "websocket.disconnect":
-            return
-        try:
-            said = viewer_message.validate_json(message.get("text") or "")
-        except ValidationError:
-            detail = (
-                'viewers send {"type": "ping", "id": 1} or {"type": "lead", "lead_s": 0.5} (0.1 to 1.5), '
-                "and nothing else"
-            )
-            viewer.post_text(StreamError(title="Not understood", detail=detail).model_dump_json())
-        else:
-            if isinstance(said, Lead):
-                session.take_lead(viewer, said.lead_s)
-            else:
-                viewer.post_text(Pong(id=said.id, server_time_s=received_s).model_dump_json())

@@ -121,6 +121,11 @@ class NoteEventEmitter(Generic[N]):
         return float(self._position)
 
     @property
+    def next_time_s(self) -> float:
+        """The song time of the next event after the position; infinity when none follows."""
+        return float(self._times[self._next]) if self._next < len(self._times) else np.inf
+
+    @property
     def sounding(self) -> tuple[int, ...]:
         """Indices of the notes that sound at the position, lower pitches first."""
         return tuple(self._by_pitch(self._sounding))

@@ -7,6 +7,7 @@ the page's reader and the documentation are derived from it.
 
 from __future__ import annotations
 
+import struct
 from enum import IntFlag
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -61,6 +62,16 @@ def _aligned(offset: int) -> int:
     return -(-offset // ALIGNMENT) * ALIGNMENT
 
 
+def fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, np.dtype[Any], int]]:
+    """Name, type and offset in bytes of each field, in their order."""
+    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
+    return [(name, field[0], field[1]) for name, field in fields.items()]
+
+
+_HEADER = struct.Struct("<" + "".join(field.char for _, field, _ in fields_of(HEADER)))
+"""The same for one frame at a time, sixty times a second."""
+
+
 @lru_cache
 def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
     """The layout of a frame with so many joints (of all skeletons), skeletons and parameter floats."""
@@ -81,12 +92,6 @@ def _dtype(joints: int, skeletons: int, parameters: int) -> np.dtype[np.void]:
             "itemsize": _aligned(end),
         }
     )
-
-
-def fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, np.dtype[Any], int]]:
-    """Name, type and offset in bytes of each field, in their order."""
-    fields = cast("Mapping[str, tuple[np.dtype[Any], int]]", dtype.fields)
-    return [(name, field[0], field[1]) for name, field in fields.items()]
 
 
 def _offset(dtype: np.dtype[np.void], field: str) -> int:
@@ -177,22 +182,23 @@ def join(runs: Sequence[Frames]) -> Frames:
     return np.concatenate([run.view(np.uint8) for run in runs]).view(runs[0].dtype)
 
 
-def stamp(
-    runs: Sequence[Frames], *, epoch: int, due_time_s: NDArray[np.float64], flags: NDArray[np.uint16]
-) -> Frames:
-    """A copy of encoded frames, with what is known only as they are sent.
+def bytes_of(frames: Frames) -> memoryview:
+    """The bytes of whole frames, padding and all; a view, not a copy."""
+    return frames.view(np.uint8).data
+
+
+def stamp(frame: memoryview, *, epoch: int, due_time_s: float, flags: int) -> bytes:
+    """A copy of an encoded frame, with what is known only as it is sent.
 
     Args:
-        runs: Encoded frames, F in all.
+        frame: The frame's bytes.
         epoch: The clock's epoch; its low eight bits are sent.
-        due_time_s: (F,) server times at which the frames are to be seen.
-        flags: (F,) flags beside those that the frames have.
+        due_time_s: Server time at which the frame is to be seen.
+        flags: Flags beside those that it has.
     """
-    stamped = join(runs)
-    stamped["epoch"] = epoch & 0xFF
-    stamped["due_time_s"] = due_time_s
-    stamped["flags"] |= flags
-    return stamped
+    version, _, own, index, song_time_s, _ = _HEADER.unpack_from(frame)
+    head = _HEADER.pack(version, epoch & 0xFF, own | flags, index, song_time_s, due_time_s)
+    return head + frame[HEADER.itemsize :]
 
 
 def decode(manifest: Manifest, data: bytes) -> Frames:

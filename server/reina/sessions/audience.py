@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import logging
+import math
 from typing import TYPE_CHECKING
 
 from reina.performance import BLOCK_FRAMES
 from reina.protocol.messages import StreamError
+from reina.protocol.websocket import binary_frame, text_frame
 from reina.sessions.block_broadcast import BlockBroadcast
 from reina.sessions.broadcast import Broadcast
 from reina.sessions.description import transport_message
-from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR
+from reina.sessions.frames import FRAMES_PER_BLOCK
+from reina.sessions.ticker import TICKER
+from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR, count_sent
 from reina.system.metrics import tally
 
 if TYPE_CHECKING:
@@ -24,13 +27,15 @@ if TYPE_CHECKING:
     from reina.sessions.frames import EncodedFrames
     from reina.sessions.note_messages import NoteMessages
     from reina.sessions.packed_blocks import Form, PackedBlocks
+    from reina.sessions.ticker import Deadline, Ticker
     from reina.sessions.viewer import Viewer
-
-LAST_FRAME_S = 1 / 60
-"""How often it is looked whether the music has ended, once its last frame is sent."""
 
 AHEAD_S = 0.5
 """How long before they are sent frames are evaluated."""
+LOOKING_S = 0.1
+"""How often it is looked which blocks of frames are needed soon."""
+SOON_S = 0.001
+"""What is due by the clock and still not passed is looked at again after so long."""
 
 _log = logging.getLogger(__name__)
 
@@ -38,9 +43,10 @@ _log = logging.getLogger(__name__)
 class Audience:
     """The viewers of one session.
 
-    One ticker serves all of them: what is due is evaluated and encoded once, then posted to each viewer's
-    outbox. `tick` does one turn and takes the time from outside; `_run` is the loop around it, which waits
-    for the times of the schedule so that no turn's delay adds up.
+    What is due is evaluated, encoded and framed once, then posted to each viewer. `tick` does one turn and
+    takes the time from outside; `_turn` is what the process's ticker calls at the times of the schedule, so
+    that no turn's delay adds up. It never waits: what is not evaluated or packed yet is made on a thread, and
+    the next turn comes when it is.
 
     Args:
         blocks: The session's frames, as they are and packed.
@@ -48,6 +54,7 @@ class Audience:
         notes: Tells of notes as the music passes them.
         now: Server time, seconds; the clock's own.
         pushes_blocks: Whether packed blocks are sent; else whoever watches by them fetches them.
+        ticker: What calls it when something is due; the process's when None.
     """
 
     def __init__(
@@ -58,7 +65,9 @@ class Audience:
         *,
         now: Callable[[], float],
         pushes_blocks: bool = True,
+        ticker: Ticker | None = None,
     ) -> None:
+        self._ticker = TICKER if ticker is None else ticker
         self._pushes_blocks = pushes_blocks
         self.blocks = blocks
         """What is sent."""
@@ -67,11 +76,18 @@ class Audience:
         self._now = now
         self._viewers: set[Viewer] = set()
         self._state = clock.state()
+        self._ends_s = _end_of(self._state)
         self._resumed = False
         self._broadcasts: dict[float, Broadcast] = {}
         self._block_broadcasts: dict[Form, BlockBroadcast] = {}
-        self._woken = asyncio.Event()
-        self._ticking: asyncio.Task[None] | None = None
+        self._groups: list[tuple[Broadcast, dict[int, list[Viewer]]]] | None = None
+        self._block_groups: list[tuple[BlockBroadcast, list[Viewer]]] | None = None
+        self._deadline: Deadline | None = None
+        self._making: asyncio.Future[object] | None = None
+        """What is evaluated or packed for the next turn."""
+        self._known: frozenset[int] = frozenset()
+        """The blocks of frames that are needed by `_known_until_s`."""
+        self._known_until_s = -math.inf
         notes.begin(self._state)
 
     def __len__(self) -> int:
@@ -103,13 +119,11 @@ class Audience:
             # What went by while nobody watched is not made up for.
             self._notes.begin(state)
         for text in (hello(state), *self._notes.sounding()):
-            viewer.post_text(text)
+            viewer.post_text(text_frame(text))
         self._catch_up(viewer, state)
         self._viewers.add(viewer)
-        self._woken.set()
-        if self._ticking is None:
-            self._ticking = asyncio.create_task(self._run())
-            self._ticking.add_done_callback(self._stopped)
+        self._regroup()
+        self._wake()
 
     def take_lead(self, viewer: Viewer, lead_s: float) -> None:
         """Send to a viewer so long before it is due, seconds; a few frames may be sent again."""
@@ -118,19 +132,22 @@ class Audience:
         viewer.take_lead(lead_s)
         if viewer in self._viewers:
             self._catch_up(viewer, self._clock.state(now))
-            self._woken.set()
+            self._regroup()
+            self._wake()
 
     def leave(self, viewer: Viewer) -> None:
-        """Let a viewer go; the last one stops the ticker."""
+        """Let a viewer go; after the last one nothing is due any more."""
         self._viewers.discard(viewer)
+        self._regroup()
         if not self._viewers:
             self.blocks.forget()
             # Who comes next begins at the present, not where the last one left off.
             self._broadcasts, self._block_broadcasts = {}, {}
             self._resumed = True
-            if self._ticking:
-                self._ticking.cancel()
-                self._ticking = None
+            self._making = None
+            if self._deadline is not None:
+                self._deadline.cancel()
+                self._deadline = None
 
     def dismiss(self) -> None:
         """Close everybody: the session is no more."""
@@ -158,10 +175,10 @@ class Audience:
                 self._post(self._notes.end())
         self._notes = notes or self._notes
         self._begin(self._clock.state(now), resumed=False)
-        for viewers, broadcast in self._by_lead():
-            self._send(viewers, broadcast.begin(now, _sizes(viewers)))
+        for broadcast, viewers in self._by_lead():
+            self._send(viewers, broadcast.begin(now, viewers.keys()))
         self._send_blocks(now)
-        self._woken.set()
+        self._wake()
 
     def song_time_s(self, later_s: float = 0.0) -> float:
         """What will be heard so much later, as the clock runs at present."""
@@ -169,8 +186,10 @@ class Audience:
 
     def tick(self, now: float) -> bool:
         """Send what is due by `now`; returns whether more will be due without the clock being changed."""
-        self._settle(now)
-        self._post(self._notes.advance(now))
+        if now >= self._ends_s:
+            self._settle(now)
+        if now >= self._notes.due_s:
+            self._post(self._notes.advance(now))
         self._send_due(now)
         return self._state.playing
 
@@ -182,31 +201,32 @@ class Audience:
 
     def _begin(self, state: ClockState, *, resumed: bool) -> None:
         self._state = state
+        self._ends_s = _end_of(state)
         self._resumed = resumed
         self._broadcasts, self._block_broadcasts = {}, {}
+        self._regroup()
         for viewer in self._viewers:
             viewer.drop_frames()
         self.announce(transport_message(state))
         self._post(self._notes.begin(state))
 
     def _send_due(self, now: float) -> None:
-        for viewers, broadcast in self._by_lead():
-            if overdue := broadcast.overdue(now):
-                tally.frames_late += sum(overdue.get(viewer.frames_per_message, 0) for viewer in viewers)
-            self._send(viewers, broadcast.until(now, _sizes(viewers)))
+        for broadcast, viewers in self._by_lead():
+            for size, count in broadcast.overdue(now).items():
+                tally.frames_late += count * len(viewers.get(size, ()))
+            self._send(viewers, broadcast.until(now, viewers.keys()))
         self._send_blocks(now)
 
     def _send_blocks(self, now: float) -> None:
-        for viewers, broadcast in self._by_form():
+        for broadcast, viewers in self._by_form():
             tally.frames_late += BLOCK_FRAMES * broadcast.overdue(now) * len(viewers)
             for message in broadcast.until(now):
-                for viewer in viewers:
-                    viewer.post_frames(message)
+                _post_frames(viewers, message)
 
-    def _send(self, viewers: list[Viewer], messages: dict[int, list[bytes]]) -> None:
-        for viewer in viewers:
-            for message in messages[viewer.frames_per_message]:
-                viewer.post_frames(message)
+    def _send(self, viewers: dict[int, list[Viewer]], messages: dict[int, list[bytes]]) -> None:
+        for size, given in messages.items():
+            for message in given:
+                _post_frames(viewers[size], message)
 
     def _catch_up(self, viewer: Viewer, state: ClockState) -> None:
         if viewer.form is not None:
@@ -218,31 +238,41 @@ class Audience:
                 broadcast = BlockBroadcast(self.blocks, viewer.form, state)
                 self._block_broadcasts[viewer.form] = broadcast
             for message in broadcast.catch_up(state):
-                viewer.post_frames(message)
+                _post_frames([viewer], message)
             return
         for message in self._broadcast(viewer.lead_s).catch_up(state, viewer.frames_per_message):
-            viewer.post_frames(message)
+            _post_frames([viewer], message)
 
-    def _by_lead(self) -> list[tuple[list[Viewer], Broadcast]]:
-        """The viewers by their lead, with what they are sent; a broadcast that is nobody's is dropped."""
-        groups: dict[float, list[Viewer]] = {}
-        for viewer in self._viewers:
-            if viewer.form is None:
-                groups.setdefault(viewer.lead_s, []).append(viewer)
-        self._broadcasts = {lead_s: self._broadcast(lead_s) for lead_s in groups}
-        return [(viewers, self._broadcasts[lead_s]) for lead_s, viewers in groups.items()]
+    def _regroup(self) -> None:
+        """Who is sent what is another from now on."""
+        self._groups = self._block_groups = None
+        self._known_until_s = -math.inf
 
-    def _by_form(self) -> list[tuple[list[Viewer], BlockBroadcast]]:
-        """Those who watch by packed blocks, by their form, with what they are sent."""
-        groups: dict[Form, list[Viewer]] = {}
-        for viewer in self._viewers:
-            if viewer.form is not None and self._pushes_blocks:
-                groups.setdefault(viewer.form, []).append(viewer)
-        known = self._block_broadcasts
-        self._block_broadcasts = {
-            form: known.get(form) or BlockBroadcast(self.blocks, form, self._state) for form in groups
-        }
-        return [(viewers, self._block_broadcasts[form]) for form, viewers in groups.items()]
+    def _by_lead(self) -> list[tuple[Broadcast, dict[int, list[Viewer]]]]:
+        """What is sent, with the viewers by their frames in a message; one that is nobody's is dropped."""
+        if self._groups is None:
+            groups: dict[float, dict[int, list[Viewer]]] = {}
+            for viewer in self._viewers:
+                if viewer.form is None:
+                    sizes = groups.setdefault(viewer.lead_s, {})
+                    sizes.setdefault(viewer.frames_per_message, []).append(viewer)
+            self._broadcasts = {lead_s: self._broadcast(lead_s) for lead_s in groups}
+            self._groups = [(self._broadcasts[lead_s], sizes) for lead_s, sizes in groups.items()]
+        return self._groups
+
+    def _by_form(self) -> list[tuple[BlockBroadcast, list[Viewer]]]:
+        """What is sent to those who watch by packed blocks, of each form, with them."""
+        if self._block_groups is None:
+            groups: dict[Form, list[Viewer]] = {}
+            for viewer in self._viewers:
+                if viewer.form is not None and self._pushes_blocks:
+                    groups.setdefault(viewer.form, []).append(viewer)
+            known = self._block_broadcasts
+            self._block_broadcasts = {
+                form: known.get(form) or BlockBroadcast(self.blocks, form, self._state) for form in groups
+            }
+            self._block_groups = [(self._block_broadcasts[form], viewers) for form, viewers in groups.items()]
+        return self._block_groups
 
     def _broadcast(self, lead_s: float) -> Broadcast:
         broadcast = self._broadcasts.get(lead_s)
@@ -251,68 +281,112 @@ class Audience:
             self._broadcasts[lead_s] = broadcast
         return broadcast
 
-    def _due_frames(self, now: float) -> set[int]:
+    def _blocks_until(self, now: float) -> list[int]:
+        """The blocks of the frames that are due by then, by their numbers."""
         due: set[int] = set()
-        for viewers, broadcast in self._by_lead():
-            due |= broadcast.frames_until(now, _sizes(viewers))
-        return due
+        for broadcast, viewers in self._by_lead():
+            due |= broadcast.frames_until(now, viewers.keys())
+        return sorted({frame // FRAMES_PER_BLOCK for frame in due})
 
     def _post(self, texts: Iterable[str]) -> None:
         for text in texts:
+            frame = text_frame(text)
             for viewer in self._viewers:
-                viewer.post_text(text)
+                viewer.post_text(frame)
 
-    def _stopped(self, ticking: asyncio.Task[None]) -> None:
-        """A ticker that fails leaves nobody in front of a picture that stands still without a word."""
-        if ticking.cancelled():
+    # What the ticker calls
+
+    def _wake(self) -> None:
+        """Take a turn as soon as may be."""
+        self._take_turn_in(0.0)
+
+    def _take_turn_in(self, wait_s: float) -> None:
+        if self._deadline is not None:
+            self._deadline.cancel()
+            self._deadline = None
+        if self._viewers:
+            self._deadline = self._ticker.at(asyncio.get_running_loop().time() + wait_s, self._turn)
+
+    def _turn(self) -> None:
+        self._deadline = None
+        try:
+            now = self._now()
+            missing = self._missing(now)
+            if missing:
+                # What was not evaluated ahead in time is not evaluated here either: the event loop is
+                # everybody's.
+                self._make(self.frames.block, missing[0])
+                return
+            for form, broadcast in self._block_broadcasts.items():
+                for number in broadcast.missing(now)[:1]:
+                    # One at a time: what is needed first goes out first.
+                    self._make(self.blocks.block, number, form)
+            if self.tick(now):
+                self._take_turn_in(self._next_time(now) - self._now())
+        except Exception as error:
+            self._fail(error)
+
+    def _next_time(self, now: float) -> float:
+        """Server time at which something is due again; the schedule's own, though a turn was late."""
+        next_s = max(min(self._notes.due_s, self._ends_s), now + SOON_S)
+        for broadcast in self._broadcasts.values():
+            time_s = broadcast.next_time()
+            if time_s is not None and time_s < next_s:
+                next_s = time_s
+        for broadcast in self._block_broadcasts.values():
+            time_s = broadcast.next_time()
+            # A block that is to be packed first has a turn of its own, when it is.
+            if time_s is not None and now < time_s < next_s:
+                next_s = time_s
+        return next_s
+
+    def _missing(self, now: float) -> list[int]:
+        """The blocks of the frames that are due and still to be evaluated; one that is due soon is begun."""
+        if now >= self._known_until_s:
+            self._known_until_s = now + LOOKING_S
+            self._known = frozenset(self._blocks_until(self._known_until_s))
+            for number in self._blocks_until(self._known_until_s + AHEAD_S):
+                if not self.frames.has([number]):
+                    self.frames.prefetch(number)
+                    break
+        if self.frames.has(self._known):
+            return []
+        return [number for number in self._blocks_until(now) if not self.frames.has([number])]
+
+    def _make(self, make: Callable[..., object], *of: object) -> None:
+        """Have something made on the thread, unless something is: there is a turn when it is there."""
+        if self._making is None:
+            self._making = asyncio.get_running_loop().run_in_executor(self.frames.thread, make, *of)
+            self._making.add_done_callback(self._made)
+
+    def _made(self, making: asyncio.Future[object]) -> None:
+        error = None if making.cancelled() else making.exception()
+        if making is not self._making or making.cancelled():
             return
-        _log.error("the ticker of a session failed", exc_info=ticking.exception())
-        self._ticking = None
+        self._making = None
+        if error is None:
+            self._wake()
+        else:
+            self._fail(error)
+
+    def _fail(self, error: BaseException) -> None:
+        """A stream that fails leaves nobody in front of a picture that stands still without a word."""
+        _log.error("the stream of a session failed", exc_info=error)
         self.announce(StreamError(title="The stream has failed", detail="the server has noted why"))
         for viewer in self._viewers:
             viewer.end(INTERNAL_ERROR, "the stream has failed")
 
-    async def _run(self) -> None:
-        while True:
-            self._woken.clear()
-            now = self._now()
-            missing = self.frames.missing(self._due_frames(now))
-            if missing:
-                # What was not evaluated ahead in time is not evaluated here either: the event loop is
-                # everybody's.
-                await self.frames.evaluated(missing)
-                if self._woken.is_set():
-                    continue
-            packing = await self._pack_next(now)
-            if packing and self._woken.is_set():
-                continue
-            playing = self.tick(now)
-            if packing:
-                # One at a time: what is needed first goes out first.
-                continue
-            if not playing:
-                await self._woken.wait()
-                continue
-            await asyncio.sleep(0)  # the viewers' outboxes first
-            if self._broadcasts:
-                self.frames.prefetch(self.song_time_s(max(self._broadcasts) + AHEAD_S))
-            # The schedule's own times are the deadlines: a turn that was late delays none after it.
-            broadcasts = (*self._broadcasts.values(), *self._block_broadcasts.values())
-            times = [broadcast.next_time() for broadcast in broadcasts]
-            next_time = min((time for time in times if time is not None), default=None)
-            wait_s = max(0.0, next_time - self._now()) if next_time else LAST_FRAME_S
-            with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(wait_s):
-                    await self._woken.wait()
 
-    async def _pack_next(self, now: float) -> bool:
-        """Have one block packed that is due and is not yet; returns whether there was one."""
-        for form, broadcast in list(self._block_broadcasts.items()):
-            for number in broadcast.missing(now)[:1]:
-                await self.blocks.made([number], form)
-                return True
-        return False
+def _post_frames(viewers: list[Viewer], message: bytes) -> None:
+    frame = binary_frame(message)
+    sent = 0
+    for viewer in viewers:
+        if viewer.post_frames(frame):
+            sent += 1
+    count_sent(frame, viewers[0].frames_per_message, sent)
 
 
-def _sizes(viewers: list[Viewer]) -> set[int]:
-    return {viewer.frames_per_message for viewer in viewers}
+def _end_of(state: ClockState) -> float:
+    """Server time at which the clock comes to the music's end by itself; infinity if never."""
+    ends_s = state.server_time_of(state.duration_s) if state.playing else None
+    return math.inf if ends_s is None else ends_s

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from reina.sessions.schedule import FrameSchedule
 
 if TYPE_CHECKING:
+    from collections.abc import Set
+
     from reina.music import ClockState
     from reina.sessions.frames import EncodedFrames
     from reina.sessions.schedule import DueFrame
@@ -41,11 +43,11 @@ class Broadcast:
         self._fps = frames.manifest.fps
         self._schedules: dict[int, FrameSchedule] = {}
 
-    def begin(self, now: float, sizes: set[int]) -> dict[int, list[bytes]]:
+    def begin(self, now: float, sizes: Set[int]) -> dict[int, list[bytes]]:
         """The first of `until`'s messages: what is due within `LEAD_S`, however great the lead."""
         return self.until(now - max(self.lead_s - LEAD_S, 0.0), sizes)
 
-    def until(self, now: float, sizes: set[int]) -> dict[int, list[bytes]]:
+    def until(self, now: float, sizes: Set[int]) -> dict[int, list[bytes]]:
         """The messages to be sent by server time `now` that were not given out before.
 
         Args:
@@ -55,8 +57,9 @@ class Broadcast:
         Returns:
             The messages in order, by the number of frames in each.
         """
-        for size in self._schedules.keys() - sizes:
-            del self._schedules[size]
+        if self._schedules.keys() != sizes:
+            for size in self._schedules.keys() - sizes:
+                del self._schedules[size]
         messages: dict[int, list[bytes]] = {}
         for size in sizes:
             schedule = self._schedules.get(size)
@@ -83,15 +86,12 @@ class Broadcast:
                 overdue[size] = count
         return overdue
 
-    def frames_until(self, now: float, sizes: set[int]) -> set[int]:
+    def frames_until(self, now: float, sizes: Set[int]) -> set[int]:
         """The frames that `until` would read; nothing is given out."""
         frames: set[int] = set()
         for size in sizes:
             schedule = self._schedules.get(size) or FrameSchedule(self._state, fps=self._fps)
-            ahead = copy.copy(schedule)
-            while ahead.next and ahead.next.due_time_s <= now + self.lead_s:
-                for frame in ahead.take(size):
-                    frames.update(range(frame.index - frame.skipped, frame.index + 1))
+            frames |= schedule.frames_until(now + self.lead_s, size)
         return frames
 
     def catch_up(self, state: ClockState, size: int) -> list[bytes]:

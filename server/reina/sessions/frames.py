@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import math
 import threading
 from collections import OrderedDict
@@ -11,9 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-import numpy as np
-
-from reina.protocol import FrameFlag, encode_block, join, stamp
+from reina.protocol import FrameFlag, bytes_of, encode_block, join, stamp
 from reina.system.metrics import EVALUATION
 
 if TYPE_CHECKING:
@@ -30,6 +27,7 @@ FEWEST_KEPT = 3
 """The block that is sent, the next, and one before: so many are kept in any case."""
 KEPT_BYTES = 200_000_000
 """How large the blocks of all performances may be together beyond those."""
+_PLAYING, _FIRST, _CUT = (int(flag) for flag in (FrameFlag.PLAYING, FrameFlag.FIRST, FrameFlag.CUT))
 _EVALUATING = ThreadPoolExecutor(1, thread_name_prefix="frames")
 """Blocks are evaluated ahead here: on the event loop, which sends them, and would else have to wait."""
 
@@ -107,6 +105,8 @@ class EncodedFrames:
         self._blocks: OrderedDict[int, Frames] = OrderedDict()
         self._evaluating = threading.Lock()
         self._ahead: Future[Frames] | None = None
+        self._sent: tuple[Frames, memoryview] | None = None
+        """The block that was read last, and its bytes."""
 
     async def ready(self, first_s: float, last_s: float) -> None:
         """Have the blocks from one song time to another evaluated on a thread."""
@@ -123,13 +123,12 @@ class EncodedFrames:
             if number not in self._blocks:
                 await loop.run_in_executor(_EVALUATING, self.block, number)
 
-    def missing(self, frames: Iterable[int]) -> list[int]:
-        """The blocks of some frames that are still to be evaluated, by their numbers."""
-        return sorted({frame // FRAMES_PER_BLOCK for frame in frames} - self._blocks.keys())
+    def has(self, blocks: Iterable[int]) -> bool:
+        """Whether all of some blocks are there, by their numbers."""
+        return all(number in self._blocks for number in blocks)
 
-    def prefetch(self, song_time_s: float) -> None:
-        """Begin to evaluate the block of a song time on a thread, unless one is being evaluated."""
-        number = self._number(song_time_s)
+    def prefetch(self, number: int) -> None:
+        """Begin to evaluate a block on a thread, unless one is being evaluated."""
         if number not in self._blocks and (self._ahead is None or self._ahead.done()):
             self._ahead = _EVALUATING.submit(self.block, number)
 
@@ -164,23 +163,22 @@ class EncodedFrames:
 
     def message(self, due: Sequence[DueFrame], *, epoch: int, playing: bool) -> bytes:
         """One binary message of the stream: the frames that are due, stamped, back to back."""
-        rows = [self._row(frame.index) for frame in due]
-        flags = [
-            (FrameFlag.PLAYING if playing else 0)
-            | (FrameFlag.FIRST if frame.first else 0)
-            | (FrameFlag.CUT if frame.cut or self._cut_within(frame) else 0)
-            for frame in due
-        ]
-        return stamp(
-            rows,
-            epoch=epoch,
-            due_time_s=np.array([frame.due_time_s for frame in due]),
-            flags=np.array(flags, np.uint16),
-        ).tobytes()
+        messages: list[bytes] = []
+        for frame in due:
+            flags = _PLAYING if playing else 0
+            if frame.first:
+                flags |= _FIRST
+            if frame.cut or (frame.skipped and self._cut_within(frame)):
+                flags |= _CUT
+            messages.append(
+                stamp(self._row(frame.index), epoch=epoch, due_time_s=frame.due_time_s, flags=flags)
+            )
+        return b"".join(messages)
 
     def forget(self) -> None:
         """Drop every block: what an idle session need not keep."""
         self._blocks.clear()
+        self._sent = None
         self._together.drop(self)
 
     def count(self, added: int) -> None:
@@ -198,17 +196,21 @@ class EncodedFrames:
     def _kept_block(self, number: int) -> Frames | None:
         frames = self._blocks.get(number)
         if frames is not None:
-            with contextlib.suppress(KeyError):  # another thread has just let go of it
+            try:  # noqa: SIM105 - for each frame that is sent
                 self._blocks.move_to_end(number)
+            except KeyError:
+                pass  # another thread has just let go of it
         return frames
 
-    def _row(self, index: int) -> Frames:
+    def _row(self, index: int) -> memoryview:
         number, row = divmod(index, FRAMES_PER_BLOCK)
-        return self.block(number)[row : row + 1]
+        frames, sent = self.block(number), self._sent
+        if sent is None or sent[0] is not frames:
+            self._sent = sent = (frames, bytes_of(frames))
+        size = self.manifest.frame_size
+        return sent[1][row * size : (row + 1) * size]
 
     def _cut_within(self, frame: DueFrame) -> bool:
         """Whether one of the frames that were passed over just before is a cut."""
-        if not frame.skipped:
-            return False
         passed = self.span(frame.index - frame.skipped, frame.index - 1)
-        return bool((passed["flags"] & FrameFlag.CUT).any())
+        return bool((passed["flags"] & _CUT).any())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from reina.music import NoteEventEmitter
@@ -47,6 +48,8 @@ class NoteMessages:
         self._describe = describe
         self._state: ClockState | None = None
         self._until_s = 0.0
+        self.due_s = math.inf
+        """Server time before which `advance` has nothing to tell; infinity while nothing moves."""
 
     def begin(self, state: ClockState) -> list[str]:
         """Go where the clock is at the begin of an epoch: what ends and begins to sound by that."""
@@ -73,9 +76,20 @@ class NoteMessages:
         return [self._message("note_on", index, at_s) for index in self._emitter.sounding]
 
     def _heard(self) -> list[str]:
+        self.due_s = self._next_due_s()
         texts = [self._message(event.kind, event.index, event.song_time_s) for event in self._events]
         self._events.clear()
         return texts
+
+    def _next_due_s(self) -> float:
+        state = self._state
+        if state is None or not state.playing:
+            return math.inf
+        next_s = self._emitter.next_time_s
+        if state.loop is not None:
+            # At a loop's end notes are ended that have not come to theirs.
+            next_s = min(next_s, state.loop[1])
+        return self._until_s + max(0.0, next_s - self._emitter.position_s) / state.rate
 
     def _message(self, kind: str, index: int, song_time_s: float) -> str:
         note = self._describe(index)

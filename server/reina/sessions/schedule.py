@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from reina.music import ClockState
@@ -13,11 +13,10 @@ GRID_TOLERANCE = 1e-6
 """Frames: a song time this close before a frame counts as on it, so that seeking to k / fps shows frame k."""
 
 
-@dataclass(frozen=True, slots=True)
-class DueFrame:
+class DueFrame(NamedTuple):
     """One frame to be sent."""
 
-    index: int
+    index: int  # pyright: ignore[reportIncompatibleMethodOverride] - a frame, no place in the tuple
     due_time_s: float
     """Server time at which its song time is heard."""
     first: bool = False
@@ -69,6 +68,28 @@ class FrameSchedule:
             taken.append(self._next)
             self._next = self._after(self._next.index)
         return taken
+
+    def frames_until(self, server_time_s: float, size: int = 1) -> set[int]:
+        """The frames that are due by a server time, and those that are passed over; none is taken.
+
+        Args:
+            server_time_s: Until when.
+            size: They are taken by so many.
+        """
+        first = self._next
+        if first is None or first.due_time_s > server_time_s:
+            return set()
+        if self._loop or self._held or not self.state.playing:
+            ahead, frames = copy.copy(self), set[int]()
+            while ahead.next and ahead.next.due_time_s <= server_time_s:
+                for frame in ahead.take(size):
+                    frames.update(range(frame.index - frame.skipped, frame.index + 1))
+            return frames
+        # Nothing but the stride lies between one and the next.
+        passed = (server_time_s - first.due_time_s) * self.state.rate * self._fps / self._stride
+        taken = (math.floor(passed + GRID_TOLERANCE) // size + 1) * size
+        last = min(first.index + (taken - 1) * self._stride, max(self._last, first.index))
+        return set(range(first.index - first.skipped, last + 1))
 
     def _due(self, index: int) -> float:
         return self._server_s + (index / self._fps - self._song_s) / self.state.rate

@@ -1,9 +1,8 @@
-"""One viewer's outbox: bounded, so that whoever reads slowly loses frames and costs nobody anything."""
+"""One viewer: sent to at once, and by a bounded queue while it lags, so that it costs nobody anything."""
 
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import math
 from collections import deque
 from typing import TYPE_CHECKING, Protocol
@@ -13,6 +12,8 @@ from reina.sessions.broadcast import LEAD_S
 from reina.system.metrics import limit_hit, tally
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from reina.sessions.packed_blocks import Form
 
 GOING_AWAY = 1001
@@ -26,30 +27,42 @@ FRAMES_A_SECOND = 60
 """As many frames are due in a second at most."""
 MESSAGES_WAITING = 256
 """Most control messages that wait; when more come, the viewer is closed with 1013 and may come again."""
-CLOSING_GRACE_S = 10.0
-"""How long a viewer that is closed for being too slow is waited for."""
+
+
+def count_sent(frame: bytes, frames: int, viewers: int) -> None:
+    """Count a binary message that so many viewers were sent.
+
+    Args:
+        frame: The message as a WebSocket frame.
+        frames: How many frames of the stage are in it.
+        viewers: How many.
+    """
+    tally.frames_sent += frames * viewers
+    tally.stream_bytes += len(frame) * viewers
 
 
 class Connection(Protocol):
-    """What a viewer is reached by; each call returns once more may be sent."""
+    """What a viewer is reached by: whole WebSocket frames are written into it."""
 
-    async def send_bytes(self, data: bytes) -> None:
-        """Send a binary message."""
-        ...
+    is_full: bool
+    """Whether what was written is still on its way, so that nothing more is to be written."""
+    on_free: Callable[[], None] | None
+    """Called when it is full no more."""
 
-    async def send_text(self, data: str) -> None:
-        """Send a text message."""
+    def write(self, frame: bytes) -> None:
+        """Send a frame on its way; into a connection that ends it goes unsaid."""
         ...
 
     async def close(self, code: int, reason: str) -> None:
-        """End the connection."""
+        """End the connection, though nobody reads at the other end."""
         ...
 
 
 class Viewer:
     """Somebody who watches a session.
 
-    `post_text` and `post_frames` never wait; `run` sends what was posted, as fast as the connection takes it.
+    What is posted is written at once, as long as the viewer takes it: it costs no task, no queue and no copy.
+    For who lags it waits, in bounds, until there is room again.
 
     Args:
         connection: Where it goes.
@@ -68,20 +81,29 @@ class Viewer:
         self.dropped = 0
         """Binary messages that it was too slow for."""
         self._connection = connection
-        self._texts: deque[str] = deque()
-        self._frames: deque[bytes] = deque(maxlen=self._most_waiting())
-        self._posted = asyncio.Event()
-        self._ended = asyncio.Event()
-        self._ending = (TRY_AGAIN_LATER, "")
+        connection.on_free = self._send_waiting
+        self._texts: deque[bytes] | None = None
+        self._frames: deque[bytes] | None = None
+        self._ending: asyncio.Task[None] | None = None
 
-    def post_text(self, text: str) -> None:
-        """Queue a control message; it goes out before any frames that wait."""
+    def post_text(self, frame: bytes) -> None:
+        """Send a control message; where it has to wait, it goes out before any frames that wait.
+
+        Args:
+            frame: The message as a WebSocket frame.
+        """
+        if self._ending is not None:
+            return
+        if not self._connection.is_full:
+            self._connection.write(frame)
+            return
+        if self._texts is None:
+            self._texts = deque()
         if len(self._texts) >= MESSAGES_WAITING:
             limit_hit("viewer-messages")
             self.end(TRY_AGAIN_LATER, "too many messages wait; connect again")
             return
-        self._texts.append(text)
-        self._posted.set()
+        self._texts.append(frame)
 
     def take_lead(self, lead_s: float) -> None:
         """From now on frames are posted so long before they are due, seconds, rounded up to a tenth.
@@ -89,46 +111,51 @@ class Viewer:
         Viewers of the same lead share what is encoded.
         """
         self.lead_s = math.ceil(round(lead_s * 10, 6)) / 10
-        self._frames = deque(self._frames, maxlen=self._most_waiting())
+        if self._frames is not None:
+            self._frames = deque(self._frames, maxlen=self._most_waiting())
 
-    def post_frames(self, message: bytes) -> None:
-        """Queue a binary message, in place of the oldest when too many wait."""
-        if len(self._frames) == self._frames.maxlen:
-            self.dropped += 1
-            tally.frames_lost += self.frames_per_message
-        self._frames.append(message)
-        self._posted.set()
+    def post_frames(self, frame: bytes) -> bool:
+        """Send a binary message; where it has to wait, in place of the oldest when too many do.
+
+        Args:
+            frame: The message as a WebSocket frame.
+
+        Returns:
+            Whether it went out at once, for who counts what all viewers were sent (`count_sent`).
+        """
+        if not self._connection.is_full and self._ending is None:
+            self._connection.write(frame)
+            return True
+        if self._ending is None:
+            self._queue(frame)
+        return False
 
     def end(self, code: int, reason: str) -> None:
-        """Have `run` close the connection."""
-        self._ending = (code, reason)
-        self._ended.set()
+        """Close the connection; what waits is not sent any more."""
+        if self._ending is None:
+            self._texts = self._frames = None
+            self._ending = asyncio.create_task(self._connection.close(code, reason))
+
+    def let_go(self) -> None:
+        """It has gone: nothing is waited for any more."""
+        self._connection.on_free = None
 
     def drop_frames(self) -> None:
         """Forget the frames that wait: a new epoch has made them worthless."""
-        self._frames.clear()
+        self._frames = None
 
     @property
     def waiting(self) -> int:
         """Messages that wait to be sent."""
-        return len(self._texts) + len(self._frames)
+        return len(self._texts or ()) + len(self._frames or ())
 
-    async def run(self) -> None:
-        """Send what is posted until cancelled, or until the viewer is to be closed, and close it then."""
-        sending = asyncio.create_task(self._send())
-        ended = asyncio.create_task(self._ended.wait())
-        try:
-            await asyncio.wait({sending, ended}, return_when=asyncio.FIRST_COMPLETED)
-            if sending.done():
-                await sending  # raises what ended it
-            sending.cancel()
-            # A viewer that does not read is told so when it reads again, if it does so soon.
-            with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(CLOSING_GRACE_S):
-                    await self._connection.close(*self._ending)
-        finally:
-            sending.cancel()
-            ended.cancel()
+    def _queue(self, frame: bytes) -> None:
+        if self._frames is None:
+            self._frames = deque(maxlen=self._most_waiting())
+        if len(self._frames) == self._frames.maxlen:
+            self.dropped += 1
+            tally.frames_lost += self.frames_per_message
+        self._frames.append(frame)
 
     def _most_waiting(self) -> int:
         if self.form is not None:
@@ -136,15 +163,16 @@ class Viewer:
         frames = FRAMES_WAITING + math.ceil((self.lead_s - LEAD_S) * FRAMES_A_SECOND)
         return max(2, frames // self.frames_per_message)
 
-    async def _send(self) -> None:
-        while True:
-            await self._posted.wait()
-            self._posted.clear()
-            while self._texts or self._frames:
-                if self._texts:
-                    await self._connection.send_text(self._texts.popleft())
-                else:
-                    message = self._frames.popleft()
-                    await self._connection.send_bytes(message)
-                    tally.frames_sent += self.frames_per_message
-                    tally.stream_bytes += len(message)
+    def _send_waiting(self) -> None:
+        texts, frames = self._texts, self._frames
+        while texts and not self._connection.is_full:
+            self._connection.write(texts.popleft())
+        while frames and not self._connection.is_full:
+            frame = frames.popleft()
+            self._connection.write(frame)
+            count_sent(frame, self.frames_per_message, 1)
+        # Who keeps up again has no queue.
+        if not texts:
+            self._texts = None
+        if not frames:
+            self._frames = None

@@ -10,10 +10,13 @@ import numpy as np
 
 from reina.instruments import Cast, Casting
 from reina.protocol import build_manifest, decode
+from reina.protocol.websocket import message_of
 from reina.sessions.frames import EncodedFrames, KeptBytes
 from reina.sessions.packed_blocks import PackedBlocks
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from reina.performance import FrameLayout, Performance
@@ -111,6 +114,43 @@ def packed(frames: EncodedFrames, *, kept: int = 64) -> PackedBlocks:
 def read(frames: EncodedFrames, messages: list[bytes]) -> Frames:
     """The frames of binary messages, in order."""
     return decode(frames.manifest, b"".join(messages))
+
+
+class Wire:
+    """A viewer's connection that records, and that can be held up: then it takes one frame more."""
+
+    def __init__(self) -> None:
+        self.frames: list[bytes] = []
+        self.closed: tuple[int, str] | None = None
+        self.is_full = False
+        self.on_free: Callable[[], None] | None = None
+        self._held = False
+
+    @property
+    def sent(self) -> list[str | bytes]:
+        """What was written, as messages."""
+        return [message_of(frame) for frame in self.frames]
+
+    @property
+    def texts(self) -> list[str]:
+        return [message for message in self.sent if isinstance(message, str)]
+
+    def hold(self) -> None:
+        self._held = True
+
+    def let(self) -> None:
+        """All that was written is taken."""
+        self._held = self.is_full = False
+        if self.on_free:
+            self.on_free()
+
+    def write(self, frame: bytes) -> None:
+        assert not self.is_full, "what is full is not written into"
+        self.frames.append(frame)
+        self.is_full = self._held
+
+    async def close(self, code: int, reason: str) -> None:
+        self.closed = (code, reason)
 
 
 class HandClock:

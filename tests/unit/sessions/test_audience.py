@@ -2,18 +2,20 @@ from __future__ import annotations
 
 import asyncio
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-from tests.unit.sessions.fakes import HandClock, NumberedPerformance, encoded, packed, read
+from tests.unit.sessions.fakes import HandClock, NumberedPerformance, Wire, encoded, packed, read
 
 from reina.instruments import ValvesFingering
 from reina.music import MusicClock
 from reina.protocol import FrameFlag
 from reina.protocol.notes import WireNote
+from reina.protocol.websocket import message_of
 from reina.sessions.audience import Audience
 from reina.sessions.broadcast import LEAD_S
 from reina.sessions.note_messages import NoteMessages
+from reina.sessions.ticker import Ticker
 from reina.sessions.viewer import Viewer
 
 if TYPE_CHECKING:
@@ -52,45 +54,41 @@ class Inbox(Viewer):
     """A viewer whose post is read by hand."""
 
     def __init__(self, frames_per_message: int = 1) -> None:
-        super().__init__(_Nowhere(), frames_per_message=frames_per_message)
+        super().__init__(Wire(), frames_per_message=frames_per_message)
         self.texts: list[dict[str, Any]] = []
-        self.messages: list[bytes] = []
+        self.posted: list[bytes] = []
         self.ended: tuple[int, str] | None = None
 
     def end(self, code: int, reason: str) -> None:
         self.ended = (code, reason)
 
-    def post_text(self, text: str) -> None:
-        self.texts.append(json.loads(text))
+    def post_text(self, frame: bytes) -> None:
+        self.texts.append(json.loads(message_of(frame)))
 
-    def post_frames(self, message: bytes) -> None:
-        self.messages.append(message)
+    def post_frames(self, frame: bytes) -> bool:
+        self.posted.append(frame)
+        return True
 
     def drop_frames(self) -> None:
-        self.messages.clear()
+        self.posted.clear()
 
     @property
     def types(self) -> list[str]:
         return [str(text["type"]) for text in self.texts]
 
 
-class _Nowhere:
-    async def send_bytes(self, data: bytes) -> None: ...
-    async def send_text(self, data: str) -> None: ...
-    async def close(self, code: int, reason: str) -> None: ...
-
-
 class Hall:
     """An audience whose ticks are turned by hand, over three notes of half a second at 0, 1 and 2 s."""
 
-    def __init__(self) -> None:
-        self.now = HandClock()
+    def __init__(self, now: HandClock | None = None, ticker: Ticker | None = None) -> None:
+        self.now = now or HandClock()
+        self.ticker = Ticker() if ticker is None else ticker
         self.clock = MusicClock(self.now, 3.0)
         self.performance = NumberedPerformance()
         self.frames = encoded(self.performance)
         onsets = np.arange(3.0)
         notes = NoteMessages(onsets, onsets + 0.5, np.array([60, 61, 62]), note)
-        self.audience = Audience(packed(self.frames), self.clock, notes, now=self.now)
+        self.audience = Audience(packed(self.frames), self.clock, notes, now=self.now, ticker=self.ticker)
 
     def join(self, frames_per_message: int = 1) -> Inbox:
         inbox = Inbox(frames_per_message)
@@ -103,9 +101,16 @@ class Hall:
             self.audience.tick(self.now())
 
     def read(self, inbox: Inbox) -> Frames:
-        got = read(self.frames, inbox.messages)
-        inbox.messages.clear()
+        got = read(self.frames, [cast("bytes", message_of(frame)) for frame in inbox.posted])
+        inbox.posted.clear()
         return got
+
+
+async def until(sign: Callable[[], object]) -> None:
+    """Let the event loop run until something has come about."""
+    async with asyncio.timeout(30):
+        while not sign():  # noqa: ASYNC110 - what comes about has no event
+            await asyncio.sleep(0.001)
 
 
 def in_hall(scenario: Callable[[Hall], None]) -> None:
@@ -200,13 +205,13 @@ def test_every_change_sends_the_present_at_once_under_a_new_epoch() -> None:
 def test_two_viewers_get_the_same_bytes() -> None:
     def scenario(hall: Hall) -> None:
         first, second = hall.join(), hall.join()
-        first.messages.clear()
-        second.messages.clear()
+        first.posted.clear()
+        second.posted.clear()
         hall.clock.play()
         hall.audience.restart()
         hall.run(0.5)
-        assert first.messages == second.messages
-        assert all(one is other for one, other in zip(first.messages, second.messages, strict=True))
+        assert first.posted == second.posted
+        assert all(one is other for one, other in zip(first.posted, second.posted, strict=True))
 
     in_hall(scenario)
 
@@ -262,17 +267,60 @@ def test_an_edit_is_in_the_next_frames() -> None:
     in_hall(scenario)
 
 
-def test_the_ticker_runs_only_while_somebody_watches() -> None:
+def test_something_is_due_only_while_somebody_watches() -> None:
     async def scenario() -> None:
         hall = Hall()
         before = len(asyncio.all_tasks())
+        hall.clock.play()
         inbox = hall.join()
-        assert len(asyncio.all_tasks()) == before + 1
+        assert len(hall.ticker) == 1
+        await until(lambda: len(inbox.posted) > 1)
+        assert len(hall.ticker) == 1, "the next frame"
+        assert len(asyncio.all_tasks()) == before, "nobody has a task"
         hall.audience.leave(inbox)
-        await asyncio.sleep(0)
-        assert len(asyncio.all_tasks()) == before
+        assert len(hall.ticker) == 0
 
     asyncio.run(scenario())
+
+
+def test_nothing_is_due_while_a_session_is_paused() -> None:
+    async def scenario() -> None:
+        hall = Hall()
+        inbox = hall.join()
+        assert len(hall.ticker) == 1
+        await until(lambda: not len(hall.ticker))
+        assert len(inbox.posted) == 1
+
+    asyncio.run(scenario())
+
+
+def test_two_sessions_share_a_ticker_and_one_that_breaks_leaves_the_other_alone(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async def scenario() -> None:
+        ticker, now = Ticker(), HandClock()
+        halls = [Hall(now, ticker), Hall(now, ticker)]
+        first, second = (hall.join() for hall in halls)
+        for hall in halls:
+            hall.clock.play()
+            hall.audience.restart()
+        await until(lambda: first.posted and second.posted)
+        halls[0].performance.broken = True
+        halls[0].frames.forget()
+        for _ in range(100):
+            now.time_s += FRAME
+            await asyncio.sleep(0.001)
+        await until(lambda: first.ended is not None)
+        assert first.ended == (1011, "the stream has failed")
+        assert first.types[-1] == "error"
+        await until(lambda: len(second.posted) >= 100)
+        got = halls[1].read(second)
+        assert got["index"].tolist() == list(range(len(got))), "every frame, in order"
+        assert second.ended is None
+        assert len(ticker) == 1, "nothing of the broken one is to come"
+
+    asyncio.run(scenario())
+    assert "the stream of a session failed" in caplog.text
 
 
 def test_a_ticker_that_fails_lets_everybody_go(caplog: pytest.LogCaptureFixture) -> None:
@@ -294,7 +342,7 @@ def test_a_ticker_that_fails_lets_everybody_go(caplog: pytest.LogCaptureFixture)
         return inbox.ended
 
     assert asyncio.run(scenario()) == (1011, "the stream has failed")
-    assert "ticker of a session failed" in caplog.text
+    assert "the stream of a session failed" in caplog.text
 
 
 def test_the_event_loop_evaluates_nothing_while_it_sends(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -322,7 +370,7 @@ def test_the_event_loop_evaluates_nothing_while_it_sends(monkeypatch: pytest.Mon
                 if step % 5 == 0:
                     hall.frames.forget()
                 await asyncio.sleep(0.02)
-                seen.update(hall.read(inbox)["index"].tolist() if inbox.messages else ())
+                seen.update(hall.read(inbox)["index"].tolist() if inbox.posted else ())
         hall.audience.leave(inbox)
         assert len(hall.performance.evaluated) > 10
         assert len(seen) > 100

@@ -24,8 +24,8 @@ def test_blocks_are_made_ready_on_a_thread_of_their_own() -> None:
 
     async def scenario() -> None:
         await frames.ready(0.0, 1.0)
-        frames.prefetch(2.0)
-        frames.prefetch(2.5)
+        frames.prefetch(2)
+        frames.prefetch(2)
 
     asyncio.run(scenario())
     assert performance.evaluated[:2] == [0, 1]

@@ -120,3 +120,28 @@ def test_each_further_round_of_a_loop_is_held_while_it_is_counted_in() -> None:
     assert [frame.index for frame in frames] == [60, 61, 62, 60, 60, 61, 62]
     assert [frame.cut for frame in frames] == [False, False, False, True, False, False, False]
     assert [frame.due_time_s for frame in frames[3:6]] == pytest.approx([1000.05, 1002.05, 1002.05 + 1 / 60])
+
+
+@given(
+    start=st.floats(0.0, 9.9),
+    rate=st.floats(0.1, 4.0),
+    loop=st.sampled_from([None, (2.0, 3.5), (0.0, 10.0)]),
+    taken=st.integers(0, 40),
+    size=st.integers(1, 12),
+    ahead_s=st.floats(-0.5, 3.0),
+)
+def test_what_is_due_by_a_time_is_known_without_taking_it(
+    start: float, rate: float, loop: tuple[float, float] | None, taken: int, size: int, ahead_s: float
+) -> None:
+    schedule = FrameSchedule(state(start, rate=rate, loop=loop), fps=FPS)
+    schedule.take(taken)
+    until_s = (schedule.next.due_time_s if schedule.next else 1000.0) + ahead_s
+    known = schedule.frames_until(until_s, size)
+    given: list[DueFrame] = []
+    while schedule.next and schedule.next.due_time_s <= until_s:
+        given += schedule.take(size)
+    expected = {each for frame in given for each in range(frame.index - frame.skipped, frame.index + 1)}
+    assert expected <= known
+    # One that is due a hair later may be told too.
+    if schedule.next is None or schedule.next.due_time_s > until_s + 1e-4:
+        assert known == expected

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from tests.integration.scores import duet, relay, scale, show, song
 from tests.kept import kept
-from tests.unit.sessions.fakes import HandClock, choose, draft_fields
+from tests.unit.sessions.fakes import HandClock, Wire, choose, draft_fields
 
 from reina.sessions.draft import Draft
 from reina.sessions.note_messages import NoteMessages
@@ -70,20 +70,6 @@ class HandRenderer(SongRenderer):
     async def _run(self, rendering: object, plan: object, heard: object, soundfont: Path, path: Path) -> None:
         await self.let.wait()
         await asyncio.to_thread(path.write_bytes, bytes(SONG_BYTES))
-
-
-class Page:
-    """A viewer's connection that keeps the texts."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    async def send_bytes(self, data: bytes) -> None: ...
-
-    async def send_text(self, data: str) -> None:
-        self.texts.append(data)
-
-    async def close(self, code: int, reason: str) -> None: ...
 
 
 class Desk:
@@ -179,10 +165,9 @@ def test_viewers_are_told_of_the_song_twice(tmp_path: Path, stage: Stage) -> Non
         desk = Desk(tmp_path, stage)
         session = await desk.create(duet())
         await ready(session)
-        page = Page()
+        page = Wire()
         viewer = Viewer(page)
         session.join(viewer)
-        sending = asyncio.create_task(viewer.run())
         desk.renderer.let.clear()
         await choose(desk.store, session, transposition=2)
         await until(lambda: any('"score_changed"' in text for text in page.texts))
@@ -196,7 +181,7 @@ def test_viewers_are_told_of_the_song_twice(tmp_path: Path, stage: Stage) -> Non
         assert '"status":"ready"' in made
         assert session.song_state().href in made
         session.leave(viewer)
-        sending.cancel()
+        viewer.let_go()
         await desk.store.aclose()
 
     run(scenario)
@@ -242,7 +227,7 @@ def test_songs_beyond_the_bound_go_and_those_that_are_listened_to_go_last(
         desk = Desk(tmp_path, stage, song_cache_bytes=most_bytes_of(20 * SAMPLE_RATE))
         session = await desk.create(duet())
         kept = await ready(session)
-        session.join(Viewer(Page()))
+        session.join(Viewer(Wire()))
         other = await desk.create(scale(4))
         for transposition in range(1, 6):
             await choose(desk.store, other, transposition=transposition)
@@ -363,8 +348,7 @@ def test_a_session_that_goes_is_let_go_of_without_the_collector(
 
         async def come_and_go() -> None:
             session = await desk.create(scale(8), with_song=with_song)
-            viewer = Viewer(Page())
-            sending = asyncio.create_task(viewer.run())
+            viewer = Viewer(Wire())
             session.join(viewer)
             retitled = replace(session.production.show, title="Other")
             await desk.store.edits.change_show(session, lambda history: history.then(retitled))
@@ -372,8 +356,7 @@ def test_a_session_that_goes_is_let_go_of_without_the_collector(
                 session.song_state(Hearing(transposition=2))
                 await until(lambda: session.song.request is not None)
             session.leave(viewer)
-            sending.cancel()
-            await asyncio.wait([sending])
+            viewer.let_go()
             if is_ended:
                 await desk.store.delete(session)
             else:
