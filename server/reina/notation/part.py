@@ -18,6 +18,9 @@ LATE_TICKS = 7
 """A last note that reaches no further into a bar is let go late, and the bar is not there."""
 SPARE_BEATS = 0.2
 """So near to its end a last note may be that begins with the next bar."""
+LONGEST_BEAT = 4.0
+"""Quarter notes. A note is written up to half a beat from where it is played, in the next bar if need be;
+empty bars at the end are not kept."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,7 @@ def write_part(score: Score, onset_s: FloatArray, end_s: FloatArray, pitches: Na
     until = score.duration_beats
     if len(end_s):
         until = float(tempo_map.beats(float(end_s[-1]))) + SPARE_BEATS
-    bars = bars_of(score.metre_map, until)
+    bars = bars_of(score.metre_map, until + LONGEST_BEAT if len(end_s) else until)
     trills = find_trills(pitches.tolist(), onset_s.tolist(), end_s.tolist())
     inner = {note for trill in trills for note in range(trill.first + 1, trill.last + 1)}
     kept = [note for note in range(len(onset_s)) if note not in inner]

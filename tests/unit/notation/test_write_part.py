@@ -227,6 +227,13 @@ def test_bars_are_full_onsets_in_order_ties_whole_and_no_note_is_lost(
     check(write(score_of_beats(onsets, ends, metres=metres, bpm=bpm)), len(onsets))
 
 
+def test_a_last_note_that_is_written_with_the_next_bar_has_that_bar():
+    """Beats of a third of a whole note, so that half of one is longer than the note."""
+    onsets = [1.125, 2.25, 3.875, 5.75, 7.59375, 10.625]
+    metres = [(0.0, 4, 4), (0.3125, 4, 3)]
+    check(write(score_of_beats(onsets, [*onsets[1:], 10.75], metres=metres, bpm=40.0)), len(onsets))
+
+
 def test_a_line_without_notes_is_rests():
     score = score_of_beats([0.0], [8.0])
     empty = np.zeros(0)
