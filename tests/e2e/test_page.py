@@ -9,7 +9,8 @@ import pytest
 from tests.e2e.opened import FPS
 from tests.integration.scores import scale, song
 
-from reina.protocol import Manifest, decode
+from reina.performance import BLOCK_FRAMES
+from reina.protocol import Manifest, unpack
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,12 +33,12 @@ def open_scale(visit: Visit) -> Opened:
 
 
 def streamed_rotations(client: httpx.Client, session: str, index: int) -> dict[str, NDArray[np.float32]]:
-    """Joint rotations of one frame, by joint name, as the server gives them over HTTP."""
+    """Joint rotations of one frame, by joint name, as the server packs them."""
     path = f"/api/v1/sessions/{session}"
     hello = client.get(f"{path}/manifest").json()
     manifest = Manifest.model_validate({name: hello[name] for name in Manifest.model_fields})
-    span = {"start_s": index / FPS, "end_s": (index + 0.5) / FPS, "fps": FPS}
-    frames = decode(manifest, client.get(f"{path}/frames", params=span).content)
+    block = client.get(f"{hello['blocks']['href']}/{index // BLOCK_FRAMES}").raise_for_status()
+    frames = unpack(manifest, block.content)
     (frame,) = frames[frames["index"] == index]
     names = [name for skeleton in manifest.skeletons for name in skeleton.joints]
     return dict(zip(names, frame["rotations"], strict=True))
