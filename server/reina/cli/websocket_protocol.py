@@ -106,7 +106,8 @@ class TextProtocol(WebSocketsSansIOProtocol):
     async def run_asgi(self) -> None:
         """Have the application answer; a connection that it handed over goes on without it."""
         try:
-            await cast("Any", self.app)(self.scope, self.receive, self.send)
+            app = cast("Any", self.app)  # pyright: ignore[reportUnknownMemberType]
+            await app(self.scope, self.receive, self.send)
         except ClientDisconnected:
             pass
         except Exception:
@@ -120,6 +121,16 @@ class TextProtocol(WebSocketsSansIOProtocol):
     def handle_close(self, event: Frame) -> None:
         """The viewer says goodbye, or answers to ours."""
         super().handle_close(event)
+        self._end()
+
+    def keepalive_timeout(self) -> None:
+        """The viewer has answered no ping."""
+        super().keepalive_timeout()
+        self._end()
+
+    def shutdown(self) -> None:
+        """The server ends."""
+        super().shutdown()
         self._end()
 
     def handle_parser_exception(self) -> None:
