@@ -98,7 +98,7 @@ before its first frame is due; the viewer works out from `transport` which frame
 comes back to is not sent again. Any block can be had from `{{blocks.href}}/{{b}}` too, for any cache to keep,
 and where the revision is another meanwhile that answers 410 and the present one; where `blocks.pushed` is
 false all of them are to be had there alone. `?packed=lossless` and `?form=lossless` give them bit for bit, at
-seven times the length.
+four to five times the length.
 
 Little-endian. The header:
 
