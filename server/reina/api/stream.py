@@ -9,7 +9,7 @@ from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, ValidationError
 
 from reina.api.http.access import unknown_session
-from reina.api.http.direct_line import DIRECT_LINE, DirectLine
+from reina.api.http.direct_line import CLOSING_GRACE_S, DIRECT_LINE, DirectLine
 from reina.api.http.problems import ProblemError, problem_of_input
 from reina.errors import InputError
 from reina.protocol import SUBPROTOCOL
@@ -29,8 +29,6 @@ SIZES = {str(size): size for size in range(1, MAX_FRAMES_PER_MESSAGE + 1)}
 PACKED: "dict[str, Form | None]" = {"0": None, "1": "packed", "lossless": "lossless"}
 """What may be asked for in place of frames: packed blocks of a form."""
 ASKED_FOR = {"frames_per_message", "packed"}
-CLOSING_GRACE_S = 10.0
-"""How long a viewer that is closed for being too slow is waited for."""
 GONE = (WebSocketDisconnect, OSError, RuntimeError)
 """What sending raises once the viewer has gone, or was closed under it, as for a message too large."""
 

@@ -12,7 +12,7 @@ from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.protocol import State
 
-from reina.api.http.direct_line import DIRECT_LINE
+from reina.api.http.direct_line import CLOSING_GRACE_S, DIRECT_LINE
 from reina.cli.connections import Outflow
 from reina.cli.server_config import connections_of
 
@@ -28,8 +28,6 @@ NO_TEXT = 1007
 """RFC 6455, 7.4.1: data that is not what its type says."""
 UNSENT_BYTES = 16 * 1024
 """What the system takes of what is not on its way yet; what it does not take can still be dropped."""
-CLOSING_GRACE_S = 10.0
-"""How long a viewer that is closed for being too slow is waited for."""
 
 
 class TextProtocol(WebSocketsSansIOProtocol):

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
 
 DIRECT_LINE = "reina.direct_line"
 """Where it is among the extensions of a WebSocket's scope."""
+CLOSING_GRACE_S = 10.0
+"""How long a viewer that is closed for being too slow is waited for."""
 
 
 class DirectLine(Protocol):
