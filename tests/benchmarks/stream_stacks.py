@@ -17,6 +17,7 @@ import socket
 import struct
 import sys
 import time
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
@@ -56,15 +57,15 @@ def accepted(request: bytes) -> bytes:
     )
 
 
-class Stack:
+class Stack(ABC):
     """Takes viewers in, and sends a message to each."""
 
     def __init__(self) -> None:
         self.transports: list[asyncio.Transport] = []
 
+    @abstractmethod
     async def serve(self, listening: socket.socket) -> None:
         """Listen, and return."""
-        raise NotImplementedError
 
     async def send(self, message: bytes) -> None:
         """Send to everybody who keeps up, by writing into the transport."""
