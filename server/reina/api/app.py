@@ -7,6 +7,7 @@ import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
+import anyio.lowlevel
 from fastapi import Depends, FastAPI
 
 import reina
@@ -97,6 +98,8 @@ def create_app(
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
+        # This loads what the first request would: by then there may be no file left to read it from.
+        await anyio.lowlevel.checkpoint()
         renderer = SongRenderer(chosen.data_dir, most_bytes=chosen.song_cache_bytes)
         kept = storage or await asyncio.to_thread(
             SessionStorage.open, chosen.data_dir, chosen.database, chosen.files
