@@ -10,6 +10,7 @@ from tests.contract.golden import GOLDEN
 from tests.contract.golden_block import BLOCK, CUTS, FORMS, REVISION, block_frames, manifest, steps
 
 from reina.protocol import decode, pack, unpack
+from reina.protocol.frame import fields_of
 from reina.protocol.packed_block import HEADER, packed_header
 
 HEADER_SIZE = 32
@@ -38,7 +39,7 @@ def test_the_committed_block_is_read_as_the_committed_frames(form: str) -> None:
 def test_the_header_is_the_contracts_table() -> None:
     header = packed_header((GOLDEN / "block_v1_packed.bin").read_bytes())
     assert HEADER.itemsize == HEADER_SIZE
-    assert {name: HEADER.fields[name][1] for name in HEADER.fields or ()} == {  # type: ignore[index]
+    assert {name: offset for name, _, offset in fields_of(HEADER)} == {
         "magic": 0,
         "version": 2,
         "fps": 3,

@@ -11,8 +11,9 @@ from fastapi.responses import StreamingResponse
 from reina.api.http.access import Watched
 from reina.api.http.answers import LARGE_ANSWER
 from reina.api.http.problems import ProblemError
+from reina.performance import BLOCK_FRAMES
 from reina.protocol.messages import Hello
-from reina.sessions.frames import FRAMES_PER_BLOCK, EncodedFrames
+from reina.sessions.frames import EncodedFrames
 from reina.sessions.production import Production
 from reina.sessions.session import Session
 from reina.system.turns import Turns
@@ -91,7 +92,7 @@ async def _frames(
     frames: EncodedFrames | None = None
     while first < end:
         # Up to the end of an aligned block at a time; a thread, since a viewer's frames come first.
-        last = min(end, (first // FRAMES_PER_BLOCK + 1) * FRAMES_PER_BLOCK) - 1
+        last = min(end, (first // BLOCK_FRAMES + 1) * BLOCK_FRAMES) - 1
         # Whoever computes, one block at a time: a hundred exports slow one another and nobody else.
         async with computing.of(owner):
             if frames is None:

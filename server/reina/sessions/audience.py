@@ -13,7 +13,6 @@ from reina.protocol.websocket import binary_frame, text_frame
 from reina.sessions.block_broadcast import BlockBroadcast
 from reina.sessions.broadcast import Broadcast
 from reina.sessions.description import transport_message
-from reina.sessions.frames import FRAMES_PER_BLOCK
 from reina.sessions.ticker import TICKER
 from reina.sessions.viewer import GOING_AWAY, INTERNAL_ERROR, count_sent
 from reina.system.metrics import tally
@@ -286,7 +285,7 @@ class Audience:
         due: set[int] = set()
         for broadcast, viewers in self._by_lead():
             due |= broadcast.frames_until(now, viewers.keys())
-        return sorted({frame // FRAMES_PER_BLOCK for frame in due})
+        return sorted({frame // BLOCK_FRAMES for frame in due})
 
     def _post(self, texts: Iterable[str]) -> None:
         for text in texts:

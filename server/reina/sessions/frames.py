@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
+from reina.performance import BLOCK_FRAMES
 from reina.protocol import FrameFlag, bytes_of, encode_block, join, stamp
 from reina.system.metrics import EVALUATION
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from reina.protocol import Frames, Manifest
     from reina.sessions.schedule import DueFrame
 
-FRAMES_PER_BLOCK = 60
 BLOCKS_KEPT = 8
 FEWEST_KEPT = 3
 """The block that is sent, the next, and one before: so many are kept in any case."""
@@ -133,7 +133,7 @@ class EncodedFrames:
             self._ahead = _EVALUATING.submit(self.block, number)
 
     def _number(self, song_time_s: float) -> int:
-        return max(0, math.floor(song_time_s * self.manifest.fps + 0.5)) // FRAMES_PER_BLOCK
+        return max(0, math.floor(song_time_s * self.manifest.fps + 0.5)) // BLOCK_FRAMES
 
     def block(self, number: int) -> Frames:
         """(60,) frames 60·number ... 60·number + 59, not to be written to."""
@@ -156,8 +156,8 @@ class EncodedFrames:
 
     def span(self, first: int, last: int) -> Frames:
         """(last - first + 1,) frames first ... last, a copy."""
-        blocks = range(first // FRAMES_PER_BLOCK, last // FRAMES_PER_BLOCK + 1)
-        start = first - blocks.start * FRAMES_PER_BLOCK
+        blocks = range(first // BLOCK_FRAMES, last // BLOCK_FRAMES + 1)
+        start = first - blocks.start * BLOCK_FRAMES
         joined = join([self.block(number) for number in blocks])
         return joined[start : start + last - first + 1]
 
@@ -203,7 +203,7 @@ class EncodedFrames:
         return frames
 
     def _row(self, index: int) -> memoryview:
-        number, row = divmod(index, FRAMES_PER_BLOCK)
+        number, row = divmod(index, BLOCK_FRAMES)
         frames, sent = self.block(number), self._sent
         if sent is None or sent[0] is not frames:
             self._sent = sent = (frames, bytes_of(frames))

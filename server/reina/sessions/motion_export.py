@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.errors import InputError
-from reina.sessions.frames import FRAMES_PER_BLOCK
+from reina.performance import BLOCK_FRAMES
 from reina.skeleton import bvh_head, bvh_rows, clip_of_motion
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class BvhExport:
     def blocks(self) -> range:
         """The aligned blocks of frames that it takes in, for `text`."""
         last = max(self._first, self._end - 1)
-        return range(self._first // FRAMES_PER_BLOCK, last // FRAMES_PER_BLOCK + 1)
+        return range(self._first // BLOCK_FRAMES, last // BLOCK_FRAMES + 1)
 
     def text(self, block: int) -> str:
         """The lines of a block's frames, behind the head of the file for the first; to be called in order."""
@@ -81,7 +81,7 @@ class BvhExport:
 
     def _clip(self, block: int) -> MotionClip:
         frames = self._performance.evaluate(block)
-        begin = block * FRAMES_PER_BLOCK
+        begin = block * BLOCK_FRAMES
         inside = slice(max(self._first - begin, 0), max(self._end - begin, 0))
         clip = clip_of_motion(
             self._skeleton,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, Literal
 
 from reina.protocol import Steps, pack
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 Form = Literal["packed", "lossless"]
 """Rounded so that nobody sees it, or bit for bit."""
-FORMS: tuple[Form, ...] = get_args(Form)
 PACKED_KEPT = 64
 """How many blocks of a session are kept packed at most: a minute."""
 

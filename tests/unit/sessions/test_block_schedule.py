@@ -18,9 +18,17 @@ if TYPE_CHECKING:
 AT = 1000.0
 
 
-def state(song_time_s: float = 0.0, *, playing: bool = True, rate: float = 1.0, **more: object) -> ClockState:
-    fields = {"loop": None, "epoch": 7, "duration_s": 10.0} | more
-    return ClockState(playing, song_time_s, AT, rate, **fields)  # type: ignore[arg-type]
+def state(
+    song_time_s: float = 0.0,
+    *,
+    playing: bool = True,
+    rate: float = 1.0,
+    loop: tuple[float, float] | None = None,
+    duration_s: float = 10.0,
+    count_in_s: float = 0.0,
+    loop_count_in_s: float = 0.0,
+) -> ClockState:
+    return ClockState(playing, song_time_s, AT, rate, loop, 7, duration_s, count_in_s, loop_count_in_s)
 
 
 def taken(schedule: BlockSchedule, most: int = 100) -> list[NeededBlock]:
