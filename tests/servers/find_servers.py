@@ -41,6 +41,7 @@ SERVERS: dict[str, Callable[[], Path | None]] = {
     "postgresql": find_postgresql,
     "nginx-light": partial(find_program, "nginx"),
     "caddy": partial(find_program, "caddy"),
+    "redis-server": partial(find_program, "redis-server"),
 }
 """Debian's package -> what finds the server that it brings."""
 COMPOSE = "docker-compose"

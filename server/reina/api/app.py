@@ -55,6 +55,7 @@ from reina.api.lab.work import lab_pool
 from reina.api.observation import Observation
 from reina.api.settings import Settings
 from reina.protocol.links import API
+from reina.sessions.bus.redis_bus import RedisBus
 from reina.sessions.stage import Stage
 from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import SessionStore
@@ -62,6 +63,7 @@ from reina.sessions.transcriptions import Transcriptions
 from reina.sessions.unseen import sweep_unseen
 from reina.sound.renderer import SongRenderer
 from reina.system.turns import Turns
+from reina.system.wall_time import WallTime
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
@@ -81,7 +83,7 @@ def create_app(
     *,
     stage: Stage | None = None,
     storage: SessionStorage | None = None,
-    now: Callable[[], float] = time.monotonic,
+    now: Callable[[], float] | None = None,
 ) -> FastAPI:
     """The server as an ASGI application.
 
@@ -89,12 +91,16 @@ def create_app(
         settings: Where files are and whom it answers; defaults that work in the repository.
         stage: Who plays on what; read from the settings' rigs at the start when None.
         storage: What keeps the sessions; opened at the start when None.
-        now: Server time, seconds; never goes back, and runs as the event loop's clock does.
+        now: Server time, seconds; never goes back, and runs as the event loop's clock does. When None it is
+            the calendar's where there are several servers, and this process's own otherwise.
 
     Raises:
         InputError: A setting cannot be.
     """
     chosen = settings or Settings()
+    if now is None:
+        now = WallTime() if chosen.bus else time.monotonic
+    clock = now
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
@@ -108,22 +114,24 @@ def create_app(
             kept,
             stage or Stage.load(chosen.rigs_dir),
             renderer,
-            now=now,
+            now=clock,
+            wall=clock if chosen.bus else time.time,
             memory_bytes=chosen.memory_bytes,
             disk=chosen.disk,
             staging_bytes=chosen.staging_bytes,
             blocks_origin=chosen.blocks_origin,
+            bus=RedisBus(chosen.bus) if chosen.bus else None,
         )
         await store.loaded.prune_songs()
-        store.begin()
+        await store.begin()
         app.state.store = store
         # A password that stands in a file as it is takes a moment.
-        app.state.sign_in = await asyncio.to_thread(SignIn, chosen, now)
+        app.state.sign_in = await asyncio.to_thread(SignIn, chosen, clock)
         app.state.computing = Turns()
         app.state.lab_pool = lab_pool()
         app.state.transcriptions = Transcriptions()
         app.state.answers = Answers()
-        observed = Observation(chosen, store, now=now, ending=app.state.ending)
+        observed = Observation(chosen, store, now=clock, ending=app.state.ending)
         app.state.readiness = observed.readiness
         await observed.start()
         sweeping = asyncio.create_task(sweep_unseen(store, chosen.end_unseen_s))

@@ -41,6 +41,7 @@ class Observation:
             ending=ending,
             workers=store.reader.workers,
             # A store that keeps its sessions in files alone has no database to ask.
+            bus=store.check_bus,
             database=cast("Callable[[], Awaitable[None] | None] | None", getattr(store, "check", None)),
         )
         SESSIONS_LOADED.set_function(lambda: len(store.loaded))

@@ -25,7 +25,15 @@ if TYPE_CHECKING:
     from reina.system.loop_delay import LoopDelay
 
     Reason = Literal[
-        "data-directory", "data-full", "database", "workers", "soundfont", "page", "event-loop", "ending"
+        "data-directory",
+        "data-full",
+        "database",
+        "bus",
+        "workers",
+        "soundfont",
+        "page",
+        "event-loop",
+        "ending",
     ]
 
 EVERY_S = 5.0
@@ -47,6 +55,7 @@ class Readiness:
         ending: Whether the server ends.
         workers: Those who read scores.
         database: Raises an error where the sessions' database is away; None where there is none to ask.
+        bus: The same of what connects it with other servers.
         every_s: How often it is looked.
     """
 
@@ -58,6 +67,7 @@ class Readiness:
         ending: Ending,
         workers: WorkerPool,
         database: Callable[[], Awaitable[None] | None] | None = None,
+        bus: Callable[[], Awaitable[None]] | None = None,
         every_s: float = EVERY_S,
     ) -> None:
         self._settings = settings
@@ -65,6 +75,7 @@ class Readiness:
         self._ending = ending
         self._workers = workers
         self._database = database
+        self._bus = bus
         self._every_s = every_s
         self._seen: list[Unready] = []
         self._looking: asyncio.Task[None] | None = None
@@ -91,9 +102,10 @@ class Readiness:
         return missing
 
     async def look(self) -> None:
-        """Look at the disk, the database, the workers, the soundfont and the page."""
+        """Look at the disk, the database, the bus, the workers, the soundfont and the page."""
         seen = await asyncio.to_thread(_of_files, self._settings)
-        seen += [one for one in (await self._of_database(), await self._of_workers()) if one is not None]
+        looked = await self._of_database(), await self._of_bus(), await self._of_workers()
+        seen += [one for one in looked if one is not None]
         before = {one.reason for one in self._seen}
         now = {one.reason for one in seen}
         self._seen = seen
@@ -120,6 +132,15 @@ class Readiness:
             # Whatever a driver raises: the database cannot be used.
             _log.warning("the database is away", exc_info=error)
             return _unready("database", "the sessions' database does not answer")
+        return None
+
+    async def _of_bus(self) -> Unready | None:
+        if self._bus is None:
+            return None
+        try:
+            await self._bus()
+        except InputError:
+            return _unready("bus", "what connects the server with the others does not answer")
         return None
 
     async def _of_workers(self) -> Unready | None:

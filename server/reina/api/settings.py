@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from reina.api.accounts import Accounts
 from reina.errors import InputError
+from reina.sessions.bus.redis_bus import RedisBus
 from reina.sessions.memory_bound import MEMORY_BYTES
 from reina.sessions.session import OWN_ORIGIN
 from reina.sessions.sightings import DAY_S
@@ -71,6 +72,10 @@ def _end_unseen_s() -> float:
     return days(os.environ.get("REINA_END_UNSEEN_DAYS", ""), "REINA_END_UNSEEN_DAYS") * DAY_S
 
 
+def _database() -> str:
+    return os.environ.get("REINA_DATABASE_URL") or os.environ.get("REINA_DATABASE", "")
+
+
 def _upload_password_file() -> Path | None:
     named = os.environ.get("REINA_UPLOAD_PASSWORD_FILE")
     return Path(named) if named else None
@@ -87,6 +92,8 @@ class Settings:
 
     Attributes:
         database: The address of the database that sessions are kept in; one in the data directory when empty.
+        bus: The address of what connects the servers that serve the same sessions, ``redis://…``; empty: this
+            is the only one.
         files: What keeps the large files: ``s3://…`` or a folder; a folder of the data directory when None.
         data_dir: Sessions and rendered songs.
         rigs_dir: One folder a rig.
@@ -110,7 +117,8 @@ class Settings:
         blocks_origin: Where pages fetch packed blocks, as `Session` has it; empty: the stream has them.
     """
 
-    database: str = field(default_factory=lambda: os.environ.get("REINA_DATABASE", ""))
+    database: str = field(default_factory=_database)
+    bus: str = field(default_factory=lambda: os.environ.get("REINA_BUS_URL", ""))
     files: str | None = field(default_factory=lambda: os.environ.get("REINA_FILES") or None)
     data_dir: Path = field(default_factory=lambda: _folder("REINA_DATA_DIR", default_data_dir))
     rigs_dir: Path = field(default_factory=lambda: _folder("REINA_RIGS", lambda: bundled("rigs")))
@@ -182,6 +190,27 @@ def require_blocks_origin(settings: Settings) -> None:
             f"REINA_BLOCKS_ORIGIN is an origin, https://blocks.example.org, or {OWN_ORIGIN!r} for the "
             f"server's own, not {origin!r}"
         )
+
+
+def require_shared(settings: Settings) -> None:
+    """See that what servers share that a bus connects is shared.
+
+    Raises:
+        InputError: A server of its own has a bus, or one cannot be had.
+    """
+    if not settings.bus:
+        return
+    if not settings.database:
+        raise InputError(
+            "servers that a bus connects keep their sessions in one database: name PostgreSQL with "
+            "--database or REINA_DATABASE_URL"
+        )
+    if settings.files is None:
+        raise InputError(
+            "servers that a bus connects keep large files in one place: name a folder that all of them "
+            "have, or s3://bucket/prefix, with REINA_FILES"
+        )
+    RedisBus(settings.bus)
 
 
 def require_writable(data_dir: Path) -> None:

@@ -96,7 +96,8 @@ async def add_keyframe(
                 f"{path} has a keyframe {key}; PATCH changes it",
             )
         edited = make(show)
-        added.extend(keyframe for keyframe in _keyframes(edited, path) if keyframe.key not in there)
+        # Where another server was first, the edit is made once more.
+        added[:] = [keyframe for keyframe in _keyframes(edited, path) if keyframe.key not in there]
         return edited
 
     kept = await ShowChange(session, store, if_match, path).edit(edit)

@@ -23,6 +23,7 @@ from reina.api.settings import (
     days,
     require_blocks_origin,
     require_page,
+    require_shared,
     require_sign_in,
     require_writable,
     settings_of,
@@ -91,6 +92,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"where sessions are kept ({str(default_data_dir()).replace('%', '%%')})",
     )
     add_database_argument(parser)
+    parser.add_argument(
+        "--bus",
+        default=None,
+        metavar="URL",
+        help="Redis that connects servers which serve the same sessions, redis://host:6379 (there is one "
+        "server alone)",
+    )
     parser.add_argument(
         "--allow-host",
         action="append",
@@ -191,6 +199,7 @@ def _run(arguments: argparse.Namespace, held: contextlib.ExitStack) -> int:
         require_writable(settings.data_dir)
         require_sign_in(settings)
         require_blocks_origin(settings)
+        require_shared(settings)
         held.enter_context(locked(settings.data_dir))
         _provide_soundfont(settings)
         stage = _stage(settings)
@@ -249,6 +258,7 @@ def _settings(arguments: argparse.Namespace) -> Settings:
         settings,
         allowed_hosts=frozenset(hosts),
         allowed_origins=frozenset(arguments.allow_origin),
+        bus=settings.bus if arguments.bus is None else arguments.bus,
         page=not arguments.no_page,
         log_requests=arguments.log_requests,
         trusted_proxies=tuple(arguments.trusted_proxy),

@@ -102,7 +102,12 @@ class ClockState:
         return max(self.song_time_s - run, 0.0)
 
     def at(self, server_time_s: float) -> "ClockState":
-        """Return the state at a later server time; at the song's end it is paused."""
+        """Return the state at a later server time; at the song's end it is paused.
+
+        Before this state, as where another server's calendar is ahead, it is this one.
+        """
+        if server_time_s < self.server_time_s and self.playing:
+            return self
         song_time_s = float(self.song_times_at(server_time_s))
         ended = self._looping is None and song_time_s >= self.duration_s
         return replace(
@@ -226,12 +231,36 @@ class MusicClock:
             state: Its server time is this clock's, and may lie before this clock was made: song time has run
                 since. The epoch here is a greater one. Its duration is not looked at.
         """
+        then = self._fitting(state)
+        self._changed = replace(then.at(self._now()), epoch=max(state.epoch, self._changed.epoch) + 1)
+        return self._changed
+
+    def adopt(self, state: ClockState) -> ClockState:
+        """Be in the state that another clock of the same song is in; what does not fit this song is let go.
+
+        Args:
+            state: As of `resume`. Its epoch becomes this clock's where it is a greater one; else a greater
+                one than this clock's does.
+        """
+        own = self._changed.epoch
+        epoch = state.epoch if state.epoch > own else own + 1
+        self._changed = replace(self._fitting(state), epoch=epoch)
+        return self._changed
+
+    def fork(self) -> "MusicClock":
+        """Another clock in the same state, to try a change with."""
+        other = MusicClock(self._now, self.duration_s)
+        other._changed = self._changed
+        return other
+
+    def _fitting(self, state: ClockState) -> ClockState:
+        """A state, with what of it fits this song."""
         duration_s = self.duration_s
         loop = state.loop
         if loop is not None and not (loop[0] >= 0 and loop[0] + SHORTEST_LOOP_S <= loop[1] <= duration_s):
             loop = None
         counted = state.loop_count_in_s if loop else 0.0
-        then = replace(
+        return replace(
             state,
             song_time_s=min(max(state.song_time_s, 0.0), duration_s),
             rate=min(max(state.rate, SLOWEST_RATE), FASTEST_RATE),
@@ -240,8 +269,6 @@ class MusicClock:
             count_in_s=min(max(state.count_in_s, 0.0), LONGEST_COUNT_IN_S) if state.playing else 0.0,
             duration_s=duration_s,
         )
-        self._changed = replace(then.at(self._now()), epoch=max(state.epoch, self._changed.epoch) + 1)
-        return self._changed
 
     def play(self, count_in_s: float = 0.0) -> ClockState:
         """Let song time run; from the beginning if it stands at the end.

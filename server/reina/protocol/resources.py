@@ -724,6 +724,7 @@ class Unready(WireModel):
         "data-directory",
         "data-full",
         "database",
+        "bus",
         "workers",
         "soundfont",
         "page",

@@ -46,7 +46,7 @@ class KeptClock(BaseModel):
             epoch=state.epoch,
         )
 
-    def state(self, now_s: float, wall_s: float) -> ClockState:
+    def state(self, now_s: float, wall_s: float, *, ahead_s: float = 0.0) -> ClockState:
         """The state, put at the server time at which it was so.
 
         A calendar that was set back since gives no time before it: song time stands still for once.
@@ -54,11 +54,13 @@ class KeptClock(BaseModel):
         Args:
             now_s: The present as server time.
             wall_s: The present, seconds since 1970.
+            ahead_s: By how much the calendar of who kept it may be ahead of this one: so far in the future
+                it may have been so.
         """
         return ClockState(
             playing=self.playing,
             song_time_s=self.song_time_s,
-            server_time_s=now_s - max(wall_s - self.at_s, 0.0),
+            server_time_s=now_s - max(wall_s - self.at_s, -ahead_s),
             rate=self.rate,
             loop=self.loop,
             epoch=self.epoch,

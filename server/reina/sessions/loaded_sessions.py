@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterable, Iterator
     from pathlib import Path
 
+    from reina.sessions.bus.bus import Bus
     from reina.sessions.memory_bound import MemoryBound
     from reina.sessions.record import SessionRecord
     from reina.sessions.session_reading import ReadSession
@@ -37,6 +38,7 @@ class LoadedSessions:
         now: Server time, seconds; never goes back.
         wall: The present, seconds since 1970.
         blocks_origin: Where pages fetch packed blocks, as `Session` has it.
+        bus: Connects the servers that have the same sessions, as `Session` has it.
     """
 
     def __init__(
@@ -48,7 +50,11 @@ class LoadedSessions:
         now: Callable[[], float],
         wall: Callable[[], float],
         blocks_origin: str = "",
+        bus: Bus | None = None,
     ) -> None:
+        self._bus = bus
+        self.is_outdated: Callable[[Session], None] = lambda _: None
+        """Called with one that is not as it is kept."""
         self._storage = storage
         self._renderer = renderer
         renderer.cache.in_use = self._listened_to
@@ -120,6 +126,8 @@ class LoadedSessions:
             alignment=read.alignment,
             clock_changed=self._clocks.note,
             blocks_origin=self._blocks_origin,
+            version=read.version,
+            bus=self._bus,
         )
         self._sessions[session.id] = session
         return session
@@ -155,6 +163,7 @@ class LoadedSessions:
     def forget(self, session: Session) -> set[Path]:
         """Let a session go that is not kept any more; returns the songs that were made for its viewers."""
         self._sessions.pop(session.id, None)
+        self._unfollow(session)
         songs = session.heard.paths
         session.close()
         return songs
@@ -180,16 +189,22 @@ class LoadedSessions:
 
     def _unload(self, session: Session) -> None:
         del self._sessions[session.id]
+        self._unfollow(session)
         record = session.kept()
         session.close()
         if record != session.record:
-            writing = asyncio.create_task(self._put_away(record))
+            writing = asyncio.create_task(self._put_away(record, session.version))
             self._putting_away[session.id] = writing
             writing.add_done_callback(lambda _: self._putting_away.pop(session.id, None))
 
-    async def _put_away(self, record: SessionRecord) -> None:
+    def _unfollow(self, session: Session) -> None:
+        if self._bus is not None:
+            self._bus.unfollow(session.id)
+
+    async def _put_away(self, record: SessionRecord, version: int) -> None:
         try:
-            await asyncio.to_thread(self._storage.change, record)
+            # What another server has changed meanwhile it has kept with a clock of its own.
+            await asyncio.to_thread(self._storage.keep_clock, record, version)
         except InputError as error:
             _log.warning("session %s: where its clock stood is not kept: %s", record.id, error)
 
@@ -197,8 +212,10 @@ class LoadedSessions:
         async with session.editing:
             if session in self:
                 record = session.kept()
-                await asyncio.to_thread(self._storage.change, record)
-                session.is_kept(record)
+                if await asyncio.to_thread(self._storage.keep_clock, record, session.version):
+                    session.is_kept(record)
+                else:
+                    self.is_outdated(session)
 
     # Their songs
 

@@ -74,6 +74,10 @@ class Recordings:
         """
         heard = sent.with_name(f"heard{FLAC_SUFFIX}")
         info = await self._decoder.probe(sent, Conversion(heard, is_forced=True))
+        await self._edits.until_kept(session, lambda: self._keep_heard(session, sent, heard, info))
+        self._edits.search_alignment(session)
+
+    async def _keep_heard(self, session: Session, sent: Path, heard: Path, info: AudioInfo) -> None:
         async with self._edits.held(session):
             song = session.record.song
             if song is None:
@@ -89,7 +93,6 @@ class Recordings:
 
             staged = {heard.name: heard, peaks_name(song): peaks_path(sent)}
             await self._edits.keep(session, record, staged=staged, show=show)
-        self._edits.search_alignment(session)
 
     async def peaks(self, session: Session) -> Peaks | None:
         """The peaks of a session's recording, decoded where they are not kept; None where they cannot be.
@@ -113,8 +116,12 @@ class Recordings:
             await self._decoder.probe(link)
             peaks = await asyncio.to_thread(read_peaks, peaks_path(link))
             if peaks is not None:
-                async with self._edits.held(session):
-                    await self._edits.keep(session, session.record, staged={name: peaks_path(link)})
+
+                async def keep() -> None:
+                    async with self._edits.held(session):
+                        await self._edits.keep(session, session.record, staged={name: peaks_path(link)})
+
+                await self._edits.until_kept(session, keep)
         return peaks
 
 

@@ -54,6 +54,8 @@ if TYPE_CHECKING:
 
     from reina.protocol.messages import SongState
     from reina.protocol.transport import TransportCommand
+    from reina.sessions.bus.bus import Bus
+    from reina.sessions.bus.notices import SharedClock
     from reina.sessions.packed_blocks import Form
     from reina.sessions.production import Production
     from reina.sessions.record import SessionRecord
@@ -65,6 +67,8 @@ if TYPE_CHECKING:
 
 OWN_ORIGIN = "self"
 """Packed blocks are fetched from where the session is."""
+AHEAD_S = 0.5
+"""By so much another server's calendar may be ahead of this one's."""
 FIRST_S = 0.3
 """Seconds of frames that are evaluated before a change: what is sent at once, and a margin."""
 
@@ -89,6 +93,8 @@ class Session:
         clock_changed: Called whenever the clock has been changed.
         blocks_origin: Where packed blocks are to be fetched from, ``https://blocks.example.org``, or
             `OWN_ORIGIN` for where the session is; empty: the stream has them.
+        version: How often what is kept of it was changed.
+        bus: Where the clock is agreed upon with the other servers that have it; None: there are none.
     """
 
     def __init__(
@@ -105,8 +111,16 @@ class Session:
         alignment: Alignment | None = None,
         clock_changed: Callable[[Session], None] = lambda _: None,
         blocks_origin: str = "",
+        version: int = 0,
+        bus: Bus | None = None,
     ) -> None:
         self.record = record
+        self.version = version
+        """Which state of what is kept this is."""
+        self.turn = 0
+        """How often its clock was changed, as all servers count it."""
+        self._bus = bus
+        self._now = now
         self._blocks_origin = blocks_origin
         self._wall = wall
         self._clock_changed = clock_changed
@@ -161,13 +175,15 @@ class Session:
         """The record with the clock as it is now, where it was changed since it was kept."""
         if self._kept_epoch == self.clock.epoch:
             return self.record
-        clock = KeptClock.of(self.clock.state(), self._wall())
-        return self.record.model_copy(update={"clock": clock})
+        return self.record.model_copy(update={"clock": self._kept_clock()})
 
     def is_kept(self, record: SessionRecord) -> None:
         """A record that `kept` gave has been written."""
         self.record = record
         self._kept_epoch = record.clock.epoch
+
+    def _kept_clock(self) -> KeptClock:
+        return KeptClock.of(self.clock.state(), self._wall())
 
     def close(self) -> None:
         """End what is under way: viewers and the rendering of the song."""
@@ -311,6 +327,7 @@ class Session:
 
         Raises:
             ClockError: The command does not fit the song.
+            BusAwayError: The other servers that have the session could not be told; nothing is changed then.
         """
         async with self._controlling:
             if len(self.audience):
@@ -324,7 +341,58 @@ class Session:
                         await self.ready(rate=rate)
                     case _:
                         await self.ready()
-            return self.control(command)
+            if self._bus is None:
+                return self.control(command)
+            return await self._agree(self._bus, command)
+
+    async def take_clock(self, shared: SharedClock) -> None:
+        """Be where another server has put the clock, once the frames are there; old news is passed over."""
+        async with self._controlling:
+            if shared.turn <= self.turn:
+                return
+            if len(self.audience):
+                await self.ready(self._there(shared).at(self._now()).song_time_s, rate=shared.clock.rate)
+            self._take(shared)
+
+    async def share_clock(self) -> None:
+        """Have the other servers put their clocks where this one is, whatever they have been told before."""
+        if self._bus is None:
+            return
+        async with self._controlling:
+            while True:
+                other = await self._bus.set_clock(self.id, self._kept_clock(), self.turn)
+                if other is None:
+                    self.turn += 1
+                    return
+                self.turn = other.turn
+
+    async def _agree(self, bus: Bus, command: TransportCommand) -> TransportState:
+        """`control` on all servers: where another was first, the command goes on from there."""
+        while True:
+            trial = self.clock.fork()
+            state = _follow(trial, command)
+            now = self._now()
+            clock = KeptClock.of(state.at(now), self._wall())
+            other = await bus.set_clock(self.id, clock, self.turn)
+            if other is not None:
+                self._take(other)
+                continue
+            self.turn += 1
+            self.clock.adopt(state)
+            self._clock_is_set()
+            return self.transport()
+
+    def _there(self, shared: SharedClock) -> ClockState:
+        return shared.clock.state(self._now(), self._wall(), ahead_s=AHEAD_S)
+
+    def _take(self, shared: SharedClock) -> None:
+        self.turn = shared.turn
+        self.clock.adopt(self._there(shared))
+        self.audience.restart()
+
+    def _clock_is_set(self) -> None:
+        self.audience.restart()
+        self._clock_changed(self)
 
     def control(self, command: TransportCommand) -> TransportState:
         """Play, pause, seek, change rate or loop.
@@ -332,21 +400,8 @@ class Session:
         Raises:
             ClockError: The command does not fit the song.
         """
-        match command:
-            case Play(count_in_s=count_in_s):
-                self.clock.play(count_in_s)
-            case Pause():
-                self.clock.pause()
-            case Seek(song_time_s=song_time_s):
-                self.clock.seek(song_time_s)
-            case SetRate(rate=rate):
-                self.clock.set_rate(rate)
-            case SetLoop(start_s=start_s, end_s=end_s, count_in_s=count_in_s):
-                if (start_s is None) != (end_s is None):
-                    raise ClockError("a loop has a start and an end; null both to end it", location="loop")
-                self.clock.set_loop(start_s, end_s, count_in_s)
-        self.audience.restart()
-        self._clock_changed(self)
+        _follow(self.clock, command)
+        self._clock_is_set()
         return self.transport()
 
     async def change_show(self, production: Production, show_revision: ShowRevision) -> None:
@@ -364,11 +419,18 @@ class Session:
         self._replace(production, blocks)
         self.audience.announce(ShowChanged(path=path, paths=paths, **dict(show_revision.state)))
 
-    async def change_cast(self, record: SessionRecord, production: Production) -> None:
+    async def change_cast(
+        self, record: SessionRecord, production: Production, *, follows: bool = False
+    ) -> None:
         """Let others play, or other parts, or the same elsewhere; a song that was rendered is made anew.
 
         Another sequence is another piece: it begins at its beginning. Of other players `hello` tells again
         what the frames hold.
+
+        Args:
+            record: What is kept of it then.
+            production: What is played.
+            follows: Whether another server has made the change, which puts the clock there too.
         """
         another_piece = production.score.sequence != self.production.score.sequence
         notes = await asyncio.to_thread(note_messages, production)
@@ -378,7 +440,7 @@ class Session:
         another_sound = another_piece or production.cast.sound != self.production.cast.sound
         self.record = record
         self.production = production
-        if another_piece:
+        if another_piece and not follows:
             self.clock.set_loop(None)
             self.clock.seek(0.0)
         if self.clock.duration_s != self._duration_s():
@@ -388,6 +450,8 @@ class Session:
         self._replace(production, blocks, notes)
         if record.song is None and another_sound:
             self.renew_song()
+        if another_piece and not follows:
+            await self.share_clock()
         self.audience.announce(
             ScoreChanged(
                 sequence=production.score.sequence,
@@ -455,6 +519,27 @@ class Session:
     def _duration_s(self) -> float:
         uploaded = self.record.song.duration_s if self.record.song else None
         return max(self.production.score.duration_s + TAIL_S, uploaded or 0.0)
+
+
+def _follow(clock: MusicClock, command: TransportCommand) -> ClockState:
+    """Play, pause, seek, change rate or loop; returns the state.
+
+    Raises:
+        ClockError: The command does not fit the song.
+    """
+    match command:
+        case Play(count_in_s=count_in_s):
+            return clock.play(count_in_s)
+        case Pause():
+            return clock.pause()
+        case Seek(song_time_s=song_time_s):
+            return clock.seek(song_time_s)
+        case SetRate(rate=rate):
+            return clock.set_rate(rate)
+        case SetLoop(start_s=start_s, end_s=end_s, count_in_s=count_in_s):
+            if (start_s is None) != (end_s is None):
+                raise ClockError("a loop has a start and an end; null both to end it", location="loop")
+            return clock.set_loop(start_s, end_s, count_in_s)
 
 
 def note_messages(production: Production) -> NoteMessages:

@@ -7,18 +7,20 @@ import contextlib
 import logging
 from contextlib import asynccontextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from reina.errors import InputError
+from reina.sessions.show_revision import ShowRevision
+from reina.sessions.show_text import ShowText
 from reina.sessions.sleeping_show import known_tracks, wake
-from reina.sessions.storage.errors import SessionDamagedError, SessionGoneError
+from reina.sessions.storage.errors import ChangedElsewhereError, SessionDamagedError, SessionGoneError
 from reina.sessions.storage.session_storage import UNCHANGED, ShowChange
-from reina.show import ShowError
+from reina.show import ShowError, ShowHistory
 from reina.system.to_the_end import to_the_end
 from reina.system.tokens import hash_token, new_token
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Awaitable, Callable
+    from collections.abc import AsyncGenerator, Awaitable, Callable, Mapping
     from pathlib import Path
 
     from reina.instruments import Cast
@@ -27,13 +29,17 @@ if TYPE_CHECKING:
     from reina.sessions.record import SessionRecord
     from reina.sessions.session import Session
     from reina.sessions.session_reading import SessionReading, Stances
-    from reina.sessions.show_revision import ShowRevision
     from reina.sessions.storage.session_storage import SessionStorage
+    from reina.sessions.storage.show_rows import KeptShow
     from reina.sessions.workers.reader import Reader
-    from reina.show import Show, ShowHistory
+    from reina.show import Show
     from reina.sound.alignment.aligner_process import Aligner
     from reina.sound.alignment.alignment import Alignment
 
+TRIES = 8
+"""So often a change is tried anew that another server has come before."""
+
+T = TypeVar("T")
 _log = logging.getLogger(__name__)
 
 
@@ -65,13 +71,21 @@ class SessionEdits:
         self._reading = reading
         self._reader = reader
         self._aligner = aligner
+        self.changed: Callable[[Session], None] = lambda _: None
+        """Called when something of a session was changed, and is kept."""
+        self.searching: Callable[[Session], None] = lambda _: None
+        """Called when a search begins for a session's score in its song, while it goes on, and at its end."""
 
     async def renew_token(self, session: Session) -> str:
         """Give a session another control token, in place of the one before; returns it, which is not kept."""
         token = new_token()
-        async with self.held(session):
-            record = session.record.model_copy(update={"token_sha256": hash_token(token)})
-            await self.keep(session, record)
+
+        async def renew() -> None:
+            async with self.held(session):
+                record = session.record.model_copy(update={"token_sha256": hash_token(token)})
+                await self.keep(session, record)
+
+        await self.until_kept(session, renew)
         return token
 
     async def change(
@@ -99,6 +113,15 @@ class SessionEdits:
         """
         asked = {"title": title, "public": public}
         changes = {field: value for field, value in asked.items() if value is not None}
+        await self.until_kept(session, lambda: self._change(session, changes, recast, restance))
+
+    async def _change(
+        self,
+        session: Session,
+        changes: Mapping[str, str | bool],
+        recast: Callable[[Cast], Cast] | None,
+        restance: Callable[[Stances], Stances] | None,
+    ) -> None:
         async with self.held(session):
             record, before = session.record.model_copy(update=changes), session.show_revision
             wanted = recast(record.cast) if recast else record.cast
@@ -112,7 +135,7 @@ class SessionEdits:
             alignment = None if another_piece else session.alignment.alignment
             production, kept = await self._plan_other(session, wanted, alignment, stances)
             titles = session.production.score.title, production.score.title
-            titled = {"title": titles[1]} if title is None and record.title == titles[0] else {}
+            titled = {"title": titles[1]} if "title" not in changes and record.title == titles[0] else {}
             record = record.model_copy(update={"cast": production.cast, "stances": stances, **titled})
 
             async def show(record: SessionRecord) -> None:
@@ -133,6 +156,11 @@ class SessionEdits:
             session: Whose.
             step: What is known -> what is to be known. What it raises is raised on, and nothing is changed.
         """
+        await self.until_kept(session, lambda: self._change_alignment(session, step))
+
+    async def _change_alignment(
+        self, session: Session, step: Callable[[Alignment | None], Alignment]
+    ) -> None:
         async with self.held(session):
             before = session.alignment.alignment
             alignment = await asyncio.to_thread(step, before)
@@ -184,18 +212,116 @@ class SessionEdits:
             lambda: self._storage.file(session.record, song.heard or song.file),
             session.production.written_score,
             found=found,
-            tell=session.tell_alignment,
+            tell=lambda: self._tell_search(session),
         )
+        self.searching(session)
         return True
+
+    def _tell_search(self, session: Session) -> None:
+        session.tell_alignment()
+        self.searching(session)
+
+    async def until_kept(self, session: Session, change: Callable[[], Awaitable[T]]) -> T:
+        """Make a change, and make it anew of what is there then where another server was first.
+
+        Args:
+            session: What is changed.
+            change: Makes it, from the beginning each time.
+
+        Raises:
+            ChangedElsewhereError: Another server was first each time.
+        """
+        for _ in range(TRIES - 1):
+            with contextlib.suppress(ChangedElsewhereError):
+                return await change()
+            await self.catch_up(session)
+        return await change()
+
+    async def catch_up(self, session: Session) -> None:
+        """Let a session be as it is kept: another server has changed it.
+
+        Raises:
+            SessionEndedError: It is not there any more.
+            SessionDamagedError: What is kept cannot be read.
+        """
+        async with self.held(session):
+            kept = await asyncio.to_thread(self._storage.version, session.id)
+            if kept == session.version:
+                return
+            before = session.record
+            known = await asyncio.to_thread(known_tracks, session.show_revision.text)
+            read = await asyncio.to_thread(self._storage.read, session.id, known)
+            if read is None:
+                self._loaded.forget(session)
+                raise SessionEndedError(f"the session {session.id!r} was ended meanwhile")
+            record = read.record
+            replanned = (
+                record.cast != before.cast
+                or record.stances != before.stances
+                or record.song != before.song
+                or read.alignment != session.alignment.alignment
+            )
+            if replanned:
+                await self._take_all(session)
+            else:
+                await self._take_show(session, read.show)
+                session.record, session.version = record, read.version
+
+    async def _take_all(self, session: Session) -> None:
+        """Let a session be as it is kept, all of it; it is held by `held`."""
+        read = await self._reading.kept(session.id)
+        if read is None:
+            self._loaded.forget(session)
+            raise SessionEndedError(f"the session {session.id!r} was ended meanwhile")
+        self._loaded.make_room(read.weight - session.weight, staying=session)
+        session.alignment.is_heard = read.record.song is None or read.record.song.is_heard
+        another_alignment = read.alignment != session.alignment.alignment
+        session.alignment.alignment = read.alignment
+        # The show goes with the players that it is read for: both are there before either is seen.
+        await session.change_cast(read.record, read.production, follows=True)
+        await session.change_show(read.production, read.revision)
+        session.record, session.version = read.record, read.version
+        if another_alignment:
+            session.tell_alignment()
+
+    async def _take_show(self, session: Session, kept: KeptShow) -> None:
+        """Let a session have the show that is kept; it is held by `held`."""
+        before = session.show_revision
+        read = await self._reader.show(kept.text, session.production.registry, owner=session.id)
+        digests = kept.digests
+        if digests and read.time != before.text.show.time:
+            # Tracks say the unit of their times only where it is not the show's.
+            whole = await asyncio.to_thread(self._storage.read, session.id)
+            if whole is None:
+                return
+            kept, digests = whole.show, ()
+            read = await self._reader.show(kept.text, session.production.registry, owner=session.id)
+        show = await asyncio.to_thread(wake, read, digests, before.text)
+        text = await asyncio.to_thread(ShowText.of, show, before.text)
+        revision = ShowRevision(
+            ShowHistory(show), text, before.revision + 1, kept.weights, kept.earlier, kept.later
+        )
+        if text.etag == before.text.etag:
+            if (revision.done, revision.undone) != (before.done, before.undone):
+                session.show_revision = replace(revision, revision=before.revision)
+            return
+        production = await asyncio.to_thread(session.production.with_show, show)
+        self._loaded.make_room(revision.weight - before.weight, staying=session)
+        await session.change_show(production, revision)
 
     async def change_show(self, session: Session, step: Callable[[ShowHistory], ShowHistory]) -> ShowRevision:
         """Take a session's show one step on or back, and keep it; edits of a session follow one another.
 
         Args:
             session: Whose.
-            step: The history as it is -> as it is to be; runs on a thread. What it raises is raised on, and
-                nothing is changed then.
+            step: The history as it is -> as it is to be; runs on a thread, and once more where another server
+                has changed the show meanwhile. What it raises is raised on, and nothing is changed then.
         """
+        return await self.until_kept(session, lambda: self._change_show(session, step))
+
+    async def _change_show(
+        self, session: Session, step: Callable[[ShowHistory], ShowHistory]
+    ) -> ShowRevision:
         async with self.held(session):
             await self._wake(session)
             kept = await asyncio.to_thread(session.show_revision.then, step)
@@ -243,15 +369,20 @@ class SessionEdits:
 
         Raises:
             SessionEndedError: It is not there any more.
+            ChangedElsewhereError: Another server has changed it; see `until_kept`.
         """
         before = session.show_revision
         change = None if revision is None or revision is before else ShowChange(before, revision)
 
         def write() -> SessionRecord:
-            return self._storage.change(record, show=change, alignment=alignment, staged=staged)
+            return self._storage.change(
+                record, show=change, alignment=alignment, staged=staged, version=session.version
+            )
 
         async def keep() -> None:
             kept = await asyncio.to_thread(write)
+            session.version += 1
+            self.changed(session)
             if show is not None:
                 await show(kept)
             session.record = kept

@@ -73,6 +73,7 @@ class ReadSession:
         notes: What is told of its notes while they are played.
         alignment: Where the score is heard in the song, as far as that is known.
         song: Where the recording is, where there is one.
+        version: How often it was changed.
     """
 
     record: SessionRecord
@@ -81,6 +82,7 @@ class ReadSession:
     notes: NoteMessages
     alignment: Alignment | None
     song: Path | None
+    version: int = 0
 
     @property
     def weight(self) -> int:
@@ -196,7 +198,8 @@ class SessionReading:
             revision = ShowRevision.begin(
                 show, earlier=kept.show.earlier, later=kept.show.later, weights=kept.show.weights
             )
-            return ReadSession(record, production, revision, note_messages(production), alignment, song)
+            notes = note_messages(production)
+            return ReadSession(record, production, revision, notes, alignment, song, kept.version)
 
         return await asyncio.to_thread(prepared)
 

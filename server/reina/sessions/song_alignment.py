@@ -38,6 +38,8 @@ class SongAlignment:
     def __init__(self, alignment: Alignment | None = None, *, is_heard: bool = True) -> None:
         self.alignment = alignment
         self.is_heard = is_heard
+        self.elsewhere: float | None = None
+        """How far another server's search is, 0..1; None where there is none."""
         self.progress = 0.0
         self.error: str | None = None
         self._search: asyncio.Task[None] | None = None
@@ -51,7 +53,7 @@ class SongAlignment:
         """What viewers are told of it."""
         found = self.alignment
         status: Status = "none"
-        if self.is_searching:
+        if self.is_searching or self.elsewhere is not None:
             status = "searching"
         elif found is not None and (found.is_same_music or self.is_heard):
             status = "found" if found.is_same_music else "unlike"
@@ -59,10 +61,15 @@ class SongAlignment:
             status = "failed"
         return AlignmentState(
             status=status,
-            progress=self.progress if self.is_searching else float(found is not None),
+            progress=self._progress(),
             confidence=None if found is None else round(found.confidence, 3),
             detail=self.error,
         )
+
+    def _progress(self) -> float:
+        if self.is_searching:
+            return self.progress
+        return float(self.alignment is not None) if self.elsewhere is None else self.elsewhere
 
     def search(
         self,

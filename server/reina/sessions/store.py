@@ -8,6 +8,7 @@ import time
 from typing import TYPE_CHECKING
 
 from reina.errors import InputError
+from reina.sessions.following import Following
 from reina.sessions.loaded_sessions import LoadedSessions
 from reina.sessions.memory_bound import MEMORY_BYTES, MemoryBound
 from reina.sessions.recordings import Recordings
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from reina.sessions.bus.bus import Bus
     from reina.sessions.draft import Draft
     from reina.sessions.session import Session
     from reina.sessions.stage import Stage
@@ -65,6 +67,7 @@ class SessionStore:
         reader: Reads scores and shows.
         aligner: Finds scores in uploaded songs.
         blocks_origin: Where pages fetch packed blocks, as `Session` has it.
+        bus: Connects the servers that serve the same sessions.
     """
 
     def __init__(
@@ -83,6 +86,7 @@ class SessionStore:
         reader: Reader | None = None,
         aligner: Aligner | None = None,
         blocks_origin: str = "",
+        bus: Bus | None = None,
     ) -> None:
         self.stage = stage
         self.reader = reader or Reader(stage)
@@ -102,11 +106,15 @@ class SessionStore:
             now=now,
             wall=wall,
             blocks_origin=blocks_origin,
+            bus=bus,
         )
         """Those that are in memory."""
         self._aligner = aligner or Aligner()
         self.edits = SessionEdits(self.storage, self.loaded, self.reading, self.reader, self._aligner)
         """Changes them."""
+        self._following: Following | None = None
+        if bus is not None or self.storage.is_shared:
+            self._following = Following(self.storage, self.loaded, self.edits, bus)
         self.recordings = Recordings(self.storage, self.edits, self.decoder, self.staging)
         """The songs that were sent with them."""
         self._wall = wall
@@ -114,8 +122,10 @@ class SessionStore:
         self._loading: dict[str, asyncio.Task[Session | None]] = {}
         self._collecting: asyncio.Task[None] | None = None
 
-    def begin(self) -> None:
+    async def begin(self) -> None:
         """Begin what goes on in the background: what an earlier server left half done is removed."""
+        if self._following is not None:
+            await self._following.start()
         self._collecting = asyncio.create_task(self._remove_orphans())
 
     async def check(self) -> None:
@@ -125,6 +135,15 @@ class SessionStore:
             DatabaseError: It does not.
         """
         await asyncio.to_thread(self.storage.check)
+
+    async def check_bus(self) -> None:
+        """See that what connects this server with others answers, if there is anything.
+
+        Raises:
+            BusAwayError: It does not.
+        """
+        if self._following is not None:
+            await self._following.check()
 
     async def create(self, draft: Draft) -> tuple[Session, str]:
         """Make a session.
@@ -146,6 +165,8 @@ class SessionStore:
             return self.loaded.admit(made)
 
         session = await to_the_end(make())
+        if self._following is not None:
+            await self._following.begin(session.id)
         if read.alignment is None:
             self.edits.search_alignment(session)
         return session, token
@@ -169,6 +190,10 @@ class SessionStore:
                 return None
             # It may have been ended or unloaded again before it was this one's turn.
             return await self.get(session_id)
+        if self._following is not None:
+            with session.asked():
+                await self._following.up_to_date(session)
+            return self.loaded.find(session_id)
         return session
 
     async def listed(
@@ -187,6 +212,8 @@ class SessionStore:
 
             async def remove() -> set[Path]:
                 await asyncio.to_thread(self.storage.remove, session.id)
+                if self._following is not None:
+                    self._following.tell_end(session.id)
                 return self.loaded.forget(session)
 
             songs = await to_the_end(remove())
@@ -248,11 +275,25 @@ class SessionStore:
         except InputError as error:
             _log.warning("when sessions were seen is not kept: %s", error)
         await self.loaded.aclose()
+        if self._following is not None:
+            await self._following.aclose()
         await self._aligner.aclose()
         await self.reader.aclose()
         await asyncio.to_thread(self.storage.close)
 
     async def _load(self, session_id: str) -> Session | None:
+        if self._following is None:
+            return await self._load_kept(session_id)
+        await self._following.begin(session_id)
+        try:
+            session = await self._load_kept(session_id)
+            if session is not None:
+                await self._following.joined(session)
+            return session
+        finally:
+            self._following.end(session_id)
+
+    async def _load_kept(self, session_id: str) -> Session | None:
         await self.loaded.put_away(session_id)
         try:
             read = await self.reading.kept(session_id)
@@ -266,8 +307,9 @@ class SessionStore:
         if read is None or not await asyncio.to_thread(self.storage.__contains__, session_id):
             return None
         session = self.loaded.admit(read)
-        if read.alignment is None:
-            # It was still being looked for when the server ended.
+        # It was still being looked for when the server ended; or another is at it.
+        wanted = read.alignment is None and read.record.song is not None
+        if wanted and (self._following is None or await self._following.may_search(session)):
             self.edits.search_alignment(session)
         return session
 

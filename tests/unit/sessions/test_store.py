@@ -180,16 +180,16 @@ def test_a_clock_is_kept_once_for_all_that_it_is_told(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     written: list[SessionRecord] = []
-    write = SessionStorage.change
+    write = SessionStorage.keep_clock
 
-    def counted(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
+    def counted(storage: SessionStorage, record: SessionRecord, version: int) -> bool:
         written.append(record)
-        return write(storage, record)
+        return write(storage, record, version)
 
     async def scenario() -> None:
         desk = Desk(tmp_path, stage)
         session = await desk.create(scale(40))
-        monkeypatch.setattr(SessionStorage, "change", counted)
+        monkeypatch.setattr(SessionStorage, "keep_clock", counted)
         for number in range(60):
             session.control(Seek(action="seek", song_time_s=number / 30))
         for _ in range(600):

@@ -1254,7 +1254,7 @@ export interface UnplayedPart {
 
 /** One thing without which the server is not ready. */
 export interface Unready {
-  reason: "starting" | "data-directory" | "data-full" | "database" | "workers" | "soundfont" | "page" | "event-loop" | "ending"
+  reason: "starting" | "data-directory" | "data-full" | "database" | "bus" | "workers" | "soundfont" | "page" | "event-loop" | "ending"
   detail: string
 }
 

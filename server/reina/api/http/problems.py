@@ -16,6 +16,7 @@ from reina.errors import InputError
 from reina.instruments import CastError
 from reina.music.errors import NotInScoreError, ScoreError, ScoreLimitError
 from reina.protocol.resources import Fault, Problem
+from reina.sessions.bus.bus import BusAwayError
 from reina.sessions.limit_errors import (
     LimitError,
     NoRoomError,
@@ -24,7 +25,7 @@ from reina.sessions.limit_errors import (
     ServerBusyError,
 )
 from reina.sessions.session_edits import SessionEndedError
-from reina.sessions.storage.errors import DatabaseError, SessionDamagedError
+from reina.sessions.storage.errors import ChangedElsewhereError, DatabaseError, SessionDamagedError
 from reina.sessions.storage.file_store import StoreAwayError, StoredFileLostError, StoreFullError
 from reina.sessions.transcriptions import BusyError
 from reina.show.errors import KeyNotFoundError, ShowError
@@ -154,6 +155,8 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (NoRuntimeError, 501, "no-transcription", "The server cannot find notes yet"),
     (BusyError, 503, "transcription-busy", "The server is listening to other recordings"),
     (SessionDamagedError, 409, "session-damaged", "The session cannot be read"),
+    (ChangedElsewhereError, 503, "busy", "The session is changed elsewhere all the time"),
+    (BusAwayError, 503, "bus-away", "The servers cannot reach one another now"),
     (DatabaseError, 503, "database-away", "The sessions' database cannot be used now"),
     (StoreFullError, 507, "storage-full", "There is no room on the server's disk"),
     (StoreAwayError, 503, "files-away", "What keeps the large files does not answer"),
@@ -161,6 +164,10 @@ INPUT_PROBLEMS: tuple[tuple[type[InputError], int, str, str], ...] = (
     (InputError, 422, "input-unusable", "The input cannot be used"),
 )
 """What an input error is told as: the first row that fits."""
+
+
+AWAY = (DatabaseError, StoreAwayError, BusAwayError, ChangedElsewhereError)
+"""What is there again soon: it is said when to ask again."""
 
 
 def storage_full(detail: str = NO_ROOM) -> ProblemError:
@@ -180,7 +187,7 @@ def problem_of_input(error: InputError) -> ProblemError:
         faults = [Fault(detail=each.detail, location=each.location) for each in (error, *error.others)]
     more = max(len(faults) - MAX_FAULTS, 0) + (error.more if isinstance(error, ShowError) else 0)
     detail = f"{str(error)[:LONGEST_FAULT]}; {more} more faults are not told" if more else str(error)
-    headers = {"Retry-After": RETRY_AFTER_S} if isinstance(error, DatabaseError | StoreAwayError) else None
+    headers = {"Retry-After": RETRY_AFTER_S} if isinstance(error, AWAY) else None
     if isinstance(error, LimitError) and error.retry_after_s is not None:
         headers = {"Retry-After": str(error.retry_after_s)}
     return ProblemError(status, kind, title, detail, errors=faults, headers=headers)

@@ -26,7 +26,7 @@ FILE = "reina.db"
 POSTGRESQL = "postgresql+psycopg"
 PATIENCE_S = 10
 """How long a connection, or the turn to write, is waited for."""
-HEAD = "0001"
+HEAD = "0002"
 """The revision of this version's schema: that of the last of `migrations`."""
 MIGRATING = 0x5265696E61
 """The number of the lock that servers of one PostgreSQL take in turn while they migrate it."""

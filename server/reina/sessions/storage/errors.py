@@ -17,6 +17,10 @@ class SessionGoneError(InputError):
     """A session was to be changed that is not there."""
 
 
+class ChangedElsewhereError(InputError):
+    """A session was to be changed that another server has changed since it was read."""
+
+
 class SessionDamagedError(InputError):
     """A session is kept, and cannot be read.
 

@@ -49,6 +49,7 @@ SESSIONS = Table(
     Column("show_bytes", BigInteger, nullable=False),  # of all states, compressed
     Column("seen_at", Float(53), nullable=False),  # seconds since 1970
     Column("show_state", Integer, nullable=False),  # the number of the present one
+    Column("version", Integer, nullable=False, server_default="0"),  # how often it was changed, clocks apart
 )
 """One row a session."""
 Index("ix_sessions_place", SESSIONS.c.public, SESSIONS.c.place)

@@ -15,7 +15,7 @@ from sqlalchemy import delete, func, insert, select, update
 from reina.errors import InputError
 from reina.sessions.record import SESSION_ID, SessionRecord, with_files
 from reina.sessions.storage.database import Database, database_url
-from reina.sessions.storage.errors import SessionDamagedError, SessionGoneError
+from reina.sessions.storage.errors import ChangedElsewhereError, SessionDamagedError, SessionGoneError
 from reina.sessions.storage.file_store import StoredFileLostError, StoreFullError
 from reina.sessions.storage.held_files import HeldFiles
 from reina.sessions.storage.open_files import files_at
@@ -59,6 +59,7 @@ class KeptSession:
     record: SessionRecord
     show: KeptShow
     alignment: Alignment | None
+    version: int
 
 
 @dataclass(frozen=True)
@@ -198,8 +199,17 @@ class SessionStorage:
                 _write_alignment(connection, record.id, alignment)
         return record
 
-    def read(self, session_id: str) -> KeptSession | None:
+    def version(self, session_id: str) -> int | None:
+        """How often a session was changed; None where there is none."""
+        with self._database.reading() as connection:
+            return connection.execute(select(SESSIONS.c.version).where(SESSIONS.c.id == session_id)).scalar()
+
+    def read(self, session_id: str, known: Collection[bytes] = ()) -> KeptSession | None:
         """Read a session; None where there is none.
+
+        Args:
+            session_id: Which.
+            known: Digests of tracks whose texts are not wanted.
 
         Raises:
             SessionDamagedError: It is there, and cannot be read.
@@ -209,7 +219,9 @@ class SessionStorage:
             return None
         with self._database.reading() as connection:
             row = connection.execute(
-                select(SESSIONS.c.record, SESSIONS.c.token_sha256).where(SESSIONS.c.id == session_id)
+                select(SESSIONS.c.record, SESSIONS.c.token_sha256, SESSIONS.c.version).where(
+                    SESSIONS.c.id == session_id
+                )
             ).first()
             if row is None:
                 return None
@@ -217,9 +229,8 @@ class SessionStorage:
                 record = SessionRecord.model_validate_json(row.record)
                 if record.id != session_id:
                     raise ValueError("its record is another session's")  # noqa: TRY301
-                return KeptSession(
-                    record, read_show(connection, session_id), _alignment(connection, session_id)
-                )
+                show = read_show(connection, session_id, known)
+                return KeptSession(record, show, _alignment(connection, session_id), row.version)
             except (ValueError, zlib.error, InputError) as error:
                 raise SessionDamagedError(session_id, _why(error), row.token_sha256) from error
 
@@ -230,20 +241,23 @@ class SessionStorage:
         show: ShowChange | None = None,
         alignment: Alignment | Literal["unchanged"] | None = UNCHANGED,
         staged: Mapping[str, Path] | None = None,
+        version: int | None = None,
     ) -> SessionRecord:
-        """Keep what has changed of a session, all of it or nothing.
+        """Keep what has changed of a session, all of it or nothing; its version is one more then.
 
         Args:
             record: What is known of it now.
             show: What its show was and is.
             alignment: Where its score is heard in its song; None: that is not known any more.
             staged: Further files by name; they may be gone afterwards.
+            version: The one that is changed; any when None.
 
         Returns:
             The record with its files.
 
         Raises:
             SessionGoneError: It is not there.
+            ChangedElsewhereError: It has another version; nothing is changed then.
             SessionDamagedError: Its show is not there any more.
             StoreFullError: There is no room; nothing is changed then.
             DatabaseAwayError: The database does not answer; nothing is changed then.
@@ -255,14 +269,13 @@ class SessionStorage:
         with self._files.keep(staged or {}) as kept:
             record = with_files(record, kept)
             with self._database.writing() as connection:
+                _next_version(connection, record.id, version)
                 columns = _columns(record)
                 if show is not None:
                     moved = _write_show(connection, record, show.before, show.after)
                     columns["show_state"] = moved.number
                     columns["show_bytes"] = SESSIONS.c.show_bytes + moved.more_bytes
-                row = update(SESSIONS).where(SESSIONS.c.id == record.id).values(**columns)
-                if not connection.execute(row).rowcount:
-                    raise SessionGoneError(f"the session {record.id!r} was ended meanwhile")
+                connection.execute(update(SESSIONS).where(SESSIONS.c.id == record.id).values(**columns))
                 if kept:
                     connection.execute(delete(SESSION_FILES).where(SESSION_FILES.c.session_id == record.id))
                     _name_files(connection, record)
@@ -271,6 +284,21 @@ class SessionStorage:
         if replaced:
             self._files.remove_unnamed(replaced)
         return record
+
+    def keep_clock(self, record: SessionRecord, version: int) -> bool:
+        """Keep where a session's clock stands; nobody has to take note of it.
+
+        Args:
+            record: What is known of it, with the clock.
+            version: Which the rest of the record is of.
+
+        Returns:
+            False where it has another version, or is not there: nothing is kept then.
+        """
+        own = (SESSIONS.c.id == record.id) & (SESSIONS.c.version == version)
+        with self._database.writing() as connection:
+            row = update(SESSIONS).where(own).values(record=record.model_dump_json())
+            return bool(connection.execute(row).rowcount)
 
     def state_beside(
         self, record: SessionRecord, steps: int, known: Mapping[bytes, object]
@@ -430,6 +458,22 @@ def _columns(record: SessionRecord) -> dict[str, object]:
         "sender": _fit(record.sender),
         "file_bytes": sum(file.size for file in record.files),
     }
+
+
+def _next_version(connection: Connection, session_id: str, version: int | None) -> None:
+    """Count a change; whoever changes the same session elsewhere waits for the end of this one.
+
+    Raises:
+        SessionGoneError: It is not there.
+        ChangedElsewhereError: It has another version.
+    """
+    own = SESSIONS.c.id == session_id
+    wanted = own if version is None else own & (SESSIONS.c.version == version)
+    if connection.execute(update(SESSIONS).where(wanted).values(version=SESSIONS.c.version + 1)).rowcount:
+        return
+    if connection.execute(select(SESSIONS.c.id).where(own)).first() is None:
+        raise SessionGoneError(f"the session {session_id!r} was ended meanwhile")
+    raise ChangedElsewhereError(f"the session {session_id!r} was changed on another server; try again")
 
 
 def _fit(text: str) -> str:

@@ -49,13 +49,15 @@ class KeptShow:
     """A show as it was read.
 
     Attributes:
-        text: As JSON.
+        text: As JSON; without the tracks that were known.
+        digests: Of all its tracks, in their order; none where each track is in the text.
         earlier: How many states there are before it.
         later: How many were taken back.
         weights: What each step weighs, the oldest first; see `ShowRevision.weights`.
     """
 
     text: bytes
+    digests: tuple[bytes, ...] = ()
     earlier: int = 0
     later: int = 0
     weights: tuple[int, ...] = ()
@@ -117,8 +119,13 @@ def moved_by(connection: Connection, session_id: str, steps: int) -> Moved:
     return Moved(present + steps, 0)
 
 
-def read_show(connection: Connection, session_id: str) -> KeptShow:
+def read_show(connection: Connection, session_id: str, known: Collection[bytes] = ()) -> KeptShow:
     """Read the present state of a session's show.
+
+    Args:
+        connection: Within its transaction.
+        session_id: Whose.
+        known: Digests of tracks whose texts are not wanted.
 
     Raises:
         ShowUnreadableError: It is damaged.
@@ -133,9 +140,11 @@ def read_show(connection: Connection, session_id: str) -> KeptShow:
     if present not in numbers or numbers != list(range(numbers[0], numbers[-1] + 1)):
         raise ShowUnreadableError(MISSING_STATE)
     state = _state(connection, session_id, present)
-    texts = track_texts(state.tracks, _fetching(connection, session_id))
+    wanted = [digest for digest in state.tracks if digest not in known]
+    texts = track_texts(wanted, _fetching(connection, session_id))
     return KeptShow(
         show_text(state, texts),
+        () if state.head is None or not known else state.tracks,
         present - numbers[0],
         numbers[-1] - present,
         tuple(weight for _, weight in rows[1:]),

@@ -1,0 +1,1 @@
+"""What connects servers that serve the same sessions."""

@@ -1,0 +1,73 @@
+"""Several real servers that serve the same sessions, on a real PostgreSQL and a real Redis."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING
+
+import httpx
+from tests.integration.server import Owned, Running, serve
+from tests.servers.redis import Redis, redis_server
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+    from pathlib import Path
+    from typing import Any
+
+    from tests.servers.postgresql import PostgreSQL
+
+
+class Replicas:
+    """Servers of one house.
+
+    Attributes:
+        servers: Each of them.
+        redis: What connects them.
+    """
+
+    def __init__(self, servers: list[Running], clients: list[httpx.Client], redis: Redis) -> None:
+        self.servers = servers
+        self.redis = redis
+        self._clients = clients
+
+    def at(self, number: int, owned: Owned) -> Owned:
+        """A session, asked for at one of the servers."""
+        return Owned(self._clients[number], owned.body)
+
+    def client(self, number: int) -> httpx.Client:
+        """A client of one of the servers."""
+        return self._clients[number]
+
+
+@contextmanager
+def replicas(
+    folder: Path, postgresql: PostgreSQL, count: int = 2, *, settings: dict[str, Any] | None = None
+) -> Generator[Replicas]:
+    """Start servers; what they log goes into files beside their data."""
+    database = postgresql.database()
+    with redis_server() as redis, ExitStack() as held:
+        servers: list[Running] = []
+        clients: list[httpx.Client] = []
+        for number in range(count):
+            shared = {
+                "REINA_DATABASE_URL": database,
+                "REINA_BUS_URL": redis.url,
+                "REINA_FILES": folder / "files",
+            }
+            server = held.enter_context(
+                serve(
+                    folder / f"data-{number}",
+                    "--no-page",
+                    log=folder / f"log-{number}",
+                    settings=shared | (settings or {}),
+                )
+            )
+            servers.append(server)
+            clients.append(held.enter_context(httpx.Client(base_url=server.address, timeout=30.0)))
+        yield Replicas(servers, clients, redis)
+
+
+async def control(owned: Owned, action: str, **fields: Any) -> dict[str, Any]:
+    """Use the transport, beside what goes on on the loop."""
+    return await asyncio.to_thread(owned.control, action, **fields)
