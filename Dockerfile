@@ -36,7 +36,7 @@ LABEL org.opencontainers.image.title="Reina" \
       org.opencontainers.image.licenses="MIT AND Apache-2.0 AND CC0-1.0 AND MPL-2.0 AND OFL-1.1"
 RUN groupadd --gid 10001 reina \
     && useradd --uid 10001 --gid reina --no-create-home --home-dir /nonexistent --shell /usr/sbin/nologin reina \
-    && install --directory --owner reina --group reina /data
+    && install --directory --owner reina --group reina /data /files
 COPY --from=packages /opt/reina/ /opt/reina/
 ENV PATH=/opt/reina/bin:$PATH \
     PYTHONUNBUFFERED=1 \

@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import httpx
+import numpy as np
 import pytest
+import websockets
 from tests.integration.killed import LIGHT, light, move_light
 from tests.integration.replicas import Replicas, control, replicas
 from tests.integration.scores import scale, show, song
 from tests.integration.server import upload
+from tests.integration.test_alignment import NAME, recording
 from tests.integration.watching import watch
+from tests.servers.proxies import Proxy, replicas_proxy
+from tests.unit.sound.alignment.renditions import SCORES
+
+from reina.protocol import SUBPROTOCOL
+from reina.protocol.frame import HEADER
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
     from tests.integration.server import Owned
     from tests.integration.watching import Watcher
@@ -190,3 +201,88 @@ async def until(met: Callable[[], bool]) -> None:
     async with asyncio.timeout(20):
         while not await asyncio.to_thread(met):  # noqa: ASYNC110 - another process is asked
             await asyncio.sleep(0.05)
+
+
+def test_a_score_is_looked_for_in_its_song_by_one(two: Replicas) -> None:
+    score = next(SCORES.glob(f"{NAME}.*")).read_bytes()
+    made = upload(two.client(0), score, song=("march.flac", recording()))
+
+    async def scenario() -> None:
+        async with watch(two.servers[1], made.id) as watcher:
+            assert watcher.hello["alignment"]["status"] == "searching", "the other has not begun anew"
+
+            def told() -> list[str]:
+                return [told["status"] for told in watcher.of_type("alignment_changed")]
+
+            await watcher.until(lambda: "found" in told())
+            assert set(told()) == {"searching", "found"}
+
+    asyncio.run(scenario())
+    maps = [two.client(number).get(f"{made.path}/alignment").json() for number in range(2)]
+    assert maps[0] == maps[1]
+    made.change("DELETE")
+
+
+class Fan:
+    """Somebody who watches through nginx, and comes again as the page does when the connection breaks."""
+
+    def __init__(self, address: str) -> None:
+        self._address = address
+        self.connections = 0
+        self.offsets_s: list[float] = []
+        """Of each message: the server time at which song time 0 would be due."""
+        self.song_time_s = -1.0
+
+    async def watch(self) -> None:
+        """Watch until it is cancelled."""
+        while True:
+            with contextlib.suppress(websockets.WebSocketException, OSError):
+                async with websockets.connect(
+                    self._address, subprotocols=[websockets.Subprotocol(SUBPROTOCOL)], max_size=None
+                ) as socket:
+                    self.connections += 1
+                    async for message in socket:
+                        if isinstance(message, bytes):
+                            header = np.frombuffer(message[: HEADER.itemsize], HEADER)[0]
+                            self.song_time_s = float(header["song_time_s"])
+                            self.offsets_s.append(float(header["due_time_s"]) - self.song_time_s)
+            await asyncio.sleep(0.25)
+
+
+def test_where_a_server_is_killed_all_go_on_at_another(tmp_path: Path, postgresql_server: PostgreSQL) -> None:
+    async def scenario(made: Replicas, through: Proxy) -> None:
+        with httpx.Client(base_url=through.address, timeout=30.0) as client:
+            sent: dict[str, Any] = {"song": ("song.wav", song()), "show": ("s.json", show(0.5))}
+            owned = upload(client, scale(400), **sent, in_time="true")
+            await control(owned, "play")
+            address = f"{through.address.replace('http', 'ws', 1)}{owned.path}/stream?frames_per_message=12"
+            fans = [Fan(address) for _ in range(200)]
+            watching = [asyncio.create_task(fan.watch()) for fan in fans]
+            await all_have(fans, lambda fan: len(fan.offsets_s) >= 3)
+            made.servers[0].process.kill()
+            killed_s = max(fan.song_time_s for fan in fans)
+            await all_have(fans, lambda fan: fan.song_time_s > killed_s + 1.0)
+            # Those of the other server have seen nothing of it; nginx shares them out.
+            assert {fan.connections for fan in fans} == {1, 2}
+            assert 50 <= sum(fan.connections == 2 for fan in fans) <= 150
+            # Nobody's song has jumped, wherever he watches on.
+            offsets = np.concatenate([fan.offsets_s for fan in fans])
+            assert np.ptp(offsets) < FRAME_S
+            # What was edited there before is here; and it can be edited and controlled on.
+            assert (await asyncio.to_thread(move_light, owned, 1.5)).status_code == 200
+            assert (await control(owned, "pause"))["playing"] is False
+            for task in watching:
+                task.cancel()
+            await asyncio.wait(watching)
+
+    with replicas(tmp_path, postgresql_server) as made:
+        ports = [int(server.address.rpartition(":")[2]) for server in made.servers]
+        with replicas_proxy(ports, tmp_path) as through:
+            asyncio.run(scenario(made, through))
+
+
+async def all_have(fans: list[Fan], met: Callable[[Fan], bool]) -> None:
+    """Wait until something holds of all of them."""
+    async with asyncio.timeout(60):
+        while not all(map(met, fans)):  # noqa: ASYNC110 - it is looked at, as they are many
+            await asyncio.sleep(0.02)

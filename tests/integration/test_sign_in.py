@@ -170,12 +170,15 @@ def test_a_persons_header_from_anybody_but_the_proxy_is_nothing(tmp_path: Path, 
         ({"REINA_UPLOAD_PASSWORD_FILE": "/nowhere"}, "cannot be read"),
         ({"REINA_UPLOAD_PASSWORD_FILE": "short"}, "8 to 200 characters"),
         ({"REINA_UPLOAD_PASSWORD_FILE": "several"}, "one password, or lines"),
+        ({"REINA_UPLOAD_PASSWORD_FILE": "long", "REINA_SIGNING_KEY_FILE": "short"}, "holds 7 bytes"),
+        ({"REINA_UPLOAD_PASSWORD_FILE": "long", "REINA_SIGNING_KEY_FILE": "none"}, "none cannot be read"),
     ],
 )
 def test_what_cannot_be_meant_keeps_the_server_from_starting(
     tmp_path: Path, environment: dict[str, str], told: str
 ) -> None:
     (tmp_path / "short").write_text("1234567")
+    (tmp_path / "long").write_text(f"{PASSWORD}\n")
     (tmp_path / "several").write_text(f"{PASSWORD}\n{PASSWORD}\n")
     command = "import sys, os; os.environ |= eval(sys.argv[1]); from reina.cli import main; "
     command += "sys.exit(main(['serve', '--port', '0', '--no-page', '--data-dir', 'data']))"

@@ -26,7 +26,7 @@ daemon off;
 {user}
 pid {folder}/pid;
 error_log stderr;
-events {{ worker_connections 512; }}
+events {{ worker_connections 1024; }}
 http {{
     client_body_temp_path {folder}/body;
     proxy_temp_path {folder}/proxy;
@@ -59,20 +59,26 @@ def proxy(name: str, upstream_port: int, folder: Path) -> Generator[Proxy]:
     port = free_port()
     certificate, key = make_certificate(folder)
     make = {"nginx": nginx_command, "caddy": caddy_command}[name]
+    with running(make(folder, port, upstream_port, certificate, key), port, folder):
+        yield Proxy(name, f"https://localhost:{port}", certificate, folder)
+
+
+@contextmanager
+def running(command: list[str], port: int, folder: Path) -> Generator[None]:
+    """Run a proxy, from when it answers on."""
     with (folder / "said").open("w") as said:
-        command = make(folder, port, upstream_port, certificate, key)
         environment = os.environ | {"HOME": str(folder), "XDG_DATA_HOME": str(folder)}
-        running = subprocess.Popen(command, stdout=said, stderr=said, env=environment)
+        process = subprocess.Popen(command, stdout=said, stderr=said, env=environment)
     try:
         until = time.monotonic() + PATIENCE_S
         while not answers(port):
-            assert running.poll() is None, (folder / "said").read_text()
+            assert process.poll() is None, (folder / "said").read_text()
             assert time.monotonic() < until, "it does not answer"
             time.sleep(0.05)
-        yield Proxy(name, f"https://localhost:{port}", certificate, folder)
+        yield
     finally:
-        running.send_signal(signal.SIGTERM)
-        running.wait(PATIENCE_S)
+        process.send_signal(signal.SIGTERM)
+        process.wait(PATIENCE_S)
 
 
 def nginx_command(folder: Path, port: int, upstream: int, certificate: Path, key: Path) -> list[str]:
@@ -93,10 +99,33 @@ def nginx_command(folder: Path, port: int, upstream: int, certificate: Path, key
         ("Host $host;", "Host $http_host;"),
     )
     (folder / "reina.conf").write_text(config)
+    return nginx(folder)
+
+
+def nginx(folder: Path) -> list[str]:
+    """What starts nginx with the configuration that is in a folder."""
     # What is only for who runs the tests its workers could not keep blocks in.
     user = "user root;" if os.geteuid() == 0 else ""
     (folder / "nginx.conf").write_text(NGINX_MAIN.format(folder=folder, user=user))
     return [program("nginx"), "-p", str(folder), "-c", str(folder / "nginx.conf"), "-e", "stderr"]
+
+
+@contextmanager
+def replicas_proxy(upstream_ports: list[int], folder: Path) -> Generator[Proxy]:
+    """Start nginx in front of several servers, as `deploy/replicas.conf` has it but for names and places."""
+    port = free_port()
+    servers = "".join(f"    server 127.0.0.1:{each} fail_timeout=2s;\n" for each in upstream_ports)
+    both = "    server reina-1:8000 fail_timeout=2s;\n    server reina-2:8000 fail_timeout=2s;\n"
+    config = replaced(
+        (DEPLOY / "replicas.conf").read_text(),
+        (both, servers),
+        ("    listen 8080;\n", f"    listen 127.0.0.1:{port};\n"),
+        ("/var/log/nginx/reina.log", str(folder / "access")),
+        ("/var/cache/nginx/reina", str(folder / "cache")),
+    )
+    (folder / "reina.conf").write_text(config)
+    with running([*nginx(folder)], port, folder):
+        yield Proxy("nginx", f"http://127.0.0.1:{port}", folder / "none", folder)
 
 
 def caddy_command(folder: Path, port: int, upstream: int, certificate: Path, key: Path) -> list[str]:

@@ -107,9 +107,17 @@ def assert_confined(service: dict[str, Any]) -> None:
     assert service["init"] is True
 
 
+def volumes_of(config: dict[str, Any], name: str) -> set[str]:
+    """The volumes that a service writes to."""
+    mounts = config["services"][name]["volumes"]
+    # 1.29 writes them in one line, later versions as an object.
+    return {mount["source"] if isinstance(mount, dict) else mount.split(":")[0] for mount in mounts}
+
+
 def test_compose_reads_it_as_it_is_meant() -> None:
     config = compose_config("docker-compose.yml", REINA_PORT="9001", REINA_MEMORY="12g")
-    assert config["services"].keys() == {"reina"}
+    # What has a profile is started where that is named, and only then.
+    assert {name for name, service in config["services"].items() if "profiles" not in service} == {"reina"}
     reina = config["services"]["reina"]
     assert_confined(reina)
     # 1.29 writes sizes as they were given, later versions in bytes.
@@ -117,16 +125,18 @@ def test_compose_reads_it_as_it_is_meant() -> None:
     assert "9001" in json.dumps(reina["ports"])
     assert "127.0.0.1" in json.dumps(reina["ports"])
     assert reina["ulimits"] == {"core": 0, "nofile": 65536}
-    assert config["volumes"].keys() == {"data"}
+    assert volumes_of(config, "reina") == {"data"}
 
 
 def test_compose_joins_a_postgresql_where_it_is_asked_to() -> None:
     config = compose_config(*WITH_POSTGRESQL, REINA_DATABASE_PASSWORD="a-secret")
-    services = config["services"]
+    services = {name: service for name, service in config["services"].items() if "profiles" not in service}
     assert services.keys() == {"reina", "postgres"}
     for service in services.values():
         assert_confined(service)
-    assert services["reina"]["environment"]["REINA_DATABASE"] == "postgresql://reina:a-secret@postgres/reina"
+    assert (
+        services["reina"]["environment"]["REINA_DATABASE_URL"] == "postgresql://reina:a-secret@postgres/reina"
+    )
     assert services["reina"]["depends_on"]["postgres"]["condition"] == "service_healthy"
     database = services["postgres"]
     assert re.fullmatch(r"postgres:\d+\.\d+-bookworm", database["image"])
@@ -137,7 +147,32 @@ def test_compose_joins_a_postgresql_where_it_is_asked_to() -> None:
     }
     # Nobody beyond the two containers reaches it.
     assert "ports" not in database
-    assert config["volumes"].keys() == {"data", "database"}
+    assert volumes_of(config, "postgres") == {"database"}
+
+
+def test_compose_has_several_servers_where_they_are_asked_for() -> None:
+    config = compose_config("docker-compose.yml", REINA_DATABASE_PASSWORD="a-secret", REINA_PORT="9001")
+    services = {name: service for name, service in config["services"].items() if "profiles" in service}
+    assert services.keys() == {"nginx", "reina-1", "reina-2", "database", "bus"}
+    for service in services.values():
+        assert service["profiles"] == ["replicas"]
+        assert_confined(service)
+    # Nobody beyond them reaches any but nginx, and that from this machine alone.
+    assert [name for name, service in services.items() if "ports" in service] == ["nginx"]
+    assert "9001" in json.dumps(services["nginx"]["ports"])
+    assert "127.0.0.1" in json.dumps(services["nginx"]["ports"])
+    address = services["nginx"]["networks"]["replicas"]["ipv4_address"]
+    for name in ("reina-1", "reina-2"):
+        said = services[name]["environment"]
+        assert said["REINA_DATABASE_URL"] == "postgresql://reina:a-secret@database/reina"
+        assert said["REINA_BUS_URL"] == "redis://bus:6379"
+        assert said["REINA_TRUSTED_PROXY"] == address
+        assert said["REINA_FILES"] == "/files"
+        # The large files are one volume's, and each has a folder of its own besides.
+        assert volumes_of(config, name) == {"files", name.replace("reina", "replica")}
+        assert f"server {name}:8000" in (ROOT / "deploy" / "replicas.conf").read_text()
+    made = next(instruction for instruction in stages()[-1].instructions if "useradd" in instruction.text)
+    assert "/files" in made.text, "who it runs as may write there"
 
 
 def test_a_database_without_a_password_is_refused_in_words() -> None:

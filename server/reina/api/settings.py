@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reina.api.accounts import Accounts
+from reina.api.http.signed_cookie import signing_key
 from reina.errors import InputError
 from reina.sessions.bus.redis_bus import RedisBus
 from reina.sessions.memory_bound import MEMORY_BYTES
@@ -76,8 +77,8 @@ def _database() -> str:
     return os.environ.get("REINA_DATABASE_URL") or os.environ.get("REINA_DATABASE", "")
 
 
-def _upload_password_file() -> Path | None:
-    named = os.environ.get("REINA_UPLOAD_PASSWORD_FILE")
+def _file(variable: str) -> Path | None:
+    named = os.environ.get(variable)
     return Path(named) if named else None
 
 
@@ -113,6 +114,8 @@ class Settings:
         page: Whether the page is to be there.
         log_requests: Whether each request is a line in the log.
         upload_password_file: Holds the passwords of those who may upload; None: everybody may.
+        signing_key_file: Holds a secret of all servers that serve the same sessions: whoever is signed in at
+            one is at the others; None: a server has its own.
         user_header: What a trusted proxy tells in who is signed in there; empty: nothing.
         blocks_origin: Where pages fetch packed blocks, as `Session` has it; empty: the stream has them.
     """
@@ -136,7 +139,8 @@ class Settings:
     lab: bool = True
     page: bool = True
     log_requests: bool = False
-    upload_password_file: Path | None = field(default_factory=_upload_password_file)
+    upload_password_file: Path | None = field(default_factory=lambda: _file("REINA_UPLOAD_PASSWORD_FILE"))
+    signing_key_file: Path | None = field(default_factory=lambda: _file("REINA_SIGNING_KEY_FILE"))
     user_header: str = field(default_factory=lambda: os.environ.get("REINA_USER_HEADER", ""))
     blocks_origin: str = field(default_factory=lambda: os.environ.get("REINA_BLOCKS_ORIGIN", ""))
 
@@ -176,6 +180,7 @@ def require_sign_in(settings: Settings) -> None:
         raise InputError(f"REINA_USER_HEADER is the name of a header, X-Forwarded-User say, not {header!r}")
     if settings.upload_password_file is not None:
         Accounts.read(settings.upload_password_file)
+        signing_key(settings.data_dir, settings.signing_key_file)
 
 
 def require_blocks_origin(settings: Settings) -> None:

@@ -223,7 +223,10 @@ class Following:
             case SessionEnded():
                 self._begin(self._forget(session))
             case SearchProgress(progress=progress):
-                self._await_search(session, progress)
+                if progress is None:
+                    self._begin(self._end_search(session))
+                else:
+                    self._await_search(session, progress)
 
     def _ask_all(self) -> None:
         """Something may have been missed."""
@@ -237,15 +240,25 @@ class Following:
         if self._bus is not None and await self._bus.clock(session.id) is None:
             await session.share_clock()
 
-    def _await_search(self, session: Session, progress: float | None) -> None:
+    def _await_search(self, session: Session, progress: float) -> None:
+        self._await_no_search(session)
+        session.alignment.elsewhere = progress
+        session.tell_alignment()
+        loop = asyncio.get_running_loop()
+        self._takeovers[session.id] = loop.call_later(SEARCH_S, self._take_over, session)
+
+    def _await_no_search(self, session: Session) -> None:
         timer = self._takeovers.pop(session.id, None)
         if timer is not None:
             timer.cancel()
-        session.alignment.elsewhere = progress
-        session.tell_alignment()
-        if progress is not None:
-            loop = asyncio.get_running_loop()
-            self._takeovers[session.id] = loop.call_later(SEARCH_S, self._take_over, session)
+
+    async def _end_search(self, session: Session) -> None:
+        """Another server's search has come to its end: what it found is kept by then."""
+        self._await_no_search(session)
+        await self.up_to_date(session)
+        session.alignment.elsewhere = None
+        if session in self._loaded:
+            session.tell_alignment()
 
     def _take_over(self, session: Session) -> None:
         self._takeovers.pop(session.id, None)

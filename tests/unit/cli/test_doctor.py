@@ -12,15 +12,17 @@ import sqlite3
 import stat
 import sys
 import threading
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 from unittest.mock import Mock
 
 import pytest
+from tests.servers.redis import redis_server
 
 from reina.api.settings import Settings
 from reina.cli import main
-from reina.cli.doctor import data, database, machine, network, parts
+from reina.cli.doctor import data, database, machine, network, parts, redis_bus
 from reina.cli.listening import listen
 from reina.sessions.storage.archive import DATABASE
 
@@ -230,6 +232,20 @@ def test_a_database_server_that_is_away_or_none(settings: Settings) -> None:
     assert "hidden" not in away.detail
     for address in ("nonsense", "nosuch://x/y"):
         assert database.database_finding(settings.data_dir, address).status == "fail"
+
+
+def test_what_connects_servers(settings: Settings, tmp_path: Path) -> None:
+    alone = replace(settings, bus="redis://127.0.0.1:1")
+    assert "one database" in redis_bus.bus_finding(alone).detail
+    shared = replace(alone, database="postgresql://reina@127.0.0.1/reina")
+    assert "REINA_FILES" in redis_bus.bus_finding(shared).detail
+    shared = replace(shared, files=str(tmp_path))
+    away = redis_bus.bus_finding(shared)
+    assert away.status == "fail"
+    assert "does not answer" in away.detail
+    assert "cannot be read" in redis_bus.bus_finding(replace(shared, bus="nonsense")).detail
+    with redis_server() as redis:
+        assert redis_bus.bus_finding(replace(shared, bus=redis.url)).status == "ok"
 
 
 def test_what_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:

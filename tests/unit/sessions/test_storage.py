@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import zlib
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,16 +16,19 @@ from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
 
 from reina.curves import Parameter, ParameterRegistry
+from reina.sessions.kept_clock import KeptClock
 from reina.sessions.record import SESSION_ID, SessionRecord, created_now, new_id
 from reina.sessions.show_revision import ShowRevision
 from reina.sessions.sleeping_show import known_tracks, wake
 from reina.sessions.storage.database import FILE, HEAD, Database, database_url
 from reina.sessions.storage.errors import (
+    ChangedElsewhereError,
     DatabaseAwayError,
     DatabaseError,
     SessionDamagedError,
     SessionGoneError,
 )
+from reina.sessions.storage.local_files import LocalFiles
 from reina.sessions.storage.open_files import FILES
 from reina.sessions.storage.schema import METADATA
 from reina.sessions.storage.session_storage import SessionStorage, ShowChange
@@ -35,9 +39,10 @@ from reina.system.json_text import read_json
 from reina.system.tokens import hash_token, new_token, token_matches
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator, Iterator
     from pathlib import Path
 
+    from sqlalchemy import Connection
     from tests.servers.postgresql import PostgreSQL
 
 LIGHT, FOG = "lights/key/intensity", "fog/density"
@@ -634,3 +639,53 @@ def test_the_schema_that_a_start_looks_for_is_the_last_migrations() -> None:
     config = Config()
     config.set_main_option("script_location", "reina.sessions.storage:migrations")
     assert ScriptDirectory.from_config(config).get_current_head() == HEAD
+
+
+def test_no_server_removes_what_another_is_about_to_name(
+    tmp_path: Path, postgresql_server: PostgreSQL, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    database, files = postgresql_server.database(), LocalFiles(tmp_path / "files")
+    storages = [SessionStorage.open(tmp_path / name, database, files) for name in ("one", "other")]
+    one, other = storages
+    insert, removed = one._database.writing, list[int]()  # pyright: ignore[reportPrivateUsage]
+
+    @contextmanager
+    def writing() -> Generator[Connection]:
+        # The file is kept, and no transaction has named it yet.
+        removed.append(other.remove_files({file.digest for file in files.files()}))
+        with insert() as connection:
+            yield connection
+
+    monkeypatch.setattr(one._database, "writing", writing)  # pyright: ignore[reportPrivateUsage]
+    staged = one.stage() / "score"
+    staged.write_bytes(b"notes")
+    kept = one.add(record(), {"score": staged}, ShowRevision.begin(Show()).text)
+    assert removed == [0]
+    assert one.file(kept, "score").read_bytes() == b"notes"
+    monkeypatch.undo()
+    one.remove(kept.id)
+    assert list(files.files()) == []
+    for storage in storages:
+        storage.close()
+
+
+def test_of_two_who_change_a_session_one_is_refused(keeper: Keeper) -> None:
+    made = keeper.add(record())
+    assert keeper.storage.version(made.id) == 0
+    keeper.storage.change(made.model_copy(update={"title": "One"}), version=0)
+    with pytest.raises(ChangedElsewhereError, match="changed on another server"):
+        keeper.storage.change(made.model_copy(update={"title": "Other"}), version=0)
+    found = keeper.storage.read(made.id)
+    assert found is not None
+    assert (found.record.title, found.version) == ("One", 1)
+    clock = KeptClock(at_s=1.0, song_time_s=2.0)
+    assert keeper.storage.keep_clock(found.record.model_copy(update={"clock": clock}), 1)
+    assert not keeper.storage.keep_clock(made, 0), "it would take back the title"
+    found = keeper.storage.read(made.id)
+    assert found is not None
+    assert (found.record.title, found.record.clock, found.version) == ("One", clock, 1)
+    keeper.storage.remove(made.id)
+    assert keeper.storage.version(made.id) is None
+    assert not keeper.storage.keep_clock(made, 1)
+    with pytest.raises(SessionGoneError):
+        keeper.storage.change(made, version=1)

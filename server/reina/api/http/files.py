@@ -1,6 +1,10 @@
 """Files that are served: found below a folder and nowhere else, and sent whole or in ranges."""
 
 import asyncio
+import hashlib
+import os
+import secrets
+from collections import OrderedDict
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -15,6 +19,9 @@ REVALIDATED = "no-cache"
 """It is kept, and asked for each time; mostly the answer is 304."""
 IMMUTABLE = "public, max-age=31536000, immutable"
 """For what has its content's hash in its name."""
+TAG_BYTES = 16
+TAGS_KEPT = 4096
+"""Of so many files it is remembered what they hash to, as long as nothing has been written to them."""
 
 
 def file_below(folder: Path, name: str) -> Path | None:
@@ -32,6 +39,34 @@ def file_below(folder: Path, name: str) -> Path | None:
         return path if path.is_relative_to(root) and path.is_file() else None
     except (OSError, ValueError):
         return None
+
+
+_tags: OrderedDict[tuple[str, int, int, int], str] = OrderedDict()
+
+
+async def _tag(path: Path, status: os.stat_result) -> str:
+    """The validator of a file's content: the same on every server that has it, however it came there."""
+    known = (str(path), status.st_ino, status.st_mtime_ns, status.st_size)
+    tag = _tags.pop(known, None)
+    if tag is None:
+        tag = await asyncio.to_thread(_hashed, path)
+    _tags[known] = tag
+    if len(_tags) > TAGS_KEPT:
+        _tags.popitem(last=False)
+    return tag
+
+
+def _hashed(path: Path) -> str:
+    try:
+        with path.open("rb") as content:
+            return f'"{hashlib.file_digest(content, _hasher).hexdigest()}"'
+    except OSError:
+        # Gone since it was found: whoever sends it says so.
+        return f'"{secrets.token_hex(TAG_BYTES)}"'
+
+
+def _hasher() -> hashlib.blake2b:
+    return hashlib.blake2b(digest_size=TAG_BYTES)
 
 
 class ServedFile(FileResponse):
@@ -70,6 +105,7 @@ class ServedFile(FileResponse):
             await gone.response()(scope, receive, send)
             return
         self.set_stat_headers(self.stat_result)
+        self.headers["etag"] = await _tag(self._file, self.stat_result)
         headers = [(name, value) for name, value in scope["headers"] if name not in {b"range", b"if-range"}]
         ranges = self._ranges(Headers(scope=scope), self.stat_result.st_size)
         if ranges == []:

@@ -55,7 +55,7 @@ class SignIn:
     def __init__(self, settings: Settings, now: Callable[[], float]) -> None:
         path = settings.upload_password_file
         self._accounts = None if path is None else Accounts.read(path)
-        self._key = b"" if path is None else signing_key(settings.data_dir)
+        self._key = b"" if path is None else signing_key(settings.data_dir, settings.signing_key_file)
         self._header = settings.user_header.lower().encode()
         self._attempts = Attempts(now)
         self._looking = asyncio.Lock()

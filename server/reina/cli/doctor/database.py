@@ -32,7 +32,7 @@ def database_finding(directory: Path, address: str) -> Finding:
 
     Args:
         directory: The data directory, which has the embedded one.
-        address: Of another database, as REINA_DATABASE has it; empty for the embedded one.
+        address: Of another database, as REINA_DATABASE_URL has it; empty for the embedded one.
     """
     path = directory / DATABASE
     if not address and not path.exists():
@@ -40,7 +40,7 @@ def database_finding(directory: Path, address: str) -> Finding:
     try:
         engine = _another(address) if address else _embedded(path)
     except (ArgumentError, ImportError) as error:
-        return fail("database", f"REINA_DATABASE: {_first_line(error)}", "correct it, or leave it out")
+        return fail("database", f"REINA_DATABASE_URL: {_first_line(error)}", "correct it, or leave it out")
     shown = engine.url.render_as_string(hide_password=True) if address else str(path)
     try:
         with engine.connect() as connection:

@@ -73,8 +73,7 @@ class RedisBus:
 
         self._failures = (RedisError, OSError, TimeoutError)
         try:
-            connect: Any = redis.Redis.from_url  # pyright: ignore[reportUnknownMemberType] - its options
-            self._redis: Any = connect(
+            self._redis: Any = redis.Redis.from_url(  # pyright: ignore[reportUnknownMemberType] - its options
                 url, socket_timeout=PATIENCE_S, socket_connect_timeout=PATIENCE_S, decode_responses=True
             )
         except ValueError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sqlite3
 import threading
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,8 @@ from reina.sessions.storage.errors import DatabaseAwayError, DatabaseError
 from reina.sessions.storage.file_store import StoreFullError
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Callable, Collection, Generator
+    from contextlib import AbstractContextManager
 
     from sqlalchemy import Connection, Engine
 
@@ -30,6 +31,8 @@ HEAD = "0002"
 """The revision of this version's schema: that of the last of `migrations`."""
 MIGRATING = 0x5265696E61
 """The number of the lock that servers of one PostgreSQL take in turn while they migrate it."""
+FILES = 0x66696C65
+"""The number of the kind of locks that stand for files."""
 
 _FULL = frozenset({sqlite3.SQLITE_FULL})
 _UNUSABLE = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})
@@ -124,6 +127,11 @@ class Database:
         finally:
             turn.release()
 
+    @property
+    def file_locks(self) -> DatabaseLocks | None:
+        """What servers with the same database hold while they name or remove files; None for one alone."""
+        return None if self.is_embedded else DatabaseLocks(self._engine, self._telling)
+
     @contextmanager
     def _telling(self) -> Generator[None]:
         try:
@@ -167,6 +175,70 @@ class Database:
                 connection.execute(text("SELECT pg_advisory_xact_lock(:number)"), {"number": MIGRATING})
             config.attributes["connection"] = connection
             command.upgrade(config, "head")
+
+
+class DatabaseLocks:
+    """Locks of PostgreSQL, each on a connection of its own: they go with whoever holds them.
+
+    Args:
+        engine: Gives connections.
+        telling: Turns what goes wrong into what is told of it.
+    """
+
+    def __init__(self, engine: Engine, telling: Callable[[], AbstractContextManager[None]]) -> None:
+        self._engine = engine
+        self._telling = telling
+
+    @contextmanager
+    def naming(self, digests: Collection[str]) -> Generator[None]:
+        """See `FileLocks.naming`.
+
+        Raises:
+            DatabaseAwayError: It does not answer.
+        """
+        # In one order everywhere: nobody waits for one who waits for him.
+        numbers = sorted({_lock_number(digest) for digest in digests})
+        with self._locked("pg_advisory_lock_shared", "pg_advisory_unlock_shared", numbers):
+            yield
+
+    @contextmanager
+    def removing(self, digest: str) -> Generator[bool]:
+        """See `FileLocks.removing`.
+
+        Raises:
+            DatabaseAwayError: It does not answer.
+        """
+        numbers = [_lock_number(digest)]
+        with self._locked("pg_try_advisory_lock", "pg_advisory_unlock", numbers) as locked:
+            yield locked
+
+    @contextmanager
+    def _locked(self, lock: str, unlock: str, numbers: list[int]) -> Generator[bool]:
+        with self._telling():
+            connection = self._engine.connect().execution_options(isolation_level="AUTOCOMMIT")
+        try:
+            # Those that wait give nothing, which stands for having them.
+            got = [self._call(connection, lock, number) is not False for number in numbers]
+            try:
+                yield all(got)
+            finally:
+                # A connection that broke holds none any more.
+                with suppress(DatabaseAwayError):
+                    for number, held in zip(numbers, got, strict=True):
+                        if held:
+                            self._call(connection, unlock, number)
+        finally:
+            connection.close()
+
+    def _call(self, connection: Connection, function: str, number: int) -> object:
+        with self._telling():
+            asked = text(f"SELECT {function}(:kind, :number)")
+            return connection.execute(asked, {"kind": FILES, "number": number}).scalar()
+
+
+def _lock_number(digest: str) -> int:
+    """Of a file's lock: 32 bits with a sign; files that share it wait for one another once in a while."""
+    return int.from_bytes(bytes.fromhex(digest[:8]), signed=True)
 
 
 def _revision(connection: Connection) -> str | None:

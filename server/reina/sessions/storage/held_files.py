@@ -5,19 +5,32 @@ from __future__ import annotations
 import logging
 import threading
 from collections import Counter
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from typing import TYPE_CHECKING, Protocol
 
 from reina.errors import InputError
 from reina.sessions.record import FileRecord
+from reina.sessions.storage.local_files import measured
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping
+    from collections.abc import Callable, Collection, Generator, Mapping
     from pathlib import Path
 
     from reina.sessions.storage.file_store import FileStore
 
 _log = logging.getLogger(__name__)
+
+
+class FileLocks(Protocol):
+    """What keeps a server from removing a file that another is about to name."""
+
+    def naming(self, digests: Collection[str]) -> AbstractContextManager[None]:
+        """Held from before files are kept until they are named, or are not to be."""
+        ...
+
+    def removing(self, digest: str) -> AbstractContextManager[bool]:
+        """Held while a file that nothing names is removed; False where somebody is about to name it."""
+        ...
 
 
 class HeldFiles:
@@ -26,11 +39,16 @@ class HeldFiles:
     Args:
         files: Where they are kept.
         is_named: Whether a session names a file, by its digest.
+        locks: What servers that have the same files hold while they name some or remove one; None where no
+            other has them.
     """
 
-    def __init__(self, files: FileStore, is_named: Callable[[str], bool]) -> None:
+    def __init__(
+        self, files: FileStore, is_named: Callable[[str], bool], locks: FileLocks | None = None
+    ) -> None:
         self._files = files
         self._is_named = is_named
+        self._locks = locks
         self._looking = threading.Lock()
         self._held = Counter[str]()
         self._keeping = 0
@@ -49,9 +67,10 @@ class HeldFiles:
         kept: list[FileRecord] = []
         unnamed: set[str] = set()
         try:
-            for name, file in staged.items():
-                kept.append(self._keep(name, file))
-            yield tuple(kept)
+            with self._naming(staged.values()):
+                for name, file in staged.items():
+                    kept.append(self._keep(name, file))
+                yield tuple(kept)
         except BaseException:
             unnamed = {file.digest for file in kept}
             raise
@@ -77,13 +96,24 @@ class HeldFiles:
                     self._doubtful.add(digest)
                     continue
                 try:
-                    if self._held[digest] <= 0 and not self._is_named(digest):
-                        self._files.remove(digest)
-                        removed += 1
+                    with self._removing(digest) as may_be:
+                        if not may_be:
+                            self._doubtful.add(digest)
+                        elif self._held[digest] <= 0 and not self._is_named(digest):
+                            self._files.remove(digest)
+                            removed += 1
                 except (InputError, OSError) as error:
                     self._doubtful.add(digest)
                     _log.warning("the file %s is left for now: %s", digest, error)
         return removed
+
+    def _naming(self, files: Collection[Path]) -> AbstractContextManager[None]:
+        if self._locks is None or not files:
+            return nullcontext()
+        return self._locks.naming({measured(file).digest for file in files})
+
+    def _removing(self, digest: str) -> AbstractContextManager[bool]:
+        return nullcontext(True) if self._locks is None else self._locks.removing(digest)
 
     def _keep(self, name: str, file: Path) -> FileRecord:
         with self._looking:

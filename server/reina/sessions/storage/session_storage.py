@@ -104,7 +104,7 @@ class SessionStorage:
         self.data_dir = data_dir
         self._database = database
         self._store = files
-        self._files = HeldFiles(files, self._is_named)
+        self._files = HeldFiles(files, self._is_named, database.file_locks)
         self._staging = data_dir / STAGING
         shutil.rmtree(self._staging, ignore_errors=True)
         for folder in (self._staging, data_dir / SONGS):
