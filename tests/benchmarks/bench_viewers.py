@@ -129,17 +129,17 @@ class Bench:
     """
 
     def __init__(self, folder: Path, seconds: float) -> None:
-        self._program = str(folder / "viewers")
+        self.program = str(folder / "viewers")
         self._seconds = seconds
         compiler = shutil.which("cc")
         if compiler is None:
             raise SystemExit("the viewers are in C: a compiler named cc is needed")
         source = str(HERE / "viewers.c")
-        subprocess.run([compiler, "-std=c11", "-Wall", "-O2", "-o", self._program, source, "-lm"], check=True)
+        subprocess.run([compiler, "-std=c11", "-Wall", "-O2", "-o", self.program, source, "-lm"], check=True)
 
     def kernel(self, viewers: int, size: int, rate: float) -> Measured:
         """A loop of send() in C; a rate of 0 sends as fast as it is read."""
-        with _started([self._program, "send", str(viewers), str(size), str(rate)]) as (process, port):
+        with _started([self.program, "send", str(viewers), str(size), str(rate)]) as (process, port):
             return self._watch(process.pid, port, viewers, ["/"], frames=1, lead_s=0.0)
 
     def stack(self, name: str, python: str, viewers: int, size: int, rate: float) -> Measured:
@@ -187,7 +187,7 @@ class Bench:
     ) -> Measured:
         memory = memory_bytes(process)
         numbers = [str(port), str(viewers), str(self._seconds), str(SETTLE_S), str(lead_s), str(frames)]
-        command = [self._program, "watch", "127.0.0.1", *numbers, SUBPROTOCOL, *paths]
+        command = [self.program, "watch", "127.0.0.1", *numbers, SUBPROTOCOL, *paths]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as watching:
             pin(watching.pid, 1)
             assert watching.stdout is not None

@@ -7,6 +7,10 @@
      A frame is late by what it comes after LEAD seconds before it is due. It is looked for what came every half
      millisecond, and not waited for: to wake who waits costs the sender up to twice what sending does, more or
      less as this process keeps up, and viewers elsewhere are not woken by the server.
+   viewers fetch HOST PORT VIEWERS SECONDS SETTLE BLOCKS PATH...
+     has so many connections, over the paths in turn, each of which asks for a packed block once a second, PATH/0 to
+     PATH/BLOCKS-1 as time goes on, the viewers one after another at even distances; says `joined` and `measuring`
+     as above, and prints a line of JSON. A request lasts from when it was due to its answer's last byte.
    viewers send VIEWERS BYTES RATE
      says `port N`, takes so many viewers in, and sends each a binary message of so many bytes, RATE times a
      second by absolute deadlines, with send() alone: what the kernel asks for a message. RATE 0 sends as fast
@@ -133,17 +137,24 @@ static struct {
     uint64_t messages, bytes, texts, pings, lost, closed;
 } seen;
 
-static void begin(Viewer *viewer, int number) {
-    int on = 1;
-    viewer->fd = socket(AF_INET, SOCK_STREAM, 0);
-    if (viewer->fd < 0) fail("no more sockets after %d: %s", number, strerror(errno));
-    setsockopt(viewer->fd, IPPROTO_IP, IP_BIND_ADDRESS_NO_PORT, &on, sizeof on);
+/* A connection that epoll tells of by `whose`. */
+static int connected(int number, void *whose) {
+    int on = 1, fd = socket(AF_INET, SOCK_STREAM, 0);
+    if (fd < 0) fail("no more sockets after %d: %s", number, strerror(errno));
+    setsockopt(fd, IPPROTO_IP, IP_BIND_ADDRESS_NO_PORT, &on, sizeof on);
     struct sockaddr_in from = {.sin_family = AF_INET};
     from.sin_addr.s_addr = htonl(INADDR_LOOPBACK + (uint32_t)(number / VIEWERS_AN_ADDRESS));
-    if (bind(viewer->fd, (struct sockaddr *)&from, sizeof from)) fail("bind: %s", strerror(errno));
+    if (bind(fd, (struct sockaddr *)&from, sizeof from)) fail("bind: %s", strerror(errno));
     struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons((uint16_t)given.port)};
     inet_pton(AF_INET, given.host, &to.sin_addr);
-    if (connect(viewer->fd, (struct sockaddr *)&to, sizeof to)) fail("connect: %s", strerror(errno));
+    if (connect(fd, (struct sockaddr *)&to, sizeof to)) fail("connect: %s", strerror(errno));
+    struct epoll_event event = {.events = EPOLLIN, .data.ptr = whose};
+    if (epoll_ctl(given.epoll, EPOLL_CTL_ADD, fd, &event)) fail("epoll: %s", strerror(errno));
+    return fd;
+}
+
+static void begin(Viewer *viewer, int number) {
+    viewer->fd = connected(number, viewer);
     char request[1024];
     int size = snprintf(request, sizeof request,
                         "GET %s HTTP/1.1\r\nHost: %s:%d\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
@@ -152,8 +163,6 @@ static void begin(Viewer *viewer, int number) {
                         given.paths[number % given.path_count], given.host, given.port, given.subprotocol);
     if (size >= (int)sizeof request) fail("the path is too long");
     if (send(viewer->fd, request, (size_t)size, 0) != size) fail("send: %s", strerror(errno));
-    struct epoll_event event = {.events = EPOLLIN, .data.ptr = viewer};
-    if (epoll_ctl(given.epoll, EPOLL_CTL_ADD, viewer->fd, &event)) fail("epoll: %s", strerror(errno));
 }
 
 static void pong(Viewer *viewer) {
@@ -285,6 +294,96 @@ static void watch(double seconds, double settle) {
            seen.lost, seen.closed, used / lasted);
 }
 
+/* Asking for blocks */
+
+typedef struct {
+    int fd;
+    bool asked;
+    double due;
+    char head[1024]; /* of the answer */
+    size_t head_size;
+    int64_t left;    /* of its body; -1 while its head is not whole */
+} Fetcher;
+
+static struct {
+    Times lasted;
+    uint64_t answers, bytes, other, behind;
+} fetched;
+
+static void ask(Fetcher *fetcher, int number, int block, double due) {
+    char request[1024];
+    int size = snprintf(request, sizeof request, "GET %s/%d HTTP/1.1\r\nHost: %s:%d\r\n\r\n",
+                        given.paths[number % given.path_count], block, given.host, given.port);
+    if (send(fetcher->fd, request, (size_t)size, MSG_DONTWAIT) != size) fail("send: %s", strerror(errno));
+    fetcher->asked = true;
+    fetcher->due = due;
+    fetcher->head_size = 0;
+    fetcher->left = -1;
+}
+
+static void take_answer(Fetcher *fetcher, const char *data, size_t size) {
+    size_t at = 0;
+    if (fetcher->left < 0) {
+        while (at < size && fetcher->left < 0) {
+            if (fetcher->head_size == sizeof fetcher->head - 1) fail("an answer's head is too long");
+            fetcher->head[fetcher->head_size++] = data[at++];
+            fetcher->head[fetcher->head_size] = 0;
+            if (fetcher->head_size < 4 || strcmp(fetcher->head + fetcher->head_size - 4, "\r\n\r\n")) continue;
+            const char *length = strcasestr(fetcher->head, "\r\ncontent-length:");
+            if (!length) fail("an answer has no length: %s", fetcher->head);
+            fetcher->left = atoll(length + 17);
+            if (strncmp(fetcher->head, "HTTP/1.1 200", 12)) fetched.other++;
+            fetched.bytes += (uint64_t)fetcher->left;
+        }
+    }
+    fetcher->left -= (int64_t)(size - at);
+    if (fetcher->left == 0) {
+        fetched.answers++;
+        add(&fetched.lasted, now_s() - fetcher->due);
+        fetcher->asked = false;
+    }
+}
+
+/* Ask and take answers until a time; the viewers take turns from `begun` on. */
+static void fetch_until(Fetcher *fetchers, double begun, double until, int blocks, uint64_t *turn) {
+    static char data[READ_BYTES];
+    struct epoll_event events[EVENTS];
+    for (double now = now_s(); now < until; now = now_s()) {
+        for (double due; (due = begun + (double)*turn / given.viewers) <= now; ++*turn) {
+            int number = (int)(*turn % (uint64_t)given.viewers);
+            if (fetchers[number].asked) fetched.behind++;
+            else ask(&fetchers[number], number, (int)(due - begun) % blocks, due);
+        }
+        int ready = epoll_wait(given.epoll, events, EVENTS, 0);
+        if (!ready) nanosleep(&LOOKING, NULL);
+        for (int i = 0; i < ready; i++) {
+            Fetcher *fetcher = events[i].data.ptr;
+            ssize_t size = recv(fetcher->fd, data, sizeof data, MSG_DONTWAIT);
+            if (size > 0) take_answer(fetcher, data, (size_t)size);
+            else if (size == 0 || errno != EAGAIN) fail("a connection was closed");
+        }
+    }
+}
+
+static void fetch(double seconds, double settle, int blocks) {
+    Fetcher *fetchers = calloc((size_t)given.viewers, sizeof *fetchers);
+    uint64_t turn = 0;
+    given.epoll = epoll_create1(0);
+    for (int i = 0; i < given.viewers; i++) fetchers[i].fd = connected(i, &fetchers[i]);
+    printf("joined\n");
+    double begun = now_s();
+    fetch_until(fetchers, begun, begun + settle, blocks, &turn);
+    memset(&fetched, 0, sizeof fetched);
+    double used = cpu_s(), measured = now_s();
+    printf("measuring\n");
+    fetch_until(fetchers, begun, measured + seconds, blocks, &turn);
+    printf("{\"viewers\": %d, \"seconds\": %.3f, \"answers\": %lu, \"bytes\": %lu, ", given.viewers,
+           now_s() - measured, fetched.answers, fetched.bytes);
+    print_times("lasted", &fetched.lasted);
+    printf("\"other\": %lu, \"behind\": %lu, \"cpu\": %.4f}\n", fetched.other, fetched.behind,
+           (cpu_s() - used) / (now_s() - measured));
+}
+
 static void send_all(int viewers, size_t bytes, double rate) {
     int on = 1, *fds = calloc((size_t)viewers, sizeof *fds), listening = socket(AF_INET, SOCK_STREAM, 0);
     struct sockaddr_in address = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
@@ -344,6 +443,13 @@ int main(int count, char **words) {
         given.path_count = count - 10;
         if (given.path_count < 1) fail("a path is needed");
         watch(atof(words[5]), atof(words[6]));
+    } else if (count > 8 && !strcmp(words[1], "fetch")) {
+        given.host = words[2];
+        given.port = atoi(words[3]);
+        given.viewers = atoi(words[4]);
+        given.paths = words + 8;
+        given.path_count = count - 8;
+        fetch(atof(words[5]), atof(words[6]), atoi(words[7]));
     } else if (count == 5 && !strcmp(words[1], "send")) {
         send_all(atoi(words[2]), (size_t)atol(words[3]), atof(words[4]));
     } else {

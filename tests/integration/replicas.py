@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 import httpx
+import numpy as np
+import websockets
 from tests.integration.server import Owned, Running, serve
 from tests.servers.redis import Redis, redis_server
 
+from reina.protocol import SUBPROTOCOL
+from reina.protocol.frame import HEADER
+
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Callable, Generator
     from pathlib import Path
     from typing import Any
 
@@ -71,3 +77,36 @@ def replicas(
 async def control(owned: Owned, action: str, **fields: Any) -> dict[str, Any]:
     """Use the transport, beside what goes on on the loop."""
     return await asyncio.to_thread(owned.control, action, **fields)
+
+
+class Fan:
+    """Somebody who watches through nginx, and comes again as the page does when the connection breaks."""
+
+    def __init__(self, address: str) -> None:
+        self._address = address
+        self.connections = 0
+        self.offsets_s: list[float] = []
+        """Of each message: the server time at which song time 0 would be due."""
+        self.song_time_s = -1.0
+
+    async def watch(self) -> None:
+        """Watch until it is cancelled."""
+        while True:
+            with contextlib.suppress(websockets.WebSocketException, OSError):
+                async with websockets.connect(
+                    self._address, subprotocols=[websockets.Subprotocol(SUBPROTOCOL)], max_size=None
+                ) as socket:
+                    self.connections += 1
+                    async for message in socket:
+                        if isinstance(message, bytes):
+                            header = np.frombuffer(message[: HEADER.itemsize], HEADER)[0]
+                            self.song_time_s = float(header["song_time_s"])
+                            self.offsets_s.append(float(header["due_time_s"]) - self.song_time_s)
+            await asyncio.sleep(0.25)
+
+
+async def all_have(fans: list[Fan], met: Callable[[Fan], bool]) -> None:
+    """Wait until something holds of all of them."""
+    async with asyncio.timeout(60):
+        while not all(map(met, fans)):  # noqa: ASYNC110 - it is looked at, as they are many
+            await asyncio.sleep(0.02)

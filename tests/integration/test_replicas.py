@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import httpx
 import numpy as np
 import pytest
-import websockets
 from tests.integration.killed import LIGHT, light, move_light
-from tests.integration.replicas import Replicas, control, replicas
+from tests.integration.replicas import Fan, Replicas, all_have, control, replicas
 from tests.integration.scores import scale, show, song
 from tests.integration.server import upload
 from tests.integration.test_alignment import NAME, recording
 from tests.integration.watching import watch
 from tests.servers.proxies import Proxy, replicas_proxy
 from tests.unit.sound.alignment.renditions import SCORES
-
-from reina.protocol import SUBPROTOCOL
-from reina.protocol.frame import HEADER
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -223,32 +218,6 @@ def test_a_score_is_looked_for_in_its_song_by_one(two: Replicas) -> None:
     made.change("DELETE")
 
 
-class Fan:
-    """Somebody who watches through nginx, and comes again as the page does when the connection breaks."""
-
-    def __init__(self, address: str) -> None:
-        self._address = address
-        self.connections = 0
-        self.offsets_s: list[float] = []
-        """Of each message: the server time at which song time 0 would be due."""
-        self.song_time_s = -1.0
-
-    async def watch(self) -> None:
-        """Watch until it is cancelled."""
-        while True:
-            with contextlib.suppress(websockets.WebSocketException, OSError):
-                async with websockets.connect(
-                    self._address, subprotocols=[websockets.Subprotocol(SUBPROTOCOL)], max_size=None
-                ) as socket:
-                    self.connections += 1
-                    async for message in socket:
-                        if isinstance(message, bytes):
-                            header = np.frombuffer(message[: HEADER.itemsize], HEADER)[0]
-                            self.song_time_s = float(header["song_time_s"])
-                            self.offsets_s.append(float(header["due_time_s"]) - self.song_time_s)
-            await asyncio.sleep(0.25)
-
-
 def test_where_a_server_is_killed_all_go_on_at_another(tmp_path: Path, postgresql_server: PostgreSQL) -> None:
     async def scenario(made: Replicas, through: Proxy) -> None:
         with httpx.Client(base_url=through.address, timeout=30.0) as client:
@@ -279,10 +248,3 @@ def test_where_a_server_is_killed_all_go_on_at_another(tmp_path: Path, postgresq
         ports = [int(server.address.rpartition(":")[2]) for server in made.servers]
         with replicas_proxy(ports, tmp_path) as through:
             asyncio.run(scenario(made, through))
-
-
-async def all_have(fans: list[Fan], met: Callable[[Fan], bool]) -> None:
-    """Wait until something holds of all of them."""
-    async with asyncio.timeout(60):
-        while not all(map(met, fans)):  # noqa: ASYNC110 - it is looked at, as they are many
-            await asyncio.sleep(0.02)

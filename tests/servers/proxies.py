@@ -26,7 +26,8 @@ daemon off;
 {user}
 pid {folder}/pid;
 error_log stderr;
-events {{ worker_connections 1024; }}
+worker_rlimit_nofile {files};
+events {{ worker_connections {files}; }}
 http {{
     client_body_temp_path {folder}/body;
     proxy_temp_path {folder}/proxy;
@@ -102,16 +103,16 @@ def nginx_command(folder: Path, port: int, upstream: int, certificate: Path, key
     return nginx(folder)
 
 
-def nginx(folder: Path) -> list[str]:
-    """What starts nginx with the configuration that is in a folder."""
+def nginx(folder: Path, files: int = 1024) -> list[str]:
+    """What starts nginx with the configuration that is in a folder, and how many files it may have open."""
     # What is only for who runs the tests its workers could not keep blocks in.
     user = "user root;" if os.geteuid() == 0 else ""
-    (folder / "nginx.conf").write_text(NGINX_MAIN.format(folder=folder, user=user))
+    (folder / "nginx.conf").write_text(NGINX_MAIN.format(folder=folder, user=user, files=files))
     return [program("nginx"), "-p", str(folder), "-c", str(folder / "nginx.conf"), "-e", "stderr"]
 
 
 @contextmanager
-def replicas_proxy(upstream_ports: list[int], folder: Path) -> Generator[Proxy]:
+def replicas_proxy(upstream_ports: list[int], folder: Path, *, files: int = 1024) -> Generator[Proxy]:
     """Start nginx in front of several servers, as `deploy/replicas.conf` has it but for names and places."""
     port = free_port()
     servers = "".join(f"    server 127.0.0.1:{each} fail_timeout=2s;\n" for each in upstream_ports)
@@ -120,11 +121,11 @@ def replicas_proxy(upstream_ports: list[int], folder: Path) -> Generator[Proxy]:
         (DEPLOY / "replicas.conf").read_text(),
         (both, servers),
         ("    listen 8080;\n", f"    listen 127.0.0.1:{port};\n"),
-        ("/var/log/nginx/reina.log", str(folder / "access")),
+        ("/dev/stdout", str(folder / "access")),
         ("/var/cache/nginx/reina", str(folder / "cache")),
     )
     (folder / "reina.conf").write_text(config)
-    with running([*nginx(folder)], port, folder):
+    with running(nginx(folder, files), port, folder):
         yield Proxy("nginx", f"http://127.0.0.1:{port}", folder / "none", folder)
 
 
