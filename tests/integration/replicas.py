@@ -48,7 +48,12 @@ class Replicas:
 
 @contextmanager
 def replicas(
-    folder: Path, postgresql: PostgreSQL, count: int = 2, *, settings: dict[str, Any] | None = None
+    folder: Path,
+    postgresql: PostgreSQL,
+    count: int = 2,
+    *,
+    page: bool = False,
+    settings: dict[str, Any] | None = None,
 ) -> Generator[Replicas]:
     """Start servers; what they log goes into files beside their data."""
     database = postgresql.database()
@@ -64,7 +69,7 @@ def replicas(
             server = held.enter_context(
                 serve(
                     folder / f"data-{number}",
-                    "--no-page",
+                    *([] if page else ["--no-page"]),
                     log=folder / f"log-{number}",
                     settings=shared | (settings or {}),
                 )
