@@ -23,7 +23,7 @@ from tests.integration.server import PATIENCE_S
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-FOLDERS = ("/opt/reina", "/src", "/data")
+FOLDERS = ("/opt/reina", "/src", "/data", "/files")
 """What the image has of its own; everything else in its commands is the base's."""
 
 
