@@ -3,7 +3,7 @@
 import { BufferAttribute, InstancedBufferGeometry } from "three";
 
 /** Metres. */
-export const BLOCK = { height: 0.066, thickness: 0.02, edge: 0.006 } as const;
+export const BLOCK = { height: 0.034, thickness: 0.007, edge: 0.0034 } as const;
 
 /** Points of the cross-section's outline: a rectangle with rounded corners, in (height, thickness), with its normals. */
 export function outline(corner: number): { v: number; w: number; nv: number; nw: number }[] {

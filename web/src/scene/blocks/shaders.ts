@@ -123,65 +123,65 @@ void main() {
   vec3 soundingColor = vSoundingColor;
   vec3 body = playable ? color : mix(color, vec3(dot(color, vec3(0.3333))), 0.7) * 0.5;
 
-  // Lacquer: a matt body under a clear coat that catches the window.
-  float wrapped = 0.5 + 0.5 * dot(normal, toKey);
-  float sky = 0.5 + 0.5 * normal.y;
-  vec3 light = vec3(1.0, 0.9, 0.76) * wrapped * wrapped * 0.62 + vec3(0.44, 0.45, 0.48) * sky;
-  float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
-  float glint = pow(max(dot(normal, normalize(toKey + eye)), 0.0), 90.0);
-  vec3 mirrored = reflect(-eye, normal);
-  float window = smoothstep(0.15, 0.5, dot(mirrored, toKey)) * smoothstep(-0.1, 0.15, mirrored.y) * 0.05;
-  vec3 shaded = body * light + vec3(1.0, 0.9, 0.75) * (0.25 * fresnel + glint + window);
-
   // From the edge of the face inward, metres.
   float fromEnds = min(vInside.x, vLength - vInside.x);
   float fromSides = ${f(BLOCK.height / 2)} - abs(vInside.y);
   float inward = min(fromEnds, fromSides);
   float facing = smoothstep(0.6, 0.9, abs(vFace.z));
+  float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
+  float pixel = max(fwidth(vInside.y), 1e-5);
+
+  // A ribbon of tinted glass with little light in it: quiet until it sounds, and still seen before window and board.
+  float rim = pow(1.0 - abs(dot(normal, eye)), 3.0);
+  float lamp = 0.5 + 0.5 * dot(normal, toKey);
+  vec3 quiet = body * (0.34 + 0.2 * lamp + 0.1 * core) + vec3(1.0, 0.92, 0.8) * 0.12 * rim;
+  // A fine bright line along both edges holds its shape.
+  float brim = 1.0 - smoothstep(0.0016, 0.0016 + max(0.002, pixel), fromSides);
+  quiet = mix(quiet, body * 0.85 + 0.05, 0.65 * brim * facing);
 
   // Lit from within, in its own colour: deeper toward the edge, as in a lantern, and never so bright that it turns white.
-  float core = smoothstep(0.0, ${f(BLOCK.height / 2)}, inward);
   float warmth = glow / (1.0 + 0.5 * glow);
   float peak = max(max(soundingColor.r, soundingColor.g), max(soundingColor.b, 0.05));
   vec3 deep = soundingColor * soundingColor / peak;
-  vec3 lit = mix(deep * deep / peak, mix(deep, soundingColor, 0.35 * core), 0.35 + 0.65 * core);
-  lit = lit * (0.35 + 0.75 * warmth * (0.55 + 0.45 * core)) + 0.12 * shaded;
-  vec3 surface = mix(shaded, lit, vSounding);
-  // A dark line about the face: the block keeps its body before a bright window and in its own light.
-  float line = 1.0 - smoothstep(0.0012, 0.0012 + max(0.0016, fwidth(vInside.y)), inward);
-  surface *= 1.0 - 0.6 * line * facing;
+  vec3 lit = mix(deep, mix(deep, soundingColor, 0.6), core);
+  lit *= 0.5 + 0.95 * warmth * (0.6 + 0.4 * core);
+  // Brightest where it is heard: at the bell.
+  lit *= 1.0 + 0.35 * exp(-vInside.x / 0.06);
+  vec3 surface = mix(quiet, lit, vSounding);
+  alpha *= mix(0.62 + 0.25 * brim + 0.13 * rim, 1.0, vSounding);
+  // A dark hair about the face: the ribbon keeps its shape before a bright window and in its own light.
+  float line = 1.0 - smoothstep(0.0005, 0.0005 + max(0.0008, pixel), inward);
+  surface *= 1.0 - 0.55 * line * facing;
 
-  float pixel = max(fwidth(vInside.y), 1e-5);
-  // Three valves in a column at the note's beginning, the first on top: it holds from either side. They stand on ink,
-  // to be told apart on a block of any colour.
-  float radius = min(0.0088, 0.34 * vLength);
-  vec2 fromColumn = vInside - vec2(min(0.0185, 0.5 * vLength), 0.0);
-  vec2 overColumn = vec2(fromColumn.x, fromColumn.y - clamp(fromColumn.y, -0.0202, 0.0202));
-  float plate = 1.0 - smoothstep(-pixel, pixel, length(overColumn) - radius - 0.0028);
   bool struck = vMask > 15.5 && vMask < 31.5;
   if (struck) {
     // One disc for a hand, a ring for a foot; the right side gold, the left blue, as R and L have on a sheet.
     float away = length(vInside - vec2(0.5 * vLength, 0.0));
-    float size = min(0.0135, 0.42 * vLength);
+    float size = min(0.0115, 0.42 * vLength);
     bool right = mod(vMask + 0.5, 2.0) > 1.0;
     bool hand = mod(floor((vMask + 0.5) / 2.0), 2.0) > 0.5;
-    float ground = 1.0 - smoothstep(-pixel, pixel, away - size - 0.004);
+    float ground = 1.0 - smoothstep(-pixel, pixel, away - size - 0.003);
     float disc = 1.0 - smoothstep(-pixel, pixel, away - size);
     float hole = hand ? 0.0 : 1.0 - smoothstep(-pixel, pixel, away - 0.55 * size);
-    surface = mix(surface, INK, 0.94 * ground * facing);
+    surface = mix(surface, INK, 0.9 * ground * facing);
     surface = mix(surface, right ? 1.35 * valveColor(2) : 2.6 * valveColor(1), disc * (1.0 - hole) * facing);
+    alpha = mix(alpha, opacity * vSight, ground * facing);
   } else if (marked) {
-    surface = mix(surface, INK, 0.94 * plate * facing);
-  }
-  for (int valve = 0; valve < 3; valve++) {
-    float away = length(fromColumn - vec2(0.0, (1.0 - float(valve)) * 0.0202));
-    bool down = mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
-    float disc = 1.0 - smoothstep(-pixel, pixel, away - radius);
-    float ring = disc * smoothstep(-pixel, pixel, away - radius + max(0.0024, 0.8 * pixel));
-    vec3 mark = down ? valveColor(valve) * (valve == 1 ? 2.2 : 1.35) : PAPER;
-    // The rings of an open note are whole paper; beside a pressed valve they step back.
-    float share = down ? disc : ring * (vMask < 0.5 ? 1.0 : 0.45);
-    if (marked && !struck) surface = mix(surface, mark, share * facing);
+    // Three valves as beads in the ribbon, the first nearest the bell: a pressed one is light in a quiet ribbon and
+    // ink in one that sounds; one that is up is a point.
+    float apart = min(0.0235, 0.27 * vLength);
+    float radius = min(0.0098, 0.4 * apart);
+    for (int valve = 0; valve < 3; valve++) {
+      float away = length(vInside - vec2(apart * (0.78 + float(valve)), 0.0));
+      bool down = mod(floor((vMask + 0.5) / exp2(float(valve))), 2.0) > 0.5;
+      float size = down ? radius : 0.3 * radius;
+      float bead = (1.0 - smoothstep(-pixel, pixel, away - size)) * facing;
+      float ring = (1.0 - smoothstep(-pixel, pixel, away - size - 0.0022)) * facing;
+      vec3 mark = mix(mix(PAPER, 1.5 * valveColor(valve), 0.25), INK, vSounding);
+      surface = mix(surface, mix(INK, lit, vSounding), (down ? 0.8 : 0.0) * ring);
+      surface = mix(surface, mark, (down ? 1.0 : 0.75) * bead);
+      alpha = mix(alpha, opacity * vSight, down ? ring : bead);
+    }
   }
   // A line along the block for the second player, two for the third: hue does not speak alone.
   float grooves = floor(vLane + 0.5);
