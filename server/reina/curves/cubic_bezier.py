@@ -53,7 +53,8 @@ def _parameter_at(x: FloatArray, x1: FloatArray, x2: FloatArray) -> FloatArray:
         slope = (3.0 * a * s + 2.0 * b) * s + c
         divisor = 2.0 * slope * slope - error * (6.0 * a * s + 2.0 * b)
         step = 2.0 * error * slope / np.where(divisor == 0.0, np.inf, divisor)
-        s = np.minimum(np.maximum(s - step, 0.0), 1.0)
+        # What is close enough stays, so that no bit of it depends on what else is asked for.
+        s = np.where(far, np.minimum(np.maximum(s - step, 0.0), 1.0), s)
     left = np.flatnonzero(np.abs(((a * s + b) * s + c) * s - x) > _CLOSE_ENOUGH)
     if left.size:
         s[left] = _halved(x[left], a[left], b[left], c[left])

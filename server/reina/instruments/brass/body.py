@@ -155,13 +155,12 @@ class BrassBody:
         held[:, 0] = standing.points[:, 0] - held[:, 0]
         held[:, 1:] += held[:, :1]
         elbows = standing.elbows
-        for place, motion in enumerate(motions):
-            if motion.lowered.any():
-                own = slice(place * frames, (place + 1) * frames)
-                shoulders = standing.limbs[own, :2]
-                instrument[own], held[own], elbows[own] = _lower(
-                    motion.lowered, shoulders, instrument[own], held[own], elbows[own]
-                )
+        lowered = joined([motion.lowered for motion in motions])
+        down = np.flatnonzero(lowered)
+        if len(down):
+            instrument[down], held[down], elbows[down] = _lower(
+                lowered[down], standing.limbs[down, :2], instrument[down], held[down], elbows[down]
+            )
         valves = curves[self._valve_rows].T
         lifts = (curves[self._lift_rows] * joined([motion.amounts["finger_lift"] for motion in motions])).T
         fingers = self._fingers.solve(valves, lifts, shifts)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.kinematics import FingerChains
-from reina.rotations import conjugate, rotate
+from reina.rotations import conjugate, product, rotate
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
@@ -67,5 +67,5 @@ class PressingFingers:
             shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
         """
         targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
-        rotations, _ = self.chains.solve_at_rest(targets - (shifts @ self._shift).reshape(targets.shape))
+        rotations, _ = self.chains.solve_at_rest(targets - product(shifts, self._shift).reshape(targets.shape))
         return rotations
