@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
     from reina.show import ShowPlan
 
+PLAYERS_BLOCKS_AT_ONCE = 4
+"""Of one player so many blocks are gladly evaluated at once, of several as many less."""
 TAIL_S = 4.0
 """After the score's end the players settle for so long; then the last frame holds."""
 
@@ -62,6 +64,11 @@ class Performance:
         other = copy.copy(self)
         other._direct(show_plan)
         return other
+
+    @property
+    def blocks_at_once(self) -> int:
+        """How many blocks are gladly evaluated at once: more cost less each, but hold up who waits for another."""
+        return max(1, PLAYERS_BLOCKS_AT_ONCE // max(1, len(self.performers)))
 
     def evaluate(self, block: int) -> FrameBlock:
         """Frames 60·block to 60·block + 59.

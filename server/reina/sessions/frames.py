@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import math
 import threading
+import time
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
@@ -144,14 +146,7 @@ class EncodedFrames:
         with self._evaluating:
             frames = self._kept_block(number)
             if frames is None:
-                with EVALUATION.time():
-                    frames = encode_block(self.manifest, self._performance.evaluate(number))
-                frames.flags.writeable = False
-                self._blocks[number] = frames
-                self._together.add(self, frames.nbytes)
-                while len(self._blocks) > self._most_kept():
-                    _, gone = self._blocks.popitem(last=False)
-                    self._together.add(self, -gone.nbytes)
+                frames = self._evaluate(number)
             return frames
 
     def span(self, first: int, last: int) -> Frames:
@@ -189,6 +184,32 @@ class EncodedFrames:
     def weight(self) -> int:
         """How many bytes the blocks that are kept have."""
         return self._together.of(self)
+
+    def _evaluate(self, number: int) -> Frames:
+        """Evaluate a block, and some of those after it; the frames of the first."""
+        begun_s = time.perf_counter()
+        blocks = self._performance.evaluate_blocks(number, self._at_once(number))
+        made = [encode_block(self.manifest, block) for block in blocks]
+        spent_s = time.perf_counter() - begun_s
+        for place, frames in enumerate(made):
+            EVALUATION.observe(spent_s / len(made))
+            frames.flags.writeable = False
+            self._blocks[number + place] = frames
+            self._together.add(self, frames.nbytes)
+        while len(self._blocks) > self._most_kept():
+            _, gone = self._blocks.popitem(last=False)
+            self._together.add(self, -gone.nbytes)
+        return made[0]
+
+    def _at_once(self, number: int) -> int:
+        """How many blocks are evaluated from one on.
+
+        What is shown first after a seek or an edit comes alone, as fast as may be. As more and more blocks
+        are there that come just before, somebody plays on, and several at once cost less each.
+        """
+        before = next(count for count in itertools.count() if number - count - 1 not in self._blocks)
+        most = max(1, min(before, self._performance.blocks_at_once, self._most_kept() - 1))
+        return next((count for count in range(1, most) if number + count in self._blocks), most)
 
     def _most_kept(self) -> int:
         return min(self._kept, FEWEST_KEPT) if self._together.is_over else self._kept
