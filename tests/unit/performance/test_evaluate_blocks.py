@@ -53,7 +53,9 @@ def performance(name: str) -> Performance:
 def track(parameter: Parameter) -> dict[str, Any]:
     """Keys at random times of all interpolations, which loop; and an answer to the notes."""
     random = np.random.default_rng(sum(parameter.path.encode()))
-    names = [name for name in interpolations_for(interpolates=parameter.interpolates) if name != "cubic_spline"]
+    names = [
+        name for name in interpolations_for(interpolates=parameter.interpolates) if name != "cubic_spline"
+    ]
     found: dict[str, Any] = {
         "parameter": parameter.path,
         "after": "loop",

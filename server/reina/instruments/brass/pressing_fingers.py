@@ -67,5 +67,7 @@ class PressingFingers:
             shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
         """
         targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
-        rotations, _ = self.chains.solve_at_rest(targets - product(shifts, self._shift).reshape(targets.shape))
+        rotations, _ = self.chains.solve_at_rest(
+            targets - product(shifts, self._shift).reshape(targets.shape)
+        )
         return rotations
