@@ -23,6 +23,7 @@ class SegmentTable:
         jumps: ``(S,)``.
         first: ``(C,)`` each channel's first row.
         easings: The easing functions in use; the first is linear.
+        easings_with_options: Those of them that have options other than 0.
         stretches: Formulas of their own, by row.
         has_stretch: ``(S,)`` whether a row is among them.
         quaternion_row: ``(S,)`` row in `quaternions`, or -1; ``(0,)`` where there are none.
@@ -45,6 +46,7 @@ class SegmentTable:
         self.rows = np.zeros((sum(sizes), self.origins.stop))
         self.jumps = np.zeros(sum(sizes), dtype=np.int64)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
+        self.easings_with_options: set[EaseIn] = set()
         self.stretches: dict[int, Stretch] = {}
         self.has_stretch = np.zeros(sum(sizes), dtype=np.bool_)
         splines = any(channel.quaternion_splines for channel in channels)
@@ -60,9 +62,10 @@ class SegmentTable:
         rows[:, self.begins] = channel.begins
         rows[:, self.durations] = channel.durations
         rows[:, self.directions] = channel.directions
-        rows[:, self.easing] = np.array([self._easing_index(easing) for easing in channel.easings])[
-            channel.easing
-        ]
+        codes = np.array([self._easing_index(easing) for easing in channel.easings])[channel.easing]
+        rows[:, self.easing] = codes
+        with_options = np.unique(codes[channel.options.any(axis=1)])
+        self.easings_with_options.update(self.easings[code] for code in with_options.tolist())
         width = channel.space.width
         rows[:, self.starts][:, :width] = channel.starts
         rows[:, self.deltas][:, :width] = channel.deltas
