@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.instruments.player.instrument_body import BodyFrames, FigureBody
+from reina.instruments.player.instrument_body import BodyFrames, FigureBody, FramewiseBody
 from reina.rotations import BLOCK_FRAMES
 
 if TYPE_CHECKING:
@@ -70,7 +70,8 @@ class Ensemble:
 def _solved(body: InstrumentBody, motion: BodyMotion) -> BodyFrames:
     """The poses of F frames, whole blocks one by one: what a body gives may depend on how many it is asked for."""
     frames = len(motion.times_s)
-    if frames <= BLOCK_FRAMES or frames % BLOCK_FRAMES:
+    framewise = isinstance(body, FramewiseBody) and body.is_framewise
+    if framewise or frames <= BLOCK_FRAMES or frames % BLOCK_FRAMES:
         return body.solve(motion)
     starts = range(0, frames, BLOCK_FRAMES)
     solved = [body.solve(motion.rows(slice(first, first + BLOCK_FRAMES))) for first in starts]

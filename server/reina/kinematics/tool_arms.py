@@ -161,20 +161,22 @@ class ToolArms:
             aside = GAIN * _beyond(np.arctan2(z, np.sqrt(x * x + y * y)), *self._deviation)
             if giving is not None:
                 up, aside, nearer = up * giving, aside * giving, nearer * giving
-            if not (up.any() or aside.any() or nearer.any()):
+            moved = (up != 0.0) | (aside != 0.0) | nearer.any(axis=0)
+            if not moved.any():
                 break  # all further rounds would be the same
             # The turn (up about the hand's z, aside about its y) × pointing, in the basis.
             turn = up * self._axes[2] - aside * self._axes[1]
             # And that by which the wrist comes nearer: (nearer × arm) × pointing / |arm|².
             pull = dot_columns(pointing, nearer)
-            pointing = (
+            turned = (
                 pointing
                 + turn[2] * basis[1]
                 - turn[1] * basis[2]
                 + pull * _weighted(basis, lever)
                 - lever[0] * nearer
             )
-            pointing = pointing / np.sqrt(dot_columns(pointing, pointing))
+            # Who has come to rest stays so, to the last bit, however many rounds others in the block take.
+            pointing = np.where(moved, turned / np.sqrt(dot_columns(turned, turned)), pointing)
         else:
             basis = _basis(pointing, backs)
             arm = _weighted(basis, wrist)

@@ -77,6 +77,16 @@ class InstrumentBody(Protocol):
 
 
 @runtime_checkable
+class FramewiseBody(InstrumentBody, Protocol):
+    """A body that may say that it is asked for many blocks at once, which costs less a block."""
+
+    @property
+    def is_framewise(self) -> bool:
+        """Whether a frame is the same to the last bit, whatever others it is solved with."""
+        ...
+
+
+@runtime_checkable
 class FigureBody(InstrumentBody, Protocol):
     """A body that poses for all players with an equal `figure` at once.
 
