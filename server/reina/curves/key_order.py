@@ -20,16 +20,15 @@ class KeyOrder:
     def __init__(self, times: Sequence[FloatArray]) -> None:
         count = len(times)
         every: FloatArray = np.concatenate([*times, np.zeros(0)])
-        order = every.argsort(kind="stable")
-        channel = np.repeat(np.arange(count), [one.size for one in times])
+        order = every.argsort()
         self._times: FloatArray = every[order]
-        self._channels: IntArray = channel[order]
+        self._channels = np.repeat(np.arange(count, dtype=np.int32), [one.size for one in times])[order]
         self._step = max(count, 1)
         stretch = np.arange(every.size) // self._step
         stretches = every.size // self._step + 1
         counts = np.bincount(self._channels + count * stretch, minlength=stretches * count)
         # Before each stretch of as many keys as there are channels, which each channel's have gone by.
-        self._before: IntArray = np.zeros((stretches + 1, count), dtype=np.int64)
+        self._before = np.zeros((stretches + 1, count), dtype=np.int32)
         np.cumsum(counts.reshape(stretches, count), axis=0, out=self._before[1:])
 
     def passed(self, times: FloatArray) -> IntArray:
@@ -46,7 +45,9 @@ class KeyOrder:
         stretch = begin // self._step
         first = self._channels[stretch * self._step : begin]
         at = times.searchsorted(self._times[begin:end])
-        steps = np.bincount(self._channels[begin:end] * times.size + at, minlength=count * times.size)
+        steps = np.bincount(
+            self._channels[begin:end] * np.int64(times.size) + at, minlength=count * times.size
+        )
         passed = steps.reshape(count, times.size)
         passed[:, 0] += self._before[stretch] + np.bincount(first, minlength=count)
         return passed.cumsum(axis=1)
