@@ -63,6 +63,7 @@ class ChannelBuilder:
         self.leaving = np.zeros_like(self.starts)
         self.arriving = np.zeros_like(self.starts)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
+        self.easings_with_options: set[EaseIn] = set()
         self.easing = np.zeros(self.count + 1, dtype=np.int16)
         self.directions = np.zeros(self.count + 1, dtype=np.int8)
         self.option_rows: list[tuple[IntArray, FloatArray]] = []
@@ -98,6 +99,7 @@ class ChannelBuilder:
             arriving=self.arriving if self.splines else none,
             origins=self.origins,
             easings=tuple(self.easings),
+            easings_with_options=frozenset(self.easings_with_options),
             easing=self.easing,
             directions=self.directions,
             options=options,
@@ -127,6 +129,7 @@ class ChannelBuilder:
                     cast("EasedKeyframe[Any]", self.keyframes[segment]) for segment in segments.tolist()
                 ]
                 self.option_rows.append((segments, option_rows(chosen)))
+                self.easings_with_options.add(kind.ease_in)
         self.easing[1:-1], self.directions[1:-1] = easing[place], directions[place]
         for kind in others:
             self._classify_uneased(kind, np.flatnonzero(place == places[kind]) + 1)

@@ -1,6 +1,5 @@
 """The segments of many channels in common rows."""
 
-import itertools
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -24,7 +23,7 @@ class SegmentTable:
         jumps: ``(S,)``.
         first: ``(C,)`` each channel's first row.
         easings: The easing functions in use; the first is linear.
-        easings_with_options: Those of them that have options other than 0.
+        easings_with_options: Those of them that take options.
         stretches: Formulas of their own, by row.
         has_stretch: ``(S,)`` whether a row is among them.
         quaternion_row: ``(S,)`` row in `quaternions`, or -1; ``(0,)`` where there are none.
@@ -45,66 +44,48 @@ class SegmentTable:
         next(places)
         self.starts, self.deltas, self.leaving, self.arriving, self.options, self.origins = places
         self.rows = np.zeros((sum(sizes), self.origins.stop))
-        self.jumps: IntArray = np.concatenate([np.zeros(0, np.int64), *(one.jumps for one in channels)])
+        self.jumps = np.zeros(sum(sizes), dtype=np.int64)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
+        self.easings_with_options = {easing for channel in channels for easing in channel.easings_with_options}
         self.stretches: dict[int, Stretch] = {}
         self.has_stretch = np.zeros(sum(sizes), dtype=np.bool_)
         splines = any(channel.quaternion_splines for channel in channels)
         self.quaternion_row = np.full(sum(sizes) if splines else 0, -1, dtype=np.int64)
         quaternions: list[FloatArray] = []
         for first, channel in zip(self.first.tolist(), channels, strict=True):
-            for segment, stretch in channel.stretches.items():
-                self.stretches[first + segment] = stretch
-                self.has_stretch[first + segment] = True
-            for segment, spline in channel.quaternion_splines.items():
-                self.quaternion_row[first + segment] = len(quaternions)
-                quaternions.append(spline)
+            self._lay_out(first, channel, quaternions)
         self.quaternions = np.array(quaternions).reshape(-1, 4, 4)
-        first = 0
-        # Neighbours whose rows are as wide are laid out in one go.
-        for _, alike in itertools.groupby(channels, key=_widths):
-            group = list(alike)
-            end = first + sum(channel.begins.size for channel in group)
-            self._lay_out(self.rows[first:end], group)
-            first = end
-        with_options = self.rows[:, self.options].any(axis=1)
-        self.easings_with_options = {
-            self.easings[int(code)] for code in np.unique(self.rows[with_options, self.easing])
-        }
 
-    def _lay_out(self, rows: FloatArray, channels: Sequence[Channel]) -> None:
-        """Fill the rows of channels of one width."""
-        width, turning = channels[0].space.width, channels[0].space.length == 4
-        columns: list[tuple[slice, list[FloatArray]]] = [
-            (slice(self.begins, self.begins + 1), [one.begins[:, None] for one in channels]),
-            (slice(self.durations, self.durations + 1), [one.durations[:, None] for one in channels]),
-            (slice(self.directions, self.directions + 1), [one.directions[:, None] for one in channels]),
-            (slice(self.easing, self.easing + 1), [self._easing_codes(one)[:, None] for one in channels]),
-            (self.starts, [one.starts for one in channels]),
-            (self.deltas, [one.deltas for one in channels]),
-            (self.leaving, [one.leaving for one in channels]),
-            (self.arriving, [one.arriving for one in channels]),
-            (self.options, [one.options for one in channels]),
+    def _lay_out(self, first: int, channel: Channel, quaternions: list[FloatArray]) -> None:
+        here = slice(first, first + channel.begins.size)
+        rows = self.rows[here]
+        rows[:, self.begins] = channel.begins
+        rows[:, self.durations] = channel.durations
+        rows[:, self.directions] = channel.directions
+        rows[:, self.easing] = np.array([self._easing_index(easing) for easing in channel.easings])[
+            channel.easing
         ]
-        if turning:
-            columns.append((self.origins, [one.origins for one in channels]))
-        for place, parts in columns:
-            if place.stop > place.start:
-                into = rows[:, place]
-                np.concatenate(parts, out=into[:, : parts[0].shape[1]])
-
-    def _easing_codes(self, channel: Channel) -> IntArray:
-        """Each segment's index into `easings`."""
-        return np.array([self._easing_index(easing) for easing in channel.easings])[channel.easing]
+        width = channel.space.width
+        rows[:, self.starts][:, :width] = channel.starts
+        rows[:, self.deltas][:, :width] = channel.deltas
+        if self.leaving.stop > self.leaving.start:
+            rows[:, self.leaving][:, :width] = channel.leaving
+            rows[:, self.arriving][:, :width] = channel.arriving
+        rows[:, self.options][:, : channel.options.shape[1]] = channel.options
+        if channel.space.length == 4:
+            rows[:, self.origins] = channel.origins
+        self.jumps[here] = channel.jumps
+        for segment, stretch in channel.stretches.items():
+            self.stretches[first + segment] = stretch
+            self.has_stretch[first + segment] = True
+        for segment, spline in channel.quaternion_splines.items():
+            self.quaternion_row[first + segment] = len(quaternions)
+            quaternions.append(spline)
 
     def _easing_index(self, easing: EaseIn) -> int:
         if easing not in self.easings:
             self.easings.append(easing)
         return self.easings.index(easing)
-
-
-def _widths(channel: Channel) -> tuple[int, int, int]:
-    return channel.space.width, channel.space.length, channel.options.shape[1]
 
 
 def _side_by_side(widths: Iterator[int]) -> Iterator[slice]:

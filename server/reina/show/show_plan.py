@@ -51,7 +51,7 @@ class ShowPlan:
         """Say which channel goes into which columns of the values."""
         layout = self.registry.layout()
         lines = [line for plan in tracks for line in _lines(plan, layout[plan.parameter.path][0])]
-        lines.sort(key=lambda line: (ChannelBank.rank(line[1]), line[1].space.width))
+        lines.sort(key=lambda line: ChannelBank.rank(line[1]))
         units = [TIME_UNITS.index(plan.track.time) for _, _, plan in lines]
         self._bank = ChannelBank([channel for _, channel, _ in lines], units)
         self._blending = np.array([plan.parameter.blend for _, _, plan in lines], dtype=np.bool_)
