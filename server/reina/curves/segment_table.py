@@ -46,7 +46,9 @@ class SegmentTable:
         self.rows = np.zeros((sum(sizes), self.origins.stop))
         self.jumps = np.zeros(sum(sizes), dtype=np.int64)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
-        self.easings_with_options = {easing for channel in channels for easing in channel.easings_with_options}
+        self.easings_with_options = {
+            easing for channel in channels for easing in channel.easings_with_options
+        }
         self.stretches: dict[int, Stretch] = {}
         self.has_stretch = np.zeros(sum(sizes), dtype=np.bool_)
         splines = any(channel.quaternion_splines for channel in channels)

@@ -68,7 +68,7 @@ class Ensemble:
 
 
 def _solved(body: InstrumentBody, motion: BodyMotion) -> BodyFrames:
-    """The poses of F frames, whole blocks one by one: what a body gives may depend on how many it is asked for."""
+    """The poses of F frames, block by block unless a body says that it may be asked for many at once."""
     frames = len(motion.times_s)
     framewise = isinstance(body, FramewiseBody) and body.is_framewise
     if framewise or frames <= BLOCK_FRAMES or frames % BLOCK_FRAMES:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.kinematics.status import SolveStatus, StatusArray
 from reina.kinematics.columns import columns, cross_columns, dot_columns, rows
+from reina.kinematics.status import SolveStatus, StatusArray
 from reina.rotations import cross, dot, from_matrix, multiply, rotate
 from reina.skeleton import RigError
 

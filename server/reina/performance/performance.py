@@ -67,7 +67,7 @@ class Performance:
 
     @property
     def blocks_at_once(self) -> int:
-        """How many blocks are gladly evaluated at once: more cost less each, but hold up who waits for another."""
+        """How many blocks are gladly evaluated at once: more cost less each, and hold up who waits."""
         return max(1, PLAYERS_BLOCKS_AT_ONCE // max(1, len(self.performers)))
 
     def evaluate(self, block: int) -> FrameBlock:
@@ -81,7 +81,7 @@ class Performance:
     def evaluate_blocks(self, first: int, count: int) -> list[FrameBlock]:
         """Blocks `first` to `first` + `count` - 1, each to the last bit as `evaluate` gives it.
 
-        Several at once cost less: a good part of a block's time is spent on calling NumPy, whatever their number.
+        Several at once cost less each, since a good part of the time is that of calling NumPy at all.
 
         Raises:
             ValueError: The first block is negative.

@@ -1,7 +1,6 @@
 """Blocks that are evaluated together are to the last bit those that are evaluated one by one."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
