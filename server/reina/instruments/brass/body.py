@@ -118,7 +118,7 @@ class BrassBody:
         self._mute = Mute(engagement.score, engagement.played.line, engagement.registry, engagement.prefix)
         self.figure = (rig, horn, engagement.hold, curves.names)
         """What a pose depends on beside the motion; rigs and holds are equal to themselves alone."""
-        # Moving joints are written first, then the instrument, then what holds still; all are then put in order.
+        # What moves is written first, then the instrument, then what holds still; then all is put in order.
         moving, joints = self._body.moving, len(self._body.still)
         still = np.setdiff1d(np.arange(joints), moving)
         self._still = self._body.still[still].astype(np.float32)
