@@ -119,7 +119,9 @@ class ChannelBank:
         changes[:1] = True
         np.not_equal(segment[1:], segment[:-1], out=changes[1:])
         starts = np.flatnonzero(changes)
-        run = np.arange(starts.size).repeat(np.diff(starts, append=segment.size))
+        run = np.zeros(segment.size, dtype=np.int64)
+        run[starts[1:]] = 1
+        run = run.cumsum()
         rows = table.rows.take(segment.take(starts), axis=0)
         columns = np.ascontiguousarray(rows.T)
         u = (t - columns[table.begins].take(run)) / columns[table.durations].take(run)
