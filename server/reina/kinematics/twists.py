@@ -41,8 +41,8 @@ class TwistHelpers:
         """The helpers' local rotations ``(..., T, 4)`` for the sources' local rotations ``(..., T, 4)``."""
         given = np.asarray(source_rotations, dtype=np.float64)
         q = columns(given.reshape(math.prod(given.shape[:-2]), *given.shape[-2:]))
-        read: FloatArray = np.add.reduce(self._read * q, axis=1)
-        x, w = read[0], read[1]
+        x: FloatArray = np.add.reduce(self._read[0] * q)
+        w: FloatArray = np.add.reduce(self._read[1] * q)
         # Half the twist's angle, the short way round.
         half = np.arctan2(np.where(w < 0.0, -x, x), np.abs(w)) * self._fractions
         return rows(np.cos(half) * self._rest + np.sin(half) * self._turned).reshape(given.shape)
