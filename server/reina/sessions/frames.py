@@ -211,7 +211,8 @@ class EncodedFrames:
         are there that come just before, somebody plays on, and several at once cost less each.
         """
         before = next(count for count in itertools.count() if number - count - 1 not in self._blocks)
-        most = max(1, min(max(before, needed), self._performance.blocks_at_once, self._most_kept() - 1))
+        ahead = min(before, self._performance.blocks_at_once)
+        most = max(1, min(max(ahead, needed), self._most_kept() - 1))
         return next((count for count in range(1, most) if number + count in self._blocks), most)
 
     def _most_kept(self) -> int:

@@ -78,7 +78,11 @@ class NumberedPerformance:
     threads: list[str] = field(default_factory=list[str])
     blocks_at_once: int = 4
 
+    spans: list[int] = field(default_factory=list[int])
+    """How many blocks were asked for each time."""
+
     def evaluate_blocks(self, first: int, count: int) -> list[Block]:
+        self.spans.append(count)
         return [self.evaluate(block) for block in range(first, first + count)]
 
     def evaluate(self, block: int) -> Block:

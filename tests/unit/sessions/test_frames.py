@@ -47,6 +47,14 @@ def test_the_first_block_comes_alone_and_more_at_once_as_somebody_plays_on() -> 
     assert spans == [[20], [21], [22, 23], [24, 25, 26, 27], [], [31], [50], [51]]
 
 
+def test_all_that_a_seek_needs_is_evaluated_at_once_however_many_play() -> None:
+    performance = NumberedPerformance(blocks_at_once=1)
+    frames = encoded(performance)
+    asyncio.run(frames.ready(9.9, 10.2))
+    assert performance.evaluated == [9, 10]
+    assert performance.spans == [2]
+
+
 def test_what_is_there_is_not_evaluated_again_with_others() -> None:
     performance = NumberedPerformance()
     frames = encoded(performance)
