@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 RIGS = Path(__file__).parents[2] / "rigs"
 BLOCK_LENGTHS = (1, 6, 30, 60, 600)
+AT_ONCE = (1, 2, 4)
 HELD_S = 4.0
 CASTS = (1, 2, 4, 8)
 """How many play; a session has four at most, eight are for this measurement."""
@@ -173,6 +174,15 @@ def main() -> None:
 
         best, middle = microseconds(run, length, repetitions)
         print(f"{length:6d} {best:7.1f} {middle:7.1f}")
+
+    print("blocks at once   (evaluated, as they are ahead of their time, µs a frame)")
+    for count in AT_ONCE:
+        best, middle = microseconds(
+            lambda repetition, count=count: subject.evaluate_blocks(4 * (repetition % 100), count),
+            60 * count,
+            options.repetitions,
+        )
+        print(f"{count:6d} {best:7.1f} {middle:7.1f}")
 
     print("parts of a block of 60")
     without = performance(options.notes, tracks=0)

@@ -35,6 +35,7 @@ class Channel:
         arriving: ``(K + 1, W)`` slope at the end times the duration.
         origins: ``(K + 1, L)`` value at each segment's beginning, for `space`.
         easings: The ease-in functions in use; the first is linear.
+        easings_with_options: Those of them that take options.
         easing: ``(K + 1,)`` index into `easings`.
         directions: ``(K + 1,)`` codes of `DIRECTION_CODES`.
         options: ``(K + 1, Q)`` the ease-ins' options.
@@ -57,6 +58,7 @@ class Channel:
     arriving: FloatArray
     origins: FloatArray
     easings: tuple[EaseIn, ...]
+    easings_with_options: frozenset[EaseIn]
     easing: NDArray[np.int16]
     directions: NDArray[np.int8]
     options: FloatArray

@@ -14,6 +14,7 @@ from reina.curves.arrays import FloatArray, IntArray
 from reina.curves.channel import Channel
 from reina.curves.easings import EaseIn, Reflection
 from reina.curves.extrapolation import REPEATING, fold
+from reina.curves.key_order import KeyOrder
 from reina.curves.segment_table import SegmentTable
 from reina.curves.spaces import OKLAB, ORIENTATION
 from reina.curves.spline_keyframe import (
@@ -47,8 +48,12 @@ class Samples:
 class ChannelBank:
     """C channels: first all that are plain, then the colours in OKLab, then the orientations."""
 
-    def __init__(self, channels: Sequence[Channel]) -> None:
+    def __init__(self, channels: Sequence[Channel], units: Sequence[int] | None = None) -> None:
         """Lay the channels' segments out in common rows.
+
+        Args:
+            channels: In the order of their `rank`.
+            units: Which row of times each of them goes by; all by the first when None.
 
         Raises:
             ValueError: The channels are not in the order of their `rank`.
@@ -58,6 +63,12 @@ class ChannelBank:
             raise ValueError("the channels of a bank are in the order of their rank")
         self.channels = tuple(channels)
         self._table = SegmentTable(channels)
+        self._units: IntArray = np.array(units or [0] * len(channels), dtype=np.int64)
+        self._orders = [
+            (unit, rows, KeyOrder([channels[row].times for row in rows.tolist()]))
+            for unit in np.unique(self._units).tolist()
+            for rows in [np.flatnonzero(self._units == unit)]
+        ]
         self._colors = slice(ranks.count(0), ranks.count(0) + ranks.count(1))
         self._orientations = slice(self._colors.stop, len(channels))
         self._repeating = [
@@ -77,16 +88,17 @@ class ChannelBank:
         return self._table.width
 
     def locate(self, times: FloatArray) -> Samples:
-        """Find the segments at ``times`` ``(C, Q)``, each channel's in its own unit."""
-        local = np.empty(times.shape, dtype=np.int64)
-        folded = times.copy() if self._repeating else times
+        """Find the segments at ``times`` ``(U, Q)``, one row a unit."""
+        local = np.empty((len(self.channels), times.shape[1]), dtype=np.int64)
+        for unit, rows, order in self._orders:
+            local[rows] = order.passed(times[unit])
+        folded = times.take(self._units, axis=0)
         laps: list[tuple[int, IntArray, IntArray]] = []
         for row, channel in self._repeating:
             ends = (float(channel.times[0]), float(channel.times[-1]))
-            folded[row], lap, way = fold(times[row], *ends, channel.before, channel.after)
-            laps.append((row, lap, way))
-        for row, channel in enumerate(self.channels):
+            folded[row], lap, way = fold(folded[row], *ends, channel.before, channel.after)
             local[row] = channel.times.searchsorted(folded[row], "right")
+            laps.append((row, lap, way))
         segment = local + self._table.first[:, None]
         jumps = self._table.jumps.take(segment)
         for row, lap, way in laps:
@@ -106,16 +118,22 @@ class ChannelBank:
         changes = np.empty(segment.size, dtype=np.bool_)
         changes[:1] = True
         np.not_equal(segment[1:], segment[:-1], out=changes[1:])
-        run = np.cumsum(changes) - 1
-        rows = table.rows.take(segment[changes], axis=0)
+        starts = np.flatnonzero(changes)
+        run = np.zeros(segment.size, dtype=np.int64)
+        run[starts[1:]] = 1
+        run = run.cumsum()
+        rows = table.rows.take(segment.take(starts), axis=0)
         columns = np.ascontiguousarray(rows.T)
         u = (t - columns[table.begins].take(run)) / columns[table.durations].take(run)
         reflection = Reflection.of(u, columns[table.directions].take(run))
         eased = reflection.at
         groups = self._by_easing(columns[table.easing], run)
-        options = np.ascontiguousarray(rows[:, table.options])
+        options, no_options = rows[:, table.options], np.zeros((eased.size, rows[:, table.options].shape[1]))
         for function, members in groups.items():
-            eased[members] = function(eased.take(members), options.take(run.take(members), axis=0))
+            chosen = no_options[: members.size]
+            if function in table.easings_with_options:
+                chosen = options.take(run.take(members), axis=0)
+            eased[members] = function(eased.take(members), chosen)
         points = columns[table.deltas].take(run, axis=1)
         points *= reflection.read(eased)
         points += columns[table.starts].take(run, axis=1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from reina.curves.arrays import FloatArray, IntArray
 from reina.curves.channel import Channel, Stretch
-from reina.curves.eased_keyframe import EasedKeyframe
+from reina.curves.eased_keyframe import EasedKeyframe, option_rows
 from reina.curves.easings import DIRECTION_CODES, EASE_IN, EaseIn
 from reina.curves.extrapolation import Extrapolation
 from reina.curves.keyframe import Keyframe
@@ -63,6 +63,7 @@ class ChannelBuilder:
         self.leaving = np.zeros_like(self.starts)
         self.arriving = np.zeros_like(self.starts)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
+        self.easings_with_options: set[EaseIn] = set()
         self.easing = np.zeros(self.count + 1, dtype=np.int16)
         self.directions = np.zeros(self.count + 1, dtype=np.int8)
         self.option_rows: list[tuple[IntArray, FloatArray]] = []
@@ -70,12 +71,8 @@ class ChannelBuilder:
         self.quaternion_splines: dict[int, FloatArray] = {}
         self.limits = values[1:].copy()
         self.moving = np.ones(self.count + 1, dtype=np.bool_)
-        of_kind: dict[type[Keyframe[Any]], list[int]] = {}
-        for segment, keyframe in enumerate(keyframes[1:], start=1):
-            of_kind.setdefault(type(keyframe), []).append(segment)
         self.splines: dict[str, list[IntArray]] = {}
-        for kind, segments in of_kind.items():
-            self._classify(kind, np.array(segments, dtype=np.int64))
+        self._classify()
         self._find_slopes()
 
     def channel(self) -> Channel:
@@ -102,6 +99,7 @@ class ChannelBuilder:
             arriving=self.arriving if self.splines else none,
             origins=self.origins,
             easings=tuple(self.easings),
+            easings_with_options=frozenset(self.easings_with_options),
             easing=self.easing,
             directions=self.directions,
             options=options,
@@ -111,16 +109,35 @@ class ChannelBuilder:
             jumps_a_lap=int(jumps[-2]) + int(wraps) if self.count > 1 else 0,
         )
 
-    def _classify(self, kind: type[Keyframe[Any]], segments: IntArray) -> None:
-        """Lay out the segments that end with keyframes of one class."""
-        formula = _formula(kind)
-        if issubclass(kind, EasedKeyframe) and formula is _formula(EasedKeyframe):
-            self.easing[segments] = self._easing_index(kind.ease_in)
-            self.directions[segments] = DIRECTION_CODES[kind.direction]
+    def _classify(self) -> None:
+        """Lay out the segments by the classes of the keyframes that they end with."""
+        ends = [type(keyframe) for keyframe in self.keyframes[1:]]
+        kinds = list(dict.fromkeys(ends))
+        places = {kind: place for place, kind in enumerate(kinds)}
+        place = np.array([places[kind] for kind in ends], dtype=np.intp)
+        easing, directions = np.zeros(len(kinds), dtype=np.int16), np.zeros(len(kinds), dtype=np.int8)
+        others: list[type[Keyframe[Any]]] = []
+        for kind in kinds:
+            if not (issubclass(kind, EasedKeyframe) and _formula(kind) is _formula(EasedKeyframe)):
+                others.append(kind)
+                continue
+            easing[places[kind]] = self._easing_index(kind.ease_in)
+            directions[places[kind]] = DIRECTION_CODES[kind.direction]
             if options_of(kind):
-                ends = (cast("EasedKeyframe[Any]", self.keyframes[segment]) for segment in segments.tolist())
-                self.option_rows.append((segments, np.array([end.option_numbers() for end in ends])))
-        elif issubclass(kind, SplineKeyframe) and formula is _formula(SplineKeyframe):
+                segments = np.flatnonzero(place == places[kind]) + 1
+                chosen = [
+                    cast("EasedKeyframe[Any]", self.keyframes[segment]) for segment in segments.tolist()
+                ]
+                self.option_rows.append((segments, option_rows(chosen)))
+                self.easings_with_options.add(kind.ease_in)
+        self.easing[1:-1], self.directions[1:-1] = easing[place], directions[place]
+        for kind in others:
+            self._classify_uneased(kind, np.flatnonzero(place == places[kind]) + 1)
+
+    def _classify_uneased(self, kind: type[Keyframe[Any]], segments: IntArray) -> None:
+        """Lay out the segments that end with keyframes of one class that has a formula of its own."""
+        formula = _formula(kind)
+        if issubclass(kind, SplineKeyframe) and formula is _formula(SplineKeyframe):
             if kind.tangents == "given" and isinstance(self.space, OrientationSpace):
                 self.easing[segments] = self._easing_index(quaternion_easing)
                 for segment in segments.tolist():

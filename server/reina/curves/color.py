@@ -73,10 +73,15 @@ def hex_from_linear(linear: FloatArray) -> str:
 
 def oklab_from_linear(linear: FloatArray) -> FloatArray:
     """OKLab (L, a, b) of linear sRGB, ``(..., 3)``."""
-    return np.cbrt(linear @ _LMS_FROM_LINEAR.T) @ _LAB_FROM_ROOTS.T
+    return _mapped(_LAB_FROM_ROOTS, np.cbrt(_mapped(_LMS_FROM_LINEAR, linear)))
 
 
 def linear_from_oklab(lab: FloatArray) -> FloatArray:
     """Linear sRGB of OKLab, ``(..., 3)``; not clipped."""
-    roots = lab @ _ROOTS_FROM_LAB.T
-    return (roots * roots * roots) @ _LINEAR_FROM_LMS.T
+    roots = _mapped(_ROOTS_FROM_LAB, lab)
+    return _mapped(_LINEAR_FROM_LMS, roots * roots * roots)
+
+
+def _mapped(matrix: FloatArray, colors: FloatArray) -> FloatArray:
+    """A matrix times colours ``(..., 3)``; unlike BLAS to the same bits, however many there are."""
+    return np.einsum("ij,...j->...i", matrix, colors)

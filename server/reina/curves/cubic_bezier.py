@@ -44,16 +44,18 @@ def _parameter_at(x: FloatArray, x1: FloatArray, x2: FloatArray) -> FloatArray:
     c = 3.0 * x1
     b = 3.0 * x2 - 6.0 * x1
     a = 1.0 - c - b
-    s = x
+    s, thrice_a = x, 3.0 * a
     for _ in range(_HALLEY_STEPS):
         error = ((a * s + b) * s + c) * s - x
         far = np.abs(error) > _CLOSE_ENOUGH
         if not far.any():
             return s
-        slope = (3.0 * a * s + 2.0 * b) * s + c
-        divisor = 2.0 * slope * slope - error * (6.0 * a * s + 2.0 * b)
-        step = 2.0 * error * slope / np.where(divisor == 0.0, np.inf, divisor)
-        s = np.minimum(np.maximum(s - step, 0.0), 1.0)
+        bend = thrice_a * s + b  # half of the second derivative
+        slope = (bend + b) * s + c
+        divisor = slope * slope - error * bend
+        step = error * slope / np.where(divisor == 0.0, np.inf, divisor)
+        # What is close enough stays, so that no bit of it depends on what else is asked for.
+        s = np.where(far, np.minimum(np.maximum(s - step, 0.0), 1.0), s)
     left = np.flatnonzero(np.abs(((a * s + b) * s + c) * s - x) > _CLOSE_ENOUGH)
     if left.size:
         s[left] = _halved(x[left], a[left], b[left], c[left])

@@ -1,6 +1,6 @@
 """Interpolations that go straight from key to key and differ only in their easing."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, cast
 
@@ -29,24 +29,23 @@ class EasedKeyframe(Keyframe[T], Generic[T]):
     def eval(self, previous: Keyframe[T], t: NDArray[np.float64]) -> NDArray[Any]:
         """The values between `previous` and this key, as in `Keyframe.eval`."""
         fraction = self.fraction(previous, t)
-        options = np.broadcast_to(self.option_row(), (fraction.size, self.option_row().size))
+        options = option_rows([self]).repeat(fraction.size, axis=0)
         eased = directed(type(self).ease_in, self.direction, fraction.ravel(), options).reshape(
             fraction.shape
         )
         start, end = cast("Any", previous.value), cast("Any", self.value)
         return start + (end - start) * eased
 
-    def option_row(self) -> FloatArray:
-        """The options' numbers in one row ``(Q,)``, as `ease_in` takes them."""
-        return np.array(self.option_numbers(), dtype=np.float64)
 
-    def option_numbers(self) -> list[float]:
-        """The options' numbers, one after another."""
-        numbers: list[float] = []
-        for declared in options_of(type(self)):
-            value: float | tuple[float, ...] = getattr(self, declared.name)
-            numbers.extend(value if isinstance(value, tuple) else (value,))
-        return numbers
+def option_rows(keyframes: Sequence[EasedKeyframe[Any]]) -> FloatArray:
+    """The options' numbers of keyframes of one class, one at least, ``(M, Q)``, as `ease_in` takes them."""
+    columns = [
+        np.array([getattr(keyframe, declared.name) for keyframe in keyframes], dtype=np.float64)
+        for declared in options_of(type(keyframes[0]))
+    ]
+    return np.concatenate(
+        [np.zeros((len(keyframes), 0)), *(one.reshape(len(one), -1) for one in columns)], axis=1
+    )
 
 
 @dataclass(frozen=True, slots=True)

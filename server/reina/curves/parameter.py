@@ -97,6 +97,8 @@ class Parameter:
         """Parsed values, one at least, as `floats` has them: ``(K, length)``."""
         if self.type in ("number", "vector", "orientation"):
             return np.array(values, dtype=np.float64).reshape(-1, self.length)
+        if self.type == "color" and not any(isinstance(value, str) for value in values):
+            return np.array(values, dtype=np.float64)
         return np.stack([self.floats(value) for value in values])
 
     def value(self, floats: FloatArray) -> Value:

@@ -23,6 +23,7 @@ class SegmentTable:
         jumps: ``(S,)``.
         first: ``(C,)`` each channel's first row.
         easings: The easing functions in use; the first is linear.
+        easings_with_options: Those of them that take options.
         stretches: Formulas of their own, by row.
         has_stretch: ``(S,)`` whether a row is among them.
         quaternion_row: ``(S,)`` row in `quaternions`, or -1; ``(0,)`` where there are none.
@@ -45,6 +46,9 @@ class SegmentTable:
         self.rows = np.zeros((sum(sizes), self.origins.stop))
         self.jumps = np.zeros(sum(sizes), dtype=np.int64)
         self.easings: list[EaseIn] = [EASE_IN["linear"]]
+        self.easings_with_options = {
+            easing for channel in channels for easing in channel.easings_with_options
+        }
         self.stretches: dict[int, Stretch] = {}
         self.has_stretch = np.zeros(sum(sizes), dtype=np.bool_)
         splines = any(channel.quaternion_splines for channel in channels)

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reina.instruments.player.instrument_body import BodyFrames, FigureBody
+import numpy as np
+
+from reina.instruments.player.instrument_body import BodyFrames, FigureBody, FramewiseBody
+from reina.rotations import BLOCK_FRAMES
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
     from reina.instruments.performer import Performer, PerformerFrames
-    from reina.instruments.player.instrument_body import BodyMotion
+    from reina.instruments.player.instrument_body import BodyMotion, InstrumentBody
     from reina.rotations.arrays import FloatArray
 
 
@@ -53,7 +56,7 @@ class Ensemble:
         alike: dict[Hashable, list[tuple[int, FigureBody]]] = {}
         for place, (body, motion) in enumerate(zip(self._bodies, motions, strict=True)):
             if body is None:
-                posed[place] = self.performers[place].body.solve(motion)
+                posed[place] = _solved(self.performers[place].body, motion)
             else:
                 rows = 0 if motion.stance is None else motion.stance.shape[1]
                 alike.setdefault((body.figure, rows), []).append((place, body))
@@ -62,3 +65,18 @@ class Ensemble:
             for (place, body), own_rotations, own_roots in zip(members, rotations, roots, strict=True):
                 posed[place] = BodyFrames(own_rotations, own_roots, body.parameters(motions[place]))
         return [posed[place] for place in range(len(motions))]
+
+
+def _solved(body: InstrumentBody, motion: BodyMotion) -> BodyFrames:
+    """The poses of F frames, block by block unless a body says that it may be asked for many at once."""
+    frames = len(motion.times_s)
+    framewise = isinstance(body, FramewiseBody) and body.is_framewise
+    if framewise or frames <= BLOCK_FRAMES or frames % BLOCK_FRAMES:
+        return body.solve(motion)
+    starts = range(0, frames, BLOCK_FRAMES)
+    solved = [body.solve(motion.rows(slice(first, first + BLOCK_FRAMES))) for first in starts]
+    return BodyFrames(
+        np.concatenate([one.rotations for one in solved]),
+        np.concatenate([one.root_positions for one in solved]),
+        np.concatenate([one.parameters for one in solved]),
+    )

@@ -82,6 +82,18 @@ class CoupledFinger:
             of reach, the finger points at the target, as straight (or, for one too near, as bent) as its
             limits allow.
         """
+        angles, theta1, wanted, squared = self._bent(targets)
+        beyond = np.abs(wanted - squared) > _REACH_SLACK * self._constant
+        stopped = np.abs(angles[..., 0] - theta1) > 1e-12
+        status = np.where(stopped, np.uint8(SolveStatus.AT_LIMIT), np.uint8(SolveStatus.REACHED))
+        return angles, np.where(beyond, np.uint8(SolveStatus.OUT_OF_REACH), status)
+
+    def angles(self, targets: ArrayLike) -> FloatArray:
+        """The angles that `solve` gives, for who has no use for the status."""
+        return self._bent(targets)[0]
+
+    def _bent(self, targets: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Angles; θ1 before its limits; the target's squared distance, and that which the tip comes to."""
         target = np.asarray(targets, dtype=np.float64)
         x, y = target[..., 0], target[..., 1]
         wanted = x * x + y * y
@@ -98,10 +110,7 @@ class CoupledFinger:
         angles[..., 0] = np.minimum(np.maximum(theta1, self.limits[..., 0, 0]), self.limits[..., 0, 1])
         angles[..., 1] = theta2
         angles[..., 2] = theta3
-        beyond = np.abs(wanted - squared) > _REACH_SLACK * self._constant
-        stopped = np.abs(angles[..., 0] - theta1) > 1e-12
-        status = np.where(stopped, np.uint8(SolveStatus.AT_LIMIT), np.uint8(SolveStatus.REACHED))
-        return angles, np.where(beyond, np.uint8(SolveStatus.OUT_OF_REACH), status)
+        return angles, theta1, wanted, squared
 
     def _squared_distance(self, theta2: FloatArray) -> FloatArray:
         theta3 = np.maximum(self.kappa * theta2, self._theta3_low)

@@ -86,9 +86,19 @@ class FingerChains:
             angles, status = solve_planar(planar, self.lengths, self._phi or 0.0, self.limits)
         beside = (np.abs(off_plane) > _OFF_PLANE_TOLERANCE_M) & (status == SolveStatus.REACHED)
         status = np.where(beside, np.uint8(SolveStatus.AT_LIMIT), status)
+        return self._rotations(abduction, angles), status
+
+    def rotations_at_rest(self, point: FloatArray) -> FloatArray:
+        """The rotations that `solve_at_rest` gives, for who has no use for the status."""
+        if self._coupled is None:
+            return self.solve_at_rest(point)[0]
+        abduction, planar, _ = project_on_finger_plane(point, self._abduction_limits)
+        return self._rotations(abduction, self._coupled.angles(planar))
+
+    def _rotations(self, abduction: FloatArray, angles: FloatArray) -> FloatArray:
         rotations = finger_rotations(abduction, angles)
         rotations[..., 0, :] = multiply(self._rest, rotations[..., 0, :])
-        return rotations, status
+        return rotations
 
     def tips(self, rotations: ArrayLike) -> FloatArray:
         """Where the pads are for local rotations ``(..., K, 3, 4)``: in the hand's frame, ``(..., K, 3)``."""

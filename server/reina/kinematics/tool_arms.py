@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.kinematics.columns import LAST, NEXT, columns, cross_columns, dot_columns, rows
 from reina.rotations import from_matrix
 
 if TYPE_CHECKING:
@@ -29,8 +30,6 @@ FOLDED = 1.04
 
 _ALONG = 1e-18
 """No vector across another is taken to be shorter, squared."""
-
-_NEXT, _LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +103,7 @@ class ToolArms:
         self._nearest: FloatArray = arms.nearest[:, None]
         upper, lower = (np.asarray(length)[:, None] for length in arms.lengths)
         self._squares: tuple[FloatArray, FloatArray] = (upper * upper, upper * upper - lower * lower)
-        self._backs = _Backs(_columns(np.asarray(dorsal, dtype=np.float64)[None]))
+        self._backs = _Backs(columns(np.asarray(dorsal, dtype=np.float64)[None]))
         # In the hand: columns direction, back of the hand across it, and their cross.
         held = np.empty((len(tools), 3, 3))
         for basis, tool in zip(held, tools, strict=True):
@@ -115,7 +114,7 @@ class ToolArms:
         self._to_basis: FloatArray = held.swapaxes(-1, -2)
         # From the tip to the wrist, and to the fulcrum, in that basis, (3, K, 1).
         self._wrist, self._fulcrum = (
-            _columns(np.stack([-(vector @ basis) for basis, vector in zip(held, vectors, strict=True)])[None])
+            columns(np.stack([-(vector @ basis) for basis, vector in zip(held, vectors, strict=True)])[None])
             for vectors in ([tool.fulcrum + tool.tip for tool in tools], [tool.tip for tool in tools])
         )
         # The hand's axes in that basis, axis by axis, (3, 3, K, 1).
@@ -145,12 +144,12 @@ class ToolArms:
             dorsal: Which way the backs of the hands look, ``(F, K, 3)``; as ever by default.
             yielding: How far the tools give way where arms cannot, 0 to 1, ``(F, K)``; 1 by default.
         """
-        pointing, pole = _columns(directions), _columns(poles)
-        aim = _columns(tips - shoulders)
-        steep = _dot(pole, pole)
-        wrist = self._wrist if held is None else _columns(held)
-        backs = self._backs if dorsal is None else _Backs(_columns(dorsal))
-        lever = wrist / _dot(wrist, wrist)
+        pointing, pole = columns(directions), columns(poles)
+        aim = columns(tips - shoulders)
+        steep = dot_columns(pole, pole)
+        wrist = self._wrist if held is None else columns(held)
+        backs = self._backs if dorsal is None else _Backs(columns(dorsal))
+        lever = wrist / dot_columns(wrist, wrist)
         giving = None if yielding is None else yielding.T
         for _ in range(ROUNDS):
             basis = _basis(pointing, backs)
@@ -162,34 +161,36 @@ class ToolArms:
             aside = GAIN * _beyond(np.arctan2(z, np.sqrt(x * x + y * y)), *self._deviation)
             if giving is not None:
                 up, aside, nearer = up * giving, aside * giving, nearer * giving
-            if not (up.any() or aside.any() or nearer.any()):
+            moved = (up != 0.0) | (aside != 0.0) | nearer.any(axis=0)
+            if not moved.any():
                 break  # all further rounds would be the same
             # The turn (up about the hand's z, aside about its y) × pointing, in the basis.
             turn = up * self._axes[2] - aside * self._axes[1]
             # And that by which the wrist comes nearer: (nearer × arm) × pointing / |arm|².
-            pull = _dot(pointing, nearer)
-            pointing = (
+            pull = dot_columns(pointing, nearer)
+            turned = (
                 pointing
                 + turn[2] * basis[1]
                 - turn[1] * basis[2]
                 + pull * _weighted(basis, lever)
                 - lever[0] * nearer
             )
-            pointing = pointing / np.sqrt(_dot(pointing, pointing))
+            # Who has come to rest stays so, to the last bit, however many rounds others in the block take.
+            pointing = np.where(moved, turned / np.sqrt(dot_columns(turned, turned)), pointing)
         else:
             basis = _basis(pointing, backs)
             arm = _weighted(basis, wrist)
         far = aim + arm
-        distance = np.sqrt(_dot(far, far))
+        distance = np.sqrt(dot_columns(far, far))
         lacking = np.maximum(distance - self._reach, 0.0) + np.maximum(self._nearest - distance, 0.0)
-        hinges = _cross(pole, far) * self._bend
+        hinges = cross_columns(pole, far) * self._bend
         hands = from_matrix(np.matmul(basis.transpose(3, 2, 1, 0), self._to_basis))
         return ToolPose(
-            tips + _rows(arm),
+            tips + rows(arm),
             hands,
-            tips + _rows(_weighted(basis, self._fulcrum)),
-            _rows(pointing),
-            _rows(hinges),
+            tips + rows(_weighted(basis, self._fulcrum)),
+            rows(pointing),
+            rows(hinges),
             np.ascontiguousarray(lacking.T),
         )
 
@@ -201,9 +202,9 @@ class ToolArms:
         dorsal: FloatArray | None = None,
     ) -> FloatArray:
         """Where the wrists would be if no tool gave way, ``(F, K, 3)``, metres; arguments as `solve`."""
-        backs = self._backs if dorsal is None else _Backs(_columns(dorsal))
-        wrist = self._wrist if held is None else _columns(held)
-        return tips + _rows(_weighted(_basis(_columns(directions), backs), wrist))
+        backs = self._backs if dorsal is None else _Backs(columns(dorsal))
+        wrist = self._wrist if held is None else columns(held)
+        return tips + rows(_weighted(_basis(columns(directions), backs), wrist))
 
     def seen_from(self, points: FloatArray) -> FloatArray:
         """From points in the hands' frames ``(..., K, 3)`` to the wrists, as `solve` takes them, metres."""
@@ -223,12 +224,12 @@ class ToolArms:
             pole: Which way the elbows point, ``(3, K, F)``.
             steep: The squares of its lengths, ``(K, F)``.
         """
-        distance = np.sqrt(_dot(line, line))
+        distance = np.sqrt(dot_columns(line, line))
         along = line / np.maximum(distance, 1e-9)
         within = np.minimum(np.maximum(distance, FOLDED * self._nearest), SLACK * self._reach)
         ahead = (within * within + self._squares[1]) / (2.0 * within)
         height = np.sqrt(np.maximum(self._squares[0] - ahead * ahead, 0.0))
-        leaning = _dot(pole, along)
+        leaning = dot_columns(pole, along)
         height /= np.sqrt(np.maximum(steep - leaning * leaning, _ALONG))
         forearm = (within - ahead + height * leaning) * along - height * pole
         return forearm, (distance - within) * along
@@ -239,50 +240,27 @@ class _Backs:
 
     def __init__(self, dorsal: FloatArray) -> None:
         self.ways = dorsal
-        self.next, self.last = dorsal[_NEXT], dorsal[_LAST]
-        self.square: FloatArray = _dot(dorsal, dorsal)
+        self.next, self.last = dorsal[NEXT], dorsal[LAST]
+        self.square: FloatArray = dot_columns(dorsal, dorsal)
 
 
 def _basis(pointing: FloatArray, backs: _Backs) -> FloatArray:
     """World directions of the held basis, vector by vector, ``(3, 3, K, F)``."""
     basis = np.empty((3, *pointing.shape))
-    leaning = _dot(pointing, backs.ways)
+    leaning = dot_columns(pointing, backs.ways)
     basis[0] = pointing
     np.subtract(backs.ways, pointing * leaning, out=basis[1])
     # pointing × dorsal, since what was taken away lies along the first.
-    product = pointing.take(_NEXT, axis=0)
+    product = pointing.take(NEXT, axis=0)
     product *= backs.last
-    np.subtract(product, pointing.take(_LAST, axis=0) * backs.next, out=basis[2])
+    np.subtract(product, pointing.take(LAST, axis=0) * backs.next, out=basis[2])
     basis[1:] /= np.sqrt(np.maximum(backs.square - leaning * leaning, _ALONG))
     return basis
-
-
-def _columns(vectors: FloatArray) -> FloatArray:
-    """``(F, K, 3)`` as ``(3, K, F)``."""
-    return np.ascontiguousarray(vectors.transpose(2, 1, 0))
-
-
-def _rows(vectors: FloatArray) -> FloatArray:
-    """``(3, K, F)`` as ``(F, K, 3)``."""
-    return np.ascontiguousarray(vectors.transpose(2, 1, 0))
-
-
-def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Dot products of vectors ``(3, K, F)``."""
-    return np.add.reduce(a * b)
 
 
 def _weighted(basis: FloatArray, weights: FloatArray) -> FloatArray:
     """Sums of a basis's vectors, ``(3, K, F)``."""
     return np.add.reduce(basis * weights[:, None])
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Cross products of vectors ``(3, K, F)``."""
-    product = a.take(_NEXT, axis=0)
-    product *= b.take(_LAST, axis=0)
-    product -= a.take(_LAST, axis=0) * b.take(_NEXT, axis=0)
-    return product
 
 
 def _beyond(value: FloatArray, low: FloatArray | float, high: FloatArray | float) -> FloatArray:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.kinematics.columns import columns, cross_columns, dot_columns, rows
 from reina.kinematics.status import SolveStatus, StatusArray
 from reina.rotations import cross, dot, from_matrix, multiply, rotate
 from reina.skeleton import RigError
@@ -29,7 +30,7 @@ class LimbPose:
     lower_local: FloatArray
     """The lower bone's local rotation, rest included, ``(..., K, 4)``."""
     _roots: FloatArray
-    _direction: FloatArray
+    _direction: FloatArray  # (3, K, F), as the two below
     _length: FloatArray
     _wanted: FloatArray
 
@@ -38,12 +39,13 @@ class LimbPose:
     @property
     def ends(self) -> FloatArray:
         """Where the ends come to be, ``(..., K, 3)``: the targets, where they are reached."""
-        return self._roots + self._direction * self._length[..., None]
+        reached = rows(self._direction * self._length)
+        return self._roots + reached.reshape(*self.upper.shape[:-1], 3)
 
     @property
     def status(self) -> StatusArray:
         """A `SolveStatus` each, ``(..., K)``."""
-        missed = np.abs(self._length - self._wanted) > 1e-9
+        missed = (np.abs(self._length - self._wanted) > 1e-9).T.reshape(self.upper.shape[:-1])
         return missed.astype(np.uint8) * np.uint8(SolveStatus.OUT_OF_REACH)
 
 
@@ -75,39 +77,39 @@ class TwoBoneLimbs:
         skeleton = rig.skeleton
         lower, end = self.joints[:, 1], self.joints[:, 2]
         hinges = [_hinge(rig, int(joint)) for joint in lower]
-        self._rest: FloatArray = skeleton.rest_rotations[lower]
-        self.hinge: FloatArray = rotate(self._rest, np.array([axis for axis, _ in hinges]))
+        rest = skeleton.rest_rotations[lower]
+        self.hinge: FloatArray = rotate(rest, np.array([axis for axis, _ in hinges]))
         """Hinge axes in the upper bones' frames, ``(K, 3)``."""
-        self._low: FloatArray = np.array([bounds[0] for _, bounds in hinges])
-        self._high: FloatArray = np.array([bounds[1] for _, bounds in hinges])
+        low: FloatArray = np.array([bounds[0] for _, bounds in hinges])
+        high: FloatArray = np.array([bounds[1] for _, bounds in hinges])
         axis_quaternions = np.concatenate([self.hinge, np.zeros((len(names), 1))], axis=-1)
-        self._turned: FloatArray = multiply(axis_quaternions, self._rest)
         first = skeleton.rest_translations[lower]
-        second = rotate(self._rest, skeleton.rest_translations[end])
+        second = rotate(rest, skeleton.rest_translations[end])
         self.lengths: FloatArray = np.stack([np.sqrt(dot(first, first)), np.sqrt(dot(second, second))])
         """Of upper and lower bones, metres, ``(2, K)``."""
         along = self.hinge * dot(self.hinge, second)[:, None]
-        self._c0: FloatArray = first + along
-        self._c1: FloatArray = second - along
-        self._c2: FloatArray = cross(self.hinge, second)
-        self._a: FloatArray = dot(self._c0, self._c0) + dot(self._c1, self._c1)
-        b, c = 2.0 * dot(self._c0, self._c1), 2.0 * dot(self._c0, self._c2)
-        self._m: FloatArray = np.hypot(b, c)
-        self._middle: FloatArray = np.arctan2(c, b)
+        c0, c1, c2 = first + along, second - along, cross(self.hinge, second)
+        a, b, c = dot(c0, c0) + dot(c1, c1), 2.0 * dot(c0, c1), 2.0 * dot(c0, c2)
+        m, middle = np.hypot(b, c), np.arctan2(c, b)
         # Straightest is nearest the middle; from there the limb bends to the side that has more room.
-        straight = np.clip(self._middle, self._low, self._high)
-        self._side: FloatArray = np.where(self._high - straight >= straight - self._low, 1.0, -1.0)
-        self.bend: FloatArray = self._side
+        straight = np.clip(middle, low, high)
+        self.bend: FloatArray = np.where(high - straight >= straight - low, 1.0, -1.0)
         """1 for limbs that bend by positive hinge angles, -1 for those that bend by negative, ``(K,)``."""
-        bent = np.where(self._side > 0, self._high, self._low)
-        folded = self._middle + self._side * np.pi
-        bent = np.where(self._side > 0, np.minimum(bent, folded), np.maximum(bent, folded))
-        self.reach: FloatArray = self._distance(straight)
+        bent, folded = np.where(self.bend > 0, high, low), middle + self.bend * np.pi
+        bent = np.where(self.bend > 0, np.minimum(bent, folded), np.maximum(bent, folded))
+        self.reach: FloatArray = np.sqrt(a + m * np.cos(straight - middle))
         """The greatest distance from root to end, ``(K,)``, metres."""
-        self.nearest: FloatArray = self._distance(bent)
+        self.nearest: FloatArray = np.sqrt(a + m * np.cos(bent - middle))
         """The least distance, ``(K,)``, metres."""
-        self._soft: FloatArray = self.reach * softness
         self._hard = softness == 0.0
+        # Component by component, limb by limb, as `solve` has everything.
+        self._rest, self._turned, self._hinge, self._c0, self._c1, self._c2 = (
+            columns(one[None]) for one in (rest, multiply(axis_quaternions, rest), self.hinge, c0, c1, c2)
+        )
+        self._a, self._m, self._middle, self._side, self._low, self._high, self._least, self._most = (
+            one[:, None] for one in (a, m, middle, self.bend, low, high, self.nearest, self.reach)
+        )
+        self._soft: FloatArray = self._most * softness
 
     def solve(self, roots: ArrayLike, targets: ArrayLike, hinge_directions: ArrayLike) -> LimbPose:
         """Bring the ends to targets.
@@ -119,34 +121,36 @@ class TwoBoneLimbs:
                 lies across root-to-target counts, and it must not vanish. `hinge_directions_from_poles`
                 makes them of poles.
         """
-        begin = np.asarray(roots, dtype=np.float64)
-        offset = np.asarray(targets, dtype=np.float64) - begin
-        wanted = np.sqrt(np.einsum("...i,...i->...", offset, offset))
-        distance = np.minimum(np.maximum(self._soften(wanted), self.nearest), self.reach)
-        cosine = np.minimum(np.maximum((distance * distance - self._a) / self._m, -1.0), 1.0)
-        angle = self._middle + self._side * np.arccos(cosine)
-        angle = np.minimum(np.maximum(angle, self._low), self._high)
-        local_end = self._c0 + np.cos(angle)[..., None] * self._c1 + np.sin(angle)[..., None] * self._c2
-        half = 0.5 * angle[..., None]
-        lower_local = np.cos(half) * self._rest + np.sin(half) * self._turned
-        direction = offset / np.maximum(wanted, 1e-12)[..., None]
-        length = np.sqrt(np.einsum("...i,...i->...", local_end, local_end))
+        offset = np.asarray(targets, dtype=np.float64) - np.asarray(roots, dtype=np.float64)
+        hint = np.broadcast_to(np.asarray(hinge_directions, dtype=np.float64), offset.shape)
+        shape = offset.shape[:-1]
+        # From here on component by component, limb by limb, frame by frame.
+        offset, hint = columns(offset.reshape(-1, shape[-1], 3)), columns(hint.reshape(-1, shape[-1], 3))
+        wanted = np.sqrt(dot_columns(offset, offset))
+        distance = np.minimum(np.maximum(self._soften(wanted), self._least), self._most)
+        fraction = np.minimum(np.maximum((distance * distance - self._a) / self._m, -1.0), 1.0)
+        angle = self._middle + self._side * np.arccos(fraction)
+        half = 0.5 * np.minimum(np.maximum(angle, self._low), self._high)
+        cosine, sine = np.cos(half), np.sin(half)
+        lower_local = cosine * self._rest + sine * self._turned
+        # cos θ and sin θ from those of the half angle.
+        local_end = self._c0 + (1.0 - 2.0 * sine * sine) * self._c1 + (2.0 * sine * cosine) * self._c2
+        length = np.sqrt(dot_columns(local_end, local_end))
         # Two frames of direction and hinge, in the world and in the upper bone, whose turn is between them.
-        ahead, hint = np.empty((2, *direction.shape)), np.empty((2, *direction.shape))
-        ahead[0], ahead[1] = direction, local_end / length[..., None]
-        hint[0], hint[1] = hinge_directions, self.hinge
-        world, local = _frame(ahead, hint)
-        upper = from_matrix(np.matmul(world, local.swapaxes(-1, -2)))
-        return LimbPose(upper, lower_local, begin, direction, length, wanted)
-
-    def _distance(self, angle: FloatArray) -> FloatArray:
-        return np.sqrt(self._a + self._m * np.cos(angle - self._middle))
+        ahead = np.stack([offset / np.maximum(wanted, 1e-12), local_end / length], axis=1)
+        hints = np.stack([hint, np.broadcast_to(self._hinge, hint.shape)], axis=1)
+        world, local = _frames(ahead, hints)
+        turn = np.einsum("iv...,jv...->ij...", world, local)
+        matrices = turn.reshape(9, *turn.shape[2:]).transpose(2, 1, 0)
+        upper = from_matrix(matrices.reshape(*shape, 3, 3))
+        found = rows(lower_local).reshape(*shape, 4)
+        return LimbPose(upper, found, np.asarray(roots, dtype=np.float64), ahead[:, 0], length, wanted)
 
     def _soften(self, distance: FloatArray) -> FloatArray:
         """Distances mapped, C1, so that full reach is never met; unchanged before the soft zone."""
         if self._hard:
             return distance
-        start = self.reach - self._soft
+        start = self._most - self._soft
         beyond = np.maximum(distance - start, 0.0) / self._soft
         return np.where(distance > start, start - self._soft * np.expm1(-beyond), distance)
 
@@ -167,15 +171,16 @@ def hinge_directions_from_poles(
     return across * np.asarray(bend, dtype=np.float64)[..., None]
 
 
-def _frame(direction: FloatArray, hint: FloatArray) -> FloatArray:
-    """Matrices ``(..., 3, 3)``: as columns the direction, the hint made perpendicular, and their cross."""
-    normal = hint - direction * np.einsum("...i,...i->...", direction, hint)[..., None]
-    normal = normal / np.sqrt(np.einsum("...i,...i->...", normal, normal))[..., None]
-    frame = np.empty((*direction.shape, 3))
-    frame[..., 0] = direction
-    frame[..., 1] = normal
-    frame[..., 2] = cross(direction, normal)
-    return frame
+def _frames(directions: FloatArray, hints: FloatArray) -> FloatArray:
+    """Of directions and hints ``(3, 2, K, F)`` each two frames, ``(2, 3, 3, K, F)``.
+
+    A frame's vectors are the direction, the hint made perpendicular, and their cross: ``frame[i, v]`` is
+    component i of vector v.
+    """
+    normals = hints - directions * dot_columns(directions, hints)
+    normals /= np.sqrt(dot_columns(normals, normals))
+    vectors = np.stack([directions, normals, cross_columns(directions, normals)])
+    return vectors.transpose(2, 1, 0, 3, 4)
 
 
 def _hinge(rig: Rig, joint: int) -> tuple[FloatArray, tuple[float, float]]:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from reina.rotations import BLOCK_FRAMES
+
 if TYPE_CHECKING:
     from reina.curves import Parameter
     from reina.instruments.player import SkeletonLayout
     from reina.instruments.player.instrument_body import Float32Array
     from reina.rotations.arrays import BoolArray, FloatArray
-
-BLOCK_FRAMES = 60
-"""Frames are evaluated in aligned blocks of so many, so that no byte depends on how a frame was asked for."""
 
 
 @dataclass(frozen=True)
@@ -52,3 +51,18 @@ class FrameBlock:
     root_positions: Float32Array
     parameters: Float32Array
     cuts: BoolArray
+
+    def blocks(self) -> list[FrameBlock]:
+        """The same frames by sixty."""
+        return [
+            FrameBlock(
+                self.first_frame + first,
+                self.fps,
+                self.song_time_s[first : first + BLOCK_FRAMES],
+                self.rotations[first : first + BLOCK_FRAMES],
+                self.root_positions[first : first + BLOCK_FRAMES],
+                self.parameters[first : first + BLOCK_FRAMES],
+                self.cuts[first : first + BLOCK_FRAMES],
+            )
+            for first in range(0, len(self.song_time_s), BLOCK_FRAMES)
+        ]

@@ -4,6 +4,7 @@ from reina.rotations.euler import ORDERS, from_euler, to_euler
 from reina.rotations.exponential import about_axis, exp, exp_matrix, from_axis_angle, log, log_matrix
 from reina.rotations.interpolation import slerp, slerp_matrix, spline, squad, squad_controls
 from reina.rotations.matrices import from_matrix, to_matrix
+from reina.rotations.products import BLOCK_FRAMES, product
 from reina.rotations.quaternions import (
     IDENTITY,
     angle_between,
@@ -19,6 +20,7 @@ from reina.rotations.quaternions import (
 )
 
 __all__ = [
+    "BLOCK_FRAMES",
     "IDENTITY",
     "ORDERS",
     "about_axis",
@@ -37,6 +39,7 @@ __all__ = [
     "log_matrix",
     "multiply",
     "normalize",
+    "product",
     "rotate",
     "same_hemisphere",
     "slerp",

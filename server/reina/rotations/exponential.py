@@ -23,7 +23,9 @@ def exp(rotation_vectors: ArrayLike) -> FloatArray:
     half = 0.5 * np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
     q = np.empty((*vectors.shape[:-1], 4))
     divisor = np.maximum(half, 1e-150)
-    q[..., :3] = vectors * (0.5 * np.sin(divisor) / divisor)[..., None]
+    scale = 0.5 * np.sin(divisor) / divisor
+    for axis in range(3):  # faster than all three at once, which would be loops of three numbers
+        np.multiply(vectors[..., axis], scale, out=q[..., axis])
     q[..., 3] = np.cos(half)
     return q
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reina.rotations.products import product
 from reina.rotations.quaternions import as_quaternions
 
 if TYPE_CHECKING:
@@ -61,7 +62,8 @@ def from_matrix(matrices: ArrayLike) -> FloatArray:
     m = np.asarray(matrices, dtype=np.float64)
     if m.shape[-2:] != (3, 3):
         raise ValueError(f"rotation matrices have the shape (..., 3, 3), not {m.shape}")
-    rows = m.reshape(-1, 9) @ _TO_ROWS
+    flat = m.reshape(*m.shape[:-2], 9) if m.ndim > 2 else m.reshape(1, 9)
+    rows = product(flat, _TO_ROWS).reshape(-1, 16)
     rows[:, _DIAGONAL] += 1.0
     best = np.argmax(rows[:, _DIAGONAL], axis=-1)
     row = rows.reshape(-1, 4)[best + np.arange(0, 4 * len(rows), 4)].reshape(*m.shape[:-2], 4)

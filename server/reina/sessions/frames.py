@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import math
 import threading
+import time
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
@@ -110,18 +112,16 @@ class EncodedFrames:
 
     async def ready(self, first_s: float, last_s: float) -> None:
         """Have the blocks from one song time to another evaluated on a thread."""
-        await self.evaluated(self.numbers(first_s, last_s))
+        loop = asyncio.get_running_loop()
+        numbers = self.numbers(first_s, last_s)
+        for number in numbers:
+            if number not in self._blocks:
+                # The first alone would be there sooner, but nothing goes out before all of them are.
+                await loop.run_in_executor(_EVALUATING, self.block, number, numbers.stop - number)
 
     def numbers(self, first_s: float, last_s: float) -> range:
         """The blocks from one song time to another."""
         return range(self._number(first_s), self._number(last_s) + 1)
-
-    async def evaluated(self, blocks: Iterable[int]) -> None:
-        """Have some blocks evaluated on a thread, those that are not there yet."""
-        loop = asyncio.get_running_loop()
-        for number in blocks:
-            if number not in self._blocks:
-                await loop.run_in_executor(_EVALUATING, self.block, number)
 
     def has(self, blocks: Iterable[int]) -> bool:
         """Whether all of some blocks are there, by their numbers."""
@@ -135,8 +135,13 @@ class EncodedFrames:
     def _number(self, song_time_s: float) -> int:
         return max(0, math.floor(song_time_s * self.manifest.fps + 0.5)) // BLOCK_FRAMES
 
-    def block(self, number: int) -> Frames:
-        """(60,) frames 60·number ... 60·number + 59, not to be written to."""
+    def block(self, number: int, needed: int = 1) -> Frames:
+        """(60,) frames 60·number ... 60·number + 59, not to be written to.
+
+        Args:
+            number: The block's.
+            needed: How many blocks from this one on are needed soon.
+        """
         frames = self._kept_block(number)
         if frames is not None:
             # Not even for a moment does whoever sends wait for whoever evaluates ahead.
@@ -144,14 +149,7 @@ class EncodedFrames:
         with self._evaluating:
             frames = self._kept_block(number)
             if frames is None:
-                with EVALUATION.time():
-                    frames = encode_block(self.manifest, self._performance.evaluate(number))
-                frames.flags.writeable = False
-                self._blocks[number] = frames
-                self._together.add(self, frames.nbytes)
-                while len(self._blocks) > self._most_kept():
-                    _, gone = self._blocks.popitem(last=False)
-                    self._together.add(self, -gone.nbytes)
+                frames = self._evaluate(number, self._at_once(number, needed))
             return frames
 
     def span(self, first: int, last: int) -> Frames:
@@ -189,6 +187,33 @@ class EncodedFrames:
     def weight(self) -> int:
         """How many bytes the blocks that are kept have."""
         return self._together.of(self)
+
+    def _evaluate(self, number: int, count: int) -> Frames:
+        """Evaluate so many blocks from one on; the frames of the first."""
+        begun_s = time.perf_counter()
+        blocks = self._performance.evaluate_blocks(number, count)
+        made = [encode_block(self.manifest, block) for block in blocks]
+        spent_s = time.perf_counter() - begun_s
+        for place, frames in enumerate(made):
+            EVALUATION.observe(spent_s / len(made))
+            frames.flags.writeable = False
+            self._blocks[number + place] = frames
+            self._together.add(self, frames.nbytes)
+        while len(self._blocks) > self._most_kept():
+            _, gone = self._blocks.popitem(last=False)
+            self._together.add(self, -gone.nbytes)
+        return made[0]
+
+    def _at_once(self, number: int, needed: int) -> int:
+        """How many blocks are evaluated from one on.
+
+        What is shown first after a seek or an edit comes alone, as fast as may be. As more and more blocks
+        are there that come just before, somebody plays on, and several at once cost less each.
+        """
+        before = next(count for count in itertools.count() if number - count - 1 not in self._blocks)
+        ahead = min(before, self._performance.blocks_at_once)
+        most = max(1, min(max(ahead, needed), self._most_kept() - 1))
+        return next((count for count in range(1, most) if number + count in self._blocks), most)
 
     def _most_kept(self) -> int:
         return min(self._kept, FEWEST_KEPT) if self._together.is_over else self._kept

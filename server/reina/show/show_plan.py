@@ -52,9 +52,8 @@ class ShowPlan:
         layout = self.registry.layout()
         lines = [line for plan in tracks for line in _lines(plan, layout[plan.parameter.path][0])]
         lines.sort(key=lambda line: ChannelBank.rank(line[1]))
-        self._bank = ChannelBank([channel for _, channel, _ in lines])
         units = [TIME_UNITS.index(plan.track.time) for _, _, plan in lines]
-        self._units: IntArray = np.array(units, dtype=np.int64)
+        self._bank = ChannelBank([channel for _, channel, _ in lines], units)
         self._blending = np.array([plan.parameter.blend for _, _, plan in lines], dtype=np.bool_)
         turned = [column for column, channel, _ in lines if channel.space is ORIENTATION]
         self._turned: IntArray = (np.array(turned, dtype=np.int64)[:, None] + np.arange(4)).reshape(-1)
@@ -133,7 +132,7 @@ class ShowPlan:
         by_unit = self._in_units(np.concatenate([earlier[:1] if in_a_row else earlier, times]))
         now, before = slice(by_unit.shape[1] - times.size, None), slice(0, times.size)
         if self._bank.channels:
-            samples = self._bank.locate(by_unit[self._units])
+            samples = self._bank.locate(by_unit)
             jumped = samples.jumps[:, now] != samples.jumps[:, before]
             cuts |= np.any(jumped & self._blending[:, None], axis=0)
             found, quaternions = self._bank.evaluate(samples.columns(now))

@@ -76,6 +76,14 @@ class NumberedPerformance:
     evaluated: list[int] = field(default_factory=list[int])
     broken: bool = False
     threads: list[str] = field(default_factory=list[str])
+    blocks_at_once: int = 4
+
+    spans: list[int] = field(default_factory=list[int])
+    """How many blocks were asked for each time."""
+
+    def evaluate_blocks(self, first: int, count: int) -> list[Block]:
+        self.spans.append(count)
+        return [self.evaluate(block) for block in range(first, first + count)]
 
     def evaluate(self, block: int) -> Block:
         if self.broken:

@@ -31,9 +31,46 @@ def test_blocks_are_made_ready_on_a_thread_of_their_own() -> None:
     assert performance.evaluated[:2] == [0, 1]
     # Whoever needs one that is being evaluated waits for it, and it is evaluated once.
     got = frames.block(2)
-    assert performance.evaluated == [0, 1, 2]
+    assert performance.evaluated == [0, 1, 2, 3]
     assert all(name.startswith("frames") for name in performance.threads[:2])
     assert got.tobytes() == encoded().block(2).tobytes()
+
+
+def test_the_first_block_comes_alone_and_more_at_once_as_somebody_plays_on() -> None:
+    performance = NumberedPerformance()
+    frames = encoded(performance)
+    spans: list[list[int]] = []
+    for number in (20, 21, 22, 24, 27, 31, 50, 51):
+        performance.evaluated.clear()
+        frames.block(number)
+        spans.append(performance.evaluated.copy())
+    assert spans == [[20], [21], [22, 23], [24, 25, 26, 27], [], [31], [50], [51]]
+
+
+def test_all_that_a_seek_needs_is_evaluated_at_once_however_many_play() -> None:
+    performance = NumberedPerformance(blocks_at_once=1)
+    frames = encoded(performance)
+    asyncio.run(frames.ready(9.9, 10.2))
+    assert performance.evaluated == [9, 10]
+    assert performance.spans == [2]
+
+
+def test_what_is_there_is_not_evaluated_again_with_others() -> None:
+    performance = NumberedPerformance()
+    frames = encoded(performance)
+    for number in (4, 0, 1, 2):
+        frames.block(number)
+    assert performance.evaluated == [4, 0, 1, 2, 3]
+    assert frames.block(3).tobytes() == encoded().block(3).tobytes()
+
+
+@pytest.mark.parametrize("kept", [2, 3])
+def test_no_more_are_evaluated_at_once_than_are_kept_beside_the_one_that_is_sent(kept: int) -> None:
+    performance = NumberedPerformance()
+    frames = encoded(performance, kept=kept)
+    for number in range(8):
+        frames.block(number)
+    assert performance.evaluated == list(range(8))
 
 
 def test_only_the_last_used_blocks_are_kept() -> None:

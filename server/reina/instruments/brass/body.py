@@ -13,7 +13,7 @@ from reina.instruments.player.body import LIMBS, PlayerBody
 from reina.instruments.player.held_pose import HeldPose
 from reina.instruments.player.instrument_body import BodyFrames
 from reina.instruments.player.rows import joined, joined_rows
-from reina.rotations import conjugate, dot, from_axis_angle, multiply, rotate
+from reina.rotations import conjugate, dot, from_axis_angle, multiply, product, rotate
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
@@ -66,10 +66,10 @@ class BrassBody:
         held = HeldPose(rig, engagement.hold)
         # Hands keep their place in the instrument's frame, feet in the world.
         hands = np.array([rig.chain(arm).joints[-1] for arm in LIMBS[:2]], dtype=np.intp)
-        hand_positions, self._hand_rotations = held.in_instrument(hands)
+        hand_positions, hand_rotations = held.in_instrument(hands)
         self._held_places = np.stack([horn.contact("mouthpiece").offset, *hand_positions])
-        self._fingers = PressingFingers(rig, horn, int(hands[1]), hand_positions[1], self._hand_rotations[1])
-        to_hand = conjugate(self._hand_rotations[0])
+        self._fingers = PressingFingers(rig, horn, int(hands[1]), hand_positions[1], hand_rotations[1])
+        to_hand = conjugate(hand_rotations[0])
         slides = {
             slide: SlideFinger(
                 rig,
@@ -98,7 +98,12 @@ class BrassBody:
         # The instrument rides on the head, its mouthpiece on the lips.
         self._head = self._body.trunk.index("head")
         head = held.world[rig.skeleton.index("head")]
-        self._instrument_in_head = multiply(conjugate(head), held.instrument_rotation)
+        in_head = multiply(conjugate(head), held.instrument_rotation)
+        # A product with what stays the same is linear: a matrix for rows of quaternions.
+        self._head_to_instrument: FloatArray = multiply(np.eye(4), in_head)
+        self._instrument_to_hands: FloatArray = np.concatenate(
+            [multiply(np.eye(4), hand) for hand in hand_rotations], axis=1
+        )
 
         pressed = [button.valve for button in horn.buttons]
         if max(pressed, default=0) > valve_count:
@@ -113,7 +118,11 @@ class BrassBody:
         self._mute = Mute(engagement.score, engagement.played.line, engagement.registry, engagement.prefix)
         self.figure = (rig, horn, engagement.hold, curves.names)
         """What a pose depends on beside the motion; rigs and holds are equal to themselves alone."""
-        self._still = np.concatenate([self._body.still, horn.skeleton.rest_rotations]).astype(np.float32)
+        # What moves is written first, then the instrument, then what holds still; then all is put in order.
+        moving, joints = self._body.moving, len(self._body.still)
+        still = np.setdiff1d(np.arange(joints), moving)
+        self._still = self._body.still[still].astype(np.float32)
+        self._order: IntArray = np.argsort(np.concatenate([moving, [joints], still]))
 
     def solve(self, motion: BodyMotion) -> BodyFrames:
         """The poses of F frames."""
@@ -145,7 +154,7 @@ class BrassBody:
         stances = [motion.stance for motion in motions if motion.stance is not None]
         standing = self._body.stand(signals, joined(stances) if stances else None)
         shifts = standing.shifts[:, 0]
-        instrument = multiply(standing.world[:, self._head], self._instrument_in_head)
+        instrument = product(standing.world[:, self._head], self._head_to_instrument)
         instrument = multiply(instrument, standing.turns[:, 0])
         # In the instrument's frame: its mouthpiece, and the hands that hold it.
         held = np.empty((count * frames, 3, 3))
@@ -155,20 +164,19 @@ class BrassBody:
         held[:, 0] = standing.points[:, 0] - held[:, 0]
         held[:, 1:] += held[:, :1]
         elbows = standing.elbows
-        for place, motion in enumerate(motions):
-            if motion.lowered.any():
-                own = slice(place * frames, (place + 1) * frames)
-                shoulders = standing.limbs[own, :2]
-                instrument[own], held[own], elbows[own] = _lower(
-                    motion.lowered, shoulders, instrument[own], held[own], elbows[own]
-                )
+        lowered = joined([motion.lowered for motion in motions])
+        down = np.flatnonzero(lowered)
+        if len(down):
+            instrument[down], held[down], elbows[down] = _lower(
+                lowered[down], standing.limbs[down, :2], instrument[down], held[down], elbows[down]
+            )
         valves = curves[self._valve_rows].T
         lifts = (curves[self._lift_rows] * joined([motion.amounts["finger_lift"] for motion in motions])).T
         fingers = self._fingers.solve(valves, lifts, shifts)
         moving = self._body.reach(
             standing,
             held[:, 1:],
-            multiply(instrument[:, None], self._hand_rotations),
+            product(instrument, self._instrument_to_hands).reshape(count * frames, 2, 4),
             elbows=elbows,
             fingers=[
                 fingers.reshape(count * frames, -1, 4),
@@ -178,10 +186,12 @@ class BrassBody:
                 ),
             ],
         )
-        rotations = np.empty((count * frames, *self._still.shape), dtype=np.float32)
-        rotations[:] = self._still
-        rotations[:, self._body.moving] = moving
-        rotations[:, -1] = instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0)
+        rotations = np.empty((count * frames, len(self._order), 4), dtype=np.float32)
+        moved = moving.shape[1]
+        rotations[:, :moved] = moving
+        rotations[:, moved] = instrument * np.where(instrument[:, 3:] < 0.0, -1.0, 1.0)
+        rotations[:, moved + 1 :] = self._still
+        rotations = rotations.take(self._order, axis=1)
         roots = np.empty((count * frames, 2, 3))
         roots[:, 0], roots[:, 1] = standing.hips, held[:, 0]
         return rotations.reshape(count, frames, -1, 4), roots.reshape(count, frames, 2, 3)

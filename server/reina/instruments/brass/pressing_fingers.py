@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.kinematics import FingerChains
-from reina.rotations import conjugate, rotate
+from reina.rotations import conjugate, product, rotate
 from reina.skeleton import RigError
 
 if TYPE_CHECKING:
@@ -53,10 +53,15 @@ class PressingFingers:
         travel = np.array([button.travel for button in buttons])
         up = -travel / np.sqrt(np.sum(travel * travel, axis=-1, keepdims=True))
         self._base: FloatArray = to_rest(rotate(to_hand, position - hand_position) - self.chains.origins)
-        self._travel: FloatArray = to_rest(rotate(to_hand, travel))
-        self._lift: FloatArray = to_rest(rotate(to_hand, up * FINGER_LIFT_M))
         units = rotate(to_hand, np.eye(3))[:, None].repeat(len(buttons), axis=1)
-        self._shift: FloatArray = to_rest(units).reshape(3, -1)
+        # How far each target goes with its own valve, its own lift, and each axis of the shift.
+        own = np.eye(len(buttons))[..., None]
+        ways = [
+            own * to_rest(rotate(to_hand, travel)),
+            own * to_rest(rotate(to_hand, up * FINGER_LIFT_M)),
+            -to_rest(units),
+        ]
+        self._ways: FloatArray = np.concatenate(ways).reshape(2 * len(buttons) + 3, -1)
 
     def solve(self, valves: FloatArray, lifts: FloatArray, shifts: FloatArray) -> FloatArray:
         """The fingers' local rotations ``(F, K, 3, 4)``, in the order of the rig's buttons.
@@ -66,6 +71,5 @@ class PressingFingers:
             lifts: How far each finger is off its cap, ``(F, K)``.
             shifts: How far the hand is from its place, in the instrument's frame, metres, ``(F, 3)``.
         """
-        targets = self._base + valves[..., None] * self._travel + lifts[..., None] * self._lift
-        rotations, _ = self.chains.solve_at_rest(targets - (shifts @ self._shift).reshape(targets.shape))
-        return rotations
+        moved = product(np.concatenate([valves, lifts, shifts], axis=1), self._ways)
+        return self.chains.rotations_at_rest(self._base + moved.reshape(-1, *self._base.shape))

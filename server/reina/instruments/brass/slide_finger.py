@@ -95,15 +95,18 @@ class SlideFinger:
         """
         rotations = np.empty((len(slide), *self.held.shape))
         rotations[:] = self.held
-        if not slide.any() or self.reach == 0.0:
+        moved = np.flatnonzero(slide)
+        if len(moved) == 0 or self.reach == 0.0:
             return rotations
         # Beyond its reach the finger is left behind gently: it comes to rest and does not stop.
-        way = slide if self.reach == 1.0 else self.reach * np.tanh(slide / self.reach)
+        way = slide[moved]
+        if self.reach < 1.0:
+            way = self.reach * np.tanh(way / self.reach)
         place = np.minimum(np.maximum(way, 0.0), 1.0) * (_SAMPLES - 1)
         row = np.minimum(place.astype(np.intp), _SAMPLES - 2)
         before = self._angles[row]
         angles = before + (place - row)[:, None, None] * (self._angles[row + 1] - before)
-        rotations[:, self._moved] = self._chain.rotations(angles)
+        rotations[moved, self._moved] = self._chain.rotations(angles)
         return rotations
 
 

@@ -123,6 +123,9 @@ class DrumsBody:
         RigError: Something that playing needs is not in the rigs.
     """
 
+    is_framewise = True
+    """See `FramewiseBody`."""
+
     def __init__(self, engagement: Engagement) -> None:
         rig, kit = engagement.player_rig, engagement.instrument_rigs[KIT]
         held = HeldPose(rig, engagement.hold)

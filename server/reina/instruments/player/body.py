@@ -11,7 +11,7 @@ from reina.instruments.player.body_table import EYES, SIGNALS, TRUNK, Vector, bo
 from reina.instruments.player.rows import stacked
 from reina.instruments.player.trunk import Trunk
 from reina.kinematics import TwistHelpers, TwoBoneLimbs
-from reina.rotations import conjugate, exp, multiply, rotate, same_hemisphere
+from reina.rotations import conjugate, exp, multiply, product, rotate, same_hemisphere
 from reina.skeleton import Point, RigError
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ class PlayerBody:
                 `Stances.evaluate` gives it.
         """
         rows = stacked(signals, self._signals)
-        moved = (rows.T @ self._matrix).reshape(rows.shape[1], -1, 3)
+        moved = product(rows.T, self._matrix).reshape(rows.shape[1], -1, 3)
         hips = self._root + moved[:, self._hips]
         if stance is None:
             turns = exp(moved[:, : self._hips])

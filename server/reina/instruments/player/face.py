@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.curves import Parameter
+from reina.rotations import product
 
 if TYPE_CHECKING:
     from reina.rotations.arrays import FloatArray
@@ -54,4 +55,4 @@ class Face:
 
     def evaluate(self, signals: FloatArray) -> FloatArray:
         """Morph weights ``(F, M)`` for signals ``(len(SIGNALS), F)``."""
-        return np.minimum(np.maximum(signals.T @ self._weights, 0.0), 1.0)
+        return np.minimum(np.maximum(product(signals.T, self._weights), 0.0), 1.0)

@@ -38,6 +38,19 @@ class BodyMotion:
     lowered: FloatArray
     stance: FloatArray | None
 
+    def rows(self, rows: slice) -> BodyMotion:
+        """Some of the frames only."""
+        stance = None if self.stance is None else self.stance[rows]
+        return BodyMotion(
+            times_s=self.times_s[rows],
+            shown=self.shown[rows],
+            curves=self.curves[:, rows],
+            amounts={name: row[rows] for name, row in self.amounts.items()},
+            signals={name: row[rows] for name, row in self.signals.items()},
+            lowered=self.lowered[rows],
+            stance=stance if stance is not None and stance.any() else None,
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class BodyFrames:
@@ -64,6 +77,16 @@ class InstrumentBody(Protocol):
 
 
 @runtime_checkable
+class FramewiseBody(InstrumentBody, Protocol):
+    """A body that may say that it is asked for many blocks at once, which costs less a block."""
+
+    @property
+    def is_framewise(self) -> bool:
+        """Whether a frame is the same to the last bit, whatever others it is solved with."""
+        ...
+
+
+@runtime_checkable
 class FigureBody(InstrumentBody, Protocol):
     """A body that poses for all players with an equal `figure` at once.
 
@@ -77,7 +100,7 @@ class FigureBody(InstrumentBody, Protocol):
         ...
 
     def pose(self, motions: Sequence[BodyMotion]) -> tuple[Float32Array, FloatArray]:
-        """The poses of K players, F frames each.
+        """The poses of K players, F frames each; each block's to the last bit as by itself.
 
         Args:
             motions: One a player; all with a stance of as many rows, or none.

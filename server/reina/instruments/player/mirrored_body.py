@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reina.instruments.player.body_table import TRUNK
-from reina.instruments.player.instrument_body import BodyFrames
+from reina.instruments.player.instrument_body import BodyFrames, FramewiseBody
 from reina.skeleton import ACROSS, Mirror, RigError, other_side
 
 if TYPE_CHECKING:
@@ -51,6 +51,8 @@ class MirroredBody:
         if engagement.right_handed is None:
             raise RigError("nobody is mirrored who leads with the right hand", location="handedness")
         self._body = body
+        self.is_framewise = isinstance(body, FramewiseBody) and body.is_framewise
+        """See `FramewiseBody`."""
         of, to = _skeletons(engagement.right_handed), _skeletons(engagement)
         starts = dict(
             zip(of, np.cumsum([0, *(len(one.names) for one in of.values())]).tolist(), strict=False)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reina.rotations import from_axis_angle, multiply, rotate
+from reina.rotations import from_axis_angle, multiply, product, rotate
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -54,16 +54,14 @@ class Seat:
         turn = from_axis_angle(UP, np.array(self.facing_rad))
         return rotate(turn, np.eye(3)), multiply(turn, np.eye(4)), np.array([self.x_m, self.y_m, self.z_m])
 
-    # One product for all rows: NumPy would take one for each of a stack of frames.
-
     def place(self, positions: FloatArray) -> FloatArray:
         """Points ``(..., 3)`` of somebody in the middle, metres, as they are in this seat."""
         turn, _, place = self._turning
-        return (positions.reshape(-1, 3) @ turn + place).reshape(positions.shape)
+        return product(positions, turn) + place
 
     def turn(self, rotations: FloatArray) -> FloatArray:
         """World rotations ``(..., 4)`` of somebody in the middle, as they are in this seat."""
-        return (rotations.reshape(-1, 4) @ self._turning[1]).reshape(rotations.shape)
+        return product(rotations, self._turning[1])
 
 
 _SEATS = (

@@ -61,6 +61,11 @@ class StanceChoice:
         place = asked - first if len(read) > last - first else np.searchsorted(read, asked)
         values, _ = self._plan.evaluate(np.maximum(read, 0) / GRID_FPS)
         chosen = values[:, self._column].astype(np.int64)
+        whole = np.eye(self._count)
         if np.all(chosen == chosen[0]):
-            return np.broadcast_to(np.eye(self._count)[chosen[0]], (len(times_s), self._count))
-        return np.einsum("t,ftc->fc", self._steps, np.eye(self._count)[chosen[place].reshape(asked.shape)])
+            return np.broadcast_to(whole[chosen[0]], (len(times_s), self._count))
+        passed = chosen[place].reshape(asked.shape)
+        mixed = np.einsum("t,ftc->fc", self._steps, whole[passed])
+        # Where nothing changes there is the whole of one, whatever else is asked for beside it.
+        steady = np.all(passed == passed[:, :1], axis=1)
+        return np.where(steady[:, None], whole[passed[:, 0]], mixed)

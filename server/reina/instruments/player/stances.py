@@ -9,7 +9,7 @@ import numpy as np
 
 from reina.instruments.player.body_table import TRUNK
 from reina.instruments.player.posed_stance import retarget_pose
-from reina.rotations import conjugate, log, multiply
+from reina.rotations import conjugate, log, multiply, product
 from reina.skeleton import retarget
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class Stances:
             total = moved if total is None else total + moved
         posed = weights[:, len(STANCES) :]
         if posed.any():
-            added = np.minimum(posed, 1.0) @ self._poses
+            added = product(np.minimum(posed, 1.0), self._poses)
             if total is not None:
                 added[:, : total.shape[1]] += total
             total = added
