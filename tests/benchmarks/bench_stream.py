@@ -1,0 +1,159 @@
+"""Reina's stream beside viser, a plain JSON stream and Nchan: what a frame and viewer costs, and its bytes.
+
+Run as ``python tests/benchmarks/bench_stream.py``. Each sends 60 frames a second to the same viewers, who are
+in C on another core (viewers.c), turn by turn, and the best turn of each counts. Reina evaluates a player and
+keeps time meanwhile; viser is told 70 bones' orientations, JSON and Nchan are given ready what they send.
+All that the servers' processes use of the processor is divided by the frames that came.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bench_viewers import FPS, FRAME_BYTES, HERE, Bench, Measured
+from machine import PEERS, heading, peers_version, said, version
+from nchan_server import PACKAGE, nginx
+from table import SHORT, Row, alternate, tell
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+AREA = "Streaming 60 frames a second"
+SECONDS, ROUNDS = (2.0, 2) if SHORT else (5.0, 3)
+FEW, MANY = 20, (200,) if SHORT else (200, 500)
+
+
+@dataclass(frozen=True)
+class Server:
+    """One of those who send.
+
+    Attributes:
+        name: What it is called.
+        version: Empty where it is not installed.
+        run: Has so many viewers watch it, who get so many frames in a message.
+        notes: What is to be known of its figures.
+        packs: Whether it sends packed blocks as well as frames.
+    """
+
+    name: str
+    version: str
+    run: Callable[[int, int], Measured]
+    notes: str = ""
+    packs: bool = False
+
+
+def frame_us(measured: Measured, frames: int) -> float:
+    """Processor time a frame and viewer, of messages of so many frames."""
+    seen = measured.seen
+    # Of what comes once a second a span may have one more or less than its length says.
+    came = seen["messages"] if frames == 1 else seen["viewers"] * seen["seconds"] * FPS
+    return measured.cpu_s * 1e6 / came
+
+
+def frame_bytes(measured: Measured, frames: int) -> float:
+    """Bytes a frame and viewer."""
+    return measured.seen["bytes"] / (measured.seen["messages"] * frames)
+
+
+def compare(viewers: int, reina: Server, peers: list[Server]) -> None:
+    """Measure everybody with so many viewers, turn by turn, and tell the rows."""
+    asked = [(server, 1) for server in (reina, *peers) if server.version]
+    asked += [(server, FPS) for server, _ in asked if server.packs]
+    runs = [
+        lambda server=server, frames=frames: (server.run(viewers, frames), frames) for server, frames in asked
+    ]
+    best = alternate(ROUNDS, *runs, key=lambda one: frame_us(*one))
+    found = {(server.name, frames): one for (server, frames), (one, _) in zip(asked, best, strict=True)}
+    for way, frames in (("a frame a message", 1), ("packed blocks", FPS)):
+        own = found[reina.name, frames]
+        for peer in peers:
+            theirs_frames = frames if peer.packs else 1
+            theirs = found.get((peer.name, theirs_frames))
+            told = partial(
+                Row,
+                AREA,
+                peer=peer.name,
+                version=peer.version,
+                notes=peer.notes if theirs else "not installed",
+            )
+            who = f"{viewers} viewers, {way}"
+            tell(
+                told(
+                    what=f"processor a frame and viewer: {who}",
+                    unit="µs",
+                    reina=frame_us(own, frames),
+                    theirs=frame_us(theirs, theirs_frames) if theirs else None,
+                )
+            )
+            if not peer.packs:
+                tell(
+                    told(
+                        what=f"bytes a frame and viewer: {who}",
+                        unit="bytes",
+                        reina=frame_bytes(own, frames),
+                        theirs=frame_bytes(theirs, theirs_frames) if theirs else None,
+                    )
+                )
+            if frames == 1:
+                tell(
+                    told(
+                        what=f"interval between frames, 99th percentile: {who}",
+                        unit="ms",
+                        reina=own.seen["interval"]["p99"],
+                        theirs=theirs.seen["interval"]["p99"] if theirs else None,
+                    )
+                )
+
+
+def main() -> int:
+    """Measure, and tell the rows."""
+    print(heading(__file__))
+    viser = peers_version("viser")
+    packed_bytes: list[int] = []
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(Path(folder), SECONDS)
+
+        def by_reina(viewers: int, frames: int) -> Measured:
+            data = Path(tempfile.mkdtemp(dir=folder))
+            measured = bench.reina(data, viewers, 1, 1, packed=frames > 1)
+            if frames > 1:
+                packed_bytes.append(measured.seen["bytes"] // measured.seen["messages"])
+            return measured
+
+        def by_viser(viewers: int, _: int) -> Measured:
+            command = [str(PEERS), str(HERE / "viser_server.py")]
+            return bench.program(command, viewers, subprotocol=f"viser-v{viser}")
+
+        def by_json(viewers: int, _: int) -> Measured:
+            return bench.program([sys.executable, str(HERE / "json_server.py")], viewers)
+
+        def by_nchan(viewers: int, frames: int) -> Measured:
+            size = FRAME_BYTES if frames == 1 else packed_bytes[-1]
+            options = [f"--bytes={size}", f"--rate={FPS / frames}"]
+            return bench.program([sys.executable, str(HERE / "nchan_server.py"), *options], viewers)
+
+        reina = Server("Reina", version("reina"), by_reina, packs=True)
+        of_json = Server(
+            "JSON by FastAPI", version("fastapi"), by_json, "the same frame by names, five places, ready made"
+        )
+        of_viser = Server("viser", viser, by_viser, "70 bones' orientations, flushed each frame")
+        nchan = Server(
+            "Nchan",
+            said("dpkg-query", "-W", "-f", "${Version}", PACKAGE) if nginx() else "",
+            by_nchan,
+            "the same bytes as often, ready made; with its publisher",
+            packs=True,
+        )
+        compare(FEW, reina, [of_viser, of_json])
+        for viewers in MANY:
+            compare(viewers, reina, [of_json, nchan])
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
