@@ -85,7 +85,7 @@ class Row:
 
     def __str__(self) -> str:
         """The row as a benchmark prints it."""
-        return f"{self.what}: Reina {number(self.reina)}, {self.peer} {self._theirs()}: {self.verdict()}"
+        return f"{self.what}: Reina {figure(self.reina)}, {self.peer} {self._theirs()}: {self.verdict()}"
 
     def verdict(self) -> str:
         """Who is ahead, in words."""
@@ -97,10 +97,10 @@ class Row:
         name = "Reina" if self.ahead == "reina" else self.peer
         if not ratio:
             return f"{name} ahead"
-        return f"{name} ahead, {number(max(ratio, 1 / ratio))} times"
+        return f"{name} ahead, {figure(max(ratio, 1 / ratio))} times"
 
     def _theirs(self) -> str:
-        return f"{number(self.theirs)} {self.unit}" if self.theirs is not None else f"({self.notes})"
+        return f"{figure(self.theirs)} {self.unit}" if self.theirs is not None else f"({self.notes})"
 
 
 @dataclass(frozen=True)
@@ -119,7 +119,7 @@ class Bound:
         return self.value <= self.most
 
 
-def number(value: float) -> str:
+def figure(value: float) -> str:
     """A figure for people: three digits, no exponent unless it is very small."""
     if value == 0 or abs(value) >= 100:
         return f"{value:,.0f}"
@@ -193,7 +193,7 @@ def markdown(document: dict[str, Any]) -> str:
         lines += ["", f"## {area}", "", *_grid(heads, [_cells(row) for row in chosen])]
     if bounds:
         cells = [
-            (bound.benchmark, bound.what, f"{number(bound.value)} {bound.unit}", _most(bound))
+            (bound.benchmark, bound.what, f"{figure(bound.value)} {bound.unit}", _most(bound))
             for bound in bounds
         ]
         heads = ("benchmark", "what", "measured", "at most")
@@ -212,13 +212,13 @@ def _summary(rows: Sequence[Row]) -> str:
 
 def _cells(row: Row) -> tuple[str, ...]:
     verdict = f"**{row.verdict()}**" if row.ahead == "peer" else row.verdict()
-    theirs = number(row.theirs) if row.theirs is not None else "–"
+    theirs = figure(row.theirs) if row.theirs is not None else "–"
     peer = f"{row.peer} {row.version}".rstrip()
-    return row.what, row.unit, number(row.reina), peer, theirs, verdict, row.notes
+    return row.what, row.unit, figure(row.reina), peer, theirs, verdict, row.notes
 
 
 def _most(bound: Bound) -> str:
-    return f"{number(bound.most)} {bound.unit}" + ("" if bound.held else ", **missed**")
+    return f"{figure(bound.most)} {bound.unit}" + ("" if bound.held else ", **missed**")
 
 
 def _grid(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
