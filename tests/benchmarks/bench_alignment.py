@@ -59,8 +59,8 @@ def main() -> int:
             continue
         told.append((result.p95_ms, f"{result.median_ms:.1f} / {result.p95_ms:.0f} ms: {kind}, {rendition}"))
         if kind in COMPARED:
-            others["Reina beside others"].append(result)
-            spent_s["Reina beside others"].append(own_s)
+            others["Reina"].append(result)
+            spent_s["Reina"].append(own_s)
             for name, other in OTHERS.items():
                 theirs, took_s = other(recording, RATE)
                 others[name].append(theirs)
@@ -98,7 +98,7 @@ def main() -> int:
 
 def tell_rows(results: dict[str, list[Result]], spent_s: dict[str, list[float]]) -> None:
     """Tell how far off others are, and how long they took, on the same recordings turn by turn."""
-    own, own_s = (found["Reina beside others"] for found in (results, spent_s))
+    own, own_s = results["Reina"], spent_s["Reina"]
     own_ms = np.concatenate([result.errors_ms for result in own])
     for name in ("synctoolbox", *(name for name in OTHERS if name != "synctoolbox")):
         theirs = results.get(name)

@@ -13,6 +13,7 @@ import json
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -134,7 +135,7 @@ def beside(size: int, data: bytes) -> dict[tuple[str, int], float]:
     there = {name: reader for name, reader in READERS.items() if version(name)}
     best = alternate(
         1 if SHORT else 2,
-        *(lambda read=read, runs=runs: seconds(read, data, size, runs) for read, runs in there.values()),
+        *(partial(seconds, read, data, size, runs) for read, runs in there.values()),
         key=float,
     )
     taken = dict(zip(there, best, strict=True))

@@ -62,7 +62,8 @@ def synctoolbox(recording: Recording, rate: int) -> tuple[Result, float]:
         process.stdin.flush()
         answer: dict[str, Any] = json.loads(process.stdout.readline())
     heard = ~np.isnan(recording.onset_s)
-    at_s = np.interp(notes.onset_s[heard], answer["score_s"], answer["song_s"])
+    at_score, at_song = (np.array(answer[name], dtype=np.float64) for name in ("score_s", "song_s"))
+    at_s = np.interp(notes.onset_s[heard], at_score, at_song)
     errors_ms = 1000 * np.abs(at_s - recording.onset_s[heard])
     return Result(errors_ms, errors_ms), float(answer["took_s"])
 

@@ -41,7 +41,8 @@ def features(pitch: Any, peaks: Any) -> tuple[Any, Any]:
 def align(asked: Any) -> tuple[list[float], list[float]]:
     """MrMsDTW over chroma and onsets, as its authors' notebook has it; leading silence is left out before."""
     pandas: Any = importlib.import_module("pandas")
-    samples, rate = asked["samples"], int(asked["rate"])
+    samples: np.ndarray[Any, np.dtype[np.float64]] = asked["samples"]
+    rate = int(asked["rate"])
     loud = np.flatnonzero(np.abs(samples) > 0.1 * np.abs(samples).max())
     first = max(0, int(loud[0]) - rate // 50)
     size = int((len(samples) - first) * RATE / rate)

@@ -41,7 +41,7 @@ def main() -> None:
     mesh = server.scene.add_mesh_skinned(
         "/player",
         vertices=at + np.array([0.0, 0.01, 0.0]),
-        faces=np.arange(options.bones - options.bones % 3).reshape(-1, 3),
+        faces=np.array([[bone, bone + 1, bone + 2] for bone in range(0, options.bones - 2, 3)]),
         bone_wxyzs=poses[0],
         bone_positions=at,
         skin_weights=np.eye(options.bones),
