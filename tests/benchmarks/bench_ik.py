@@ -193,7 +193,7 @@ def rows(other: Other, theirs: Measured | None, own: Measured) -> list[Row]:
     told = partial(
         Row,
         "Inverse kinematics: a finger of four hinges, to 0.1 mm",
-        peer=other.package,
+        peer=other.name.partition(" (")[0],
         version=other.version() if theirs else "",
     )
     if theirs is None:

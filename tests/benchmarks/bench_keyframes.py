@@ -226,7 +226,8 @@ def main() -> int:
     document, registry = show(1000.0, list(interpolations()))
     plan = Show.from_document(document, registry).plan(registry)
     print(f"{'an edit, planned again':44} {edit_ms(plan, document, registry):9.2f} ms")
-    return 0 if met else 1
+    # The bounds are meant for the whole form alone.
+    return 0 if met or SHORT else 1
 
 
 if __name__ == "__main__":

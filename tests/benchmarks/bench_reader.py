@@ -115,7 +115,7 @@ READERS: dict[str, tuple[Callable[[bytes], int], int]] = {
     "symusic": (by_symusic, 5),
 }
 """Each reader and how often it runs."""
-NOTES = {"mido": "Python", "pretty_midi": "Python, on mido", "symusic": "C++; it plans and checks nothing"}
+NOTES = {"mido": "Python", "pretty_midi": "Python, on mido", "symusic": "C++"}
 
 
 def seconds(read: Callable[[bytes], int], data: bytes, notes: int, runs: int) -> float:
@@ -171,7 +171,9 @@ def main() -> int:
     largest = taken["reina", SIZES[-1]]
     growth = (largest / SIZES[-1]) / (taken["reina", SIZES[-2]] / SIZES[-2])
     print(f"a note of the largest file takes {growth:.2f} times as long as one of the middle file")
-    return 1 if max(largest, taken["json", SIZES[-1]], of_document) > MAX_S or growth > MAX_GROWTH else 0
+    missed = max(largest, taken["json", SIZES[-1]], of_document) > MAX_S or growth > MAX_GROWTH
+    # The bounds are meant for the whole form alone.
+    return 1 if missed and not SHORT else 0
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
 """Reina's stream beside viser, a plain JSON stream and Nchan: what a frame and viewer costs, and its bytes.
 
 Run as ``python tests/benchmarks/bench_stream.py``. Each sends 60 frames a second to the same viewers, who are
-in C on another core (viewers.c), turn by turn, and the best turn of each counts. Reina evaluates a player and
-keeps time meanwhile; viser is told 70 bones' orientations, JSON and Nchan are given ready what they send.
-All that the servers' processes use of the processor is divided by the frames that came.
+in C on another core (viewers.c), turn by turn, and the best turn of each figure counts. Reina evaluates a
+player and keeps time meanwhile; viser is told 70 bones' orientations, the JSON stream is given frames, Nchan
+bytes. All that the servers' processes use of the processor is divided by the frames that came.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING
 from bench_viewers import FPS, FRAME_BYTES, HERE, Bench, Measured
 from machine import PEERS, heading, peers_version, said, version
 from nchan_server import PACKAGE, nginx
-from table import SHORT, Row, alternate, tell
+from table import SHORT, Row, tell, turns
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 AREA = "Streaming 60 frames a second"
-SECONDS, ROUNDS = (2.0, 2) if SHORT else (5.0, 3)
+SECONDS, ROUNDS = (2.0, 3) if SHORT else (5.0, 3)
 FEW, MANY = 20, (200,) if SHORT else (200, 500)
 
 
@@ -60,52 +60,38 @@ def frame_bytes(measured: Measured, frames: int) -> float:
     return measured.seen["bytes"] / (measured.seen["messages"] * frames)
 
 
+def interval_ms(measured: Measured, _: int) -> float:
+    """Between two frames of a viewer, as they come, the 99th percentile."""
+    return measured.seen["interval"]["p99"]
+
+
 def compare(viewers: int, reina: Server, peers: list[Server]) -> None:
     """Measure everybody with so many viewers, turn by turn, and tell the rows."""
     asked = [(server, 1) for server in (reina, *peers) if server.version]
     asked += [(server, FPS) for server, _ in asked if server.packs]
-    runs = [
-        lambda server=server, frames=frames: (server.run(viewers, frames), frames) for server, frames in asked
-    ]
-    best = alternate(ROUNDS, *runs, key=lambda one: frame_us(*one))
-    found = {(server.name, frames): one for (server, frames), (one, _) in zip(asked, best, strict=True)}
+    rounds = turns(ROUNDS, *(partial(server.run, viewers, frames) for server, frames in asked))
+    found = {(server.name, frames): each for (server, frames), each in zip(asked, rounds, strict=True)}
     for way, frames in (("a frame a message", 1), ("packed blocks", FPS)):
-        own = found[reina.name, frames]
         for peer in peers:
-            theirs_frames = frames if peer.packs else 1
-            theirs = found.get((peer.name, theirs_frames))
-            told = partial(
-                Row,
-                AREA,
-                peer=peer.name,
-                version=peer.version,
-                notes=peer.notes if theirs else "not installed",
-            )
-            who = f"{viewers} viewers, {way}"
-            tell(
-                told(
-                    what=f"processor a frame and viewer: {who}",
-                    unit="µs",
-                    reina=frame_us(own, frames),
-                    theirs=frame_us(theirs, theirs_frames) if theirs else None,
-                )
-            )
+            of_peer = frames if peer.packs else 1
+            own, theirs = found[reina.name, frames], found.get((peer.name, of_peer))
+            figures: list[tuple[str, str, Callable[[Measured, int], float]]]
+            figures = [("processor a frame and viewer", "µs", frame_us)]
             if not peer.packs:
-                tell(
-                    told(
-                        what=f"bytes a frame and viewer: {who}",
-                        unit="bytes",
-                        reina=frame_bytes(own, frames),
-                        theirs=frame_bytes(theirs, theirs_frames) if theirs else None,
-                    )
-                )
+                figures.append(("bytes a frame and viewer", "bytes", frame_bytes))
             if frames == 1:
+                figures.append(("interval between frames, 99th percentile", "ms", interval_ms))
+            for what, unit, figure in figures:
                 tell(
-                    told(
-                        what=f"interval between frames, 99th percentile: {who}",
-                        unit="ms",
-                        reina=own.seen["interval"]["p99"],
-                        theirs=theirs.seen["interval"]["p99"] if theirs else None,
+                    Row(
+                        AREA,
+                        f"{what}: {viewers} viewers, {way}",
+                        unit,
+                        min(figure(each, frames) for each in own),
+                        peer.name,
+                        peer.version,
+                        min(figure(each, of_peer) for each in theirs) if theirs else None,
+                        notes=peer.notes if theirs else "not installed",
                     )
                 )
 
@@ -139,7 +125,10 @@ def main() -> int:
 
         reina = Server("Reina", version("reina"), by_reina, packs=True)
         of_json = Server(
-            "JSON by FastAPI", version("fastapi"), by_json, "the same frame by names, five places, ready made"
+            "JSON by FastAPI",
+            version("fastapi"),
+            by_json,
+            "the same frame, evaluated beforehand; names, five places",
         )
         of_viser = Server("viser", viser, by_viser, "70 bones' orientations, flushed each frame")
         nchan = Server(

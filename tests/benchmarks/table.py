@@ -151,10 +151,15 @@ def collected(text: str) -> tuple[list[Row], list[Bound]]:
     )
 
 
+def turns(rounds: int, *runs: Callable[[], T]) -> list[tuple[T, ...]]:
+    """Run all in turn, so many rounds, and return what each gave in every round."""
+    found = [[run() for run in runs] for _ in range(rounds)]
+    return list(zip(*found, strict=True))
+
+
 def alternate(rounds: int, *runs: Callable[[], T], key: Callable[[T], float]) -> list[T]:
     """Run all in turn, so many rounds, and return the best of each, by the lowest of a key."""
-    found = [[run() for run in runs] for _ in range(rounds)]
-    return [min(each, key=key) for each in zip(*found, strict=True)]
+    return [min(each, key=key) for each in turns(rounds, *runs)]
 
 
 def dump(
