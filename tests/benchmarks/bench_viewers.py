@@ -66,6 +66,7 @@ class Seen(TypedDict):
     interval: Percentiles
     late: Percentiles | None
     texts: int
+    text_bytes: int
     pings: int
     lost: int
     closed: int

@@ -132,7 +132,7 @@ static struct {
 
 static struct {
     Times interval, late;
-    uint64_t messages, bytes, texts, pings, lost, closed;
+    uint64_t messages, bytes, texts, text_bytes, pings, lost, closed;
 } seen;
 
 static void begin(Viewer *viewer, int number) {
@@ -190,7 +190,10 @@ static void message(Viewer *viewer, double arrived) {
     int kind = viewer->head[0] & 15;
     if (kind == BINARY || (kind == TEXT && given.frames < 0)) counted(viewer, arrived);
     else if (kind == PING) pong(viewer);
-    else if (kind != CLOSE) seen.texts++;
+    else if (kind != CLOSE) {
+        seen.texts++;
+        seen.text_bytes += viewer->length;
+    }
 }
 
 /* Read what came into one viewer; returns whether it joined by that. */
@@ -283,8 +286,8 @@ static void watch(double seconds, double settle) {
            given.viewers, lasted, seen.messages, seen.bytes, (double)fewest / lasted);
     print_times("interval", &seen.interval);
     print_times("late", &seen.late);
-    printf("\"texts\": %lu, \"pings\": %lu, \"lost\": %lu, \"closed\": %lu, \"cpu\": %.4f}\n", seen.texts, seen.pings,
-           seen.lost, seen.closed, used / lasted);
+    printf("\"texts\": %lu, \"text_bytes\": %lu, \"pings\": %lu, \"lost\": %lu, \"closed\": %lu, \"cpu\": %.4f}\n",
+           seen.texts, seen.text_bytes, seen.pings, seen.lost, seen.closed, used / lasted);
 }
 
 static void send_all(int viewers, size_t bytes, double rate) {
