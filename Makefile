@@ -50,8 +50,8 @@ generate: .venv/.dev ## Write the generated TypeScript, schemas and docs anew
 assets: .venv/.dev $(NODE) ## Build the rigs anew from their pinned sources
 	$(BIN)/python rigs/build/build.py
 
-bench: setup .venv/.bench tests/benchmarks/theatre/node_modules/.stamp ## Measure, and print the figures
-	$(BIN)/python tests/benchmarks/run.py
+bench: setup .venv/.bench .venv/.peers/.stamp tests/benchmarks/theatre/node_modules/.stamp ## Measure beside others, and write docs/benchmarks.md (SHORT=1: in five minutes)
+	$(BIN)/python tests/benchmarks/run.py $(if $(SHORT),--short)
 
 wheel: .venv/.serve web/dist/index.html ## Build the wheel and the source distribution into dist/
 	rm -rf dist
@@ -91,6 +91,13 @@ clean: ## Remove everything that was built
 
 .venv/.bench: .venv/.dev requirements/bench.txt
 	$(BIN)/pip install --quiet --require-hashes -r requirements/bench.txt
+	@touch $@
+
+# Peers whose dependencies do not go with Reina's, and nginx with Nchan where Debian's packages can be installed.
+.venv/.peers/.stamp: .venv/.bench requirements/peers.txt
+	$(PYTHON) -m venv .venv/.peers
+	.venv/.peers/bin/pip install --quiet --require-hashes -r requirements/peers.txt
+	$(BIN)/python tests/benchmarks/nchan_server.py --install
 	@touch $@
 
 tests/benchmarks/theatre/node_modules/.stamp: tests/benchmarks/theatre/package.json tests/benchmarks/theatre/package-lock.json | $(NODE)

@@ -11,3 +11,4 @@ compile pyproject.toml requirements/build.in --group dev --group assets -c requi
 compile pyproject.toml requirements/build.in requirements/bench.in --group dev --group assets -c requirements/dev.txt -o requirements/bench.txt
 compile requirements/node.in -o requirements/node.txt
 compile requirements/servers.in -o requirements/servers.txt
+compile requirements/peers.in -o requirements/peers.txt

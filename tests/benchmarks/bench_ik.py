@@ -9,13 +9,15 @@ finger and the same targets, as far as they are installed (requirements/bench.tx
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from other_solvers import OTHERS, Measured, finger_of
+from machine import heading, version
+from other_solvers import OTHERS, Measured, Other, finger_of
+from table import SHORT, Row, alternate, figure, tell
 
 from reina.kinematics import (
     CoupledFinger,
@@ -43,6 +45,9 @@ PLAYER = load_rig(RIGS / "trumpeter")
 TRUMPET = load_rig(RIGS / "trumpet")
 HOLD = load_hold(RIGS / "trumpeter", "trumpet")
 COUNT = 1000
+BLOCKS = 30
+FEWER = 4 if SHORT else 1
+"""By what other libraries' targets are divided."""
 FINGERS = ("rightIndex", "rightMiddle", "rightRing")
 
 
@@ -139,7 +144,7 @@ def python_loop() -> None:
 
 
 def beside_others() -> None:
-    """The same finger and targets for other libraries, as times of Reina's."""
+    """The same finger and targets for other libraries, turn by turn."""
     chain = JointChain.from_rig(PLAYER, "rightIndex")
     finger = finger_of(chain)
     single = FingerChains(PLAYER, ["rightIndex"])
@@ -152,7 +157,21 @@ def beside_others() -> None:
     targets = single.tips(_rotations(chain, angles)[:, None])[:, 0]
     solved, _ = single.solve(targets[:, None])
     error = np.linalg.norm(single.tips(solved)[:, 0] - targets, axis=-1)
-    own = Measured(error, best_us(lambda: single.solve(targets[:, None]), 30) / COUNT)
+
+    def by_reina() -> Measured:
+        start = time.process_time()
+        for _ in range(BLOCKS):
+            single.solve(targets[:, None])
+        return Measured(error, (time.process_time() - start) / (BLOCKS * COUNT) * 1e6)
+
+    there = [other for other in OTHERS if not other.missing()]
+    own, *best = alternate(
+        2,
+        by_reina,
+        *(lambda other=other: other.run(finger, targets[: other.targets // FEWER]) for other in there),
+        key=lambda one: one.took_us,
+    )
+    by_name = dict(zip([other.name for other in there], best, strict=True))
     print()
     print(f"the same finger and targets {'':18s} reached   median, mm  µs each     ratio")
     beside("Reina, closed form, one block", own, own)
@@ -161,11 +180,46 @@ def beside_others() -> None:
     took = (time.process_time() - start) / COUNT * 1e6
     beside("Reina, damped least squares, one block", Measured(found.error, took), own)
     for other in OTHERS:
-        missing = other.missing()
-        if missing:
-            print(f"{other.name:45s} {missing}")
+        if other.name in by_name:
+            beside(other.name, by_name[other.name], own)
         else:
-            beside(other.name, other.run(finger, targets[: other.targets]), own)
+            print(f"{other.name:45s} {other.missing()}")
+        if other.package:
+            tell(*rows(other, by_name.get(other.name), own))
+
+
+def rows(other: Other, theirs: Measured | None, own: Measured) -> list[Row]:
+    """The time of a solve, and how many targets are reached, beside another library."""
+    told = partial(
+        Row,
+        "Inverse kinematics: a finger of four hinges, to 0.1 mm",
+        peer=other.name.partition(" (")[0],
+        version=other.version() if theirs else "",
+    )
+    if theirs is None:
+        missing = partial(told, theirs=None, notes="not installed")
+        return [
+            missing(what="a solve", unit="µs", reina=own.took_us),
+            missing(what="targets reached", unit="%", reina=100 * own.reached),
+        ]
+    error = [float(np.median(one.error_m)) * 1e3 for one in (theirs, own)]
+    return [
+        told(
+            what="a solve",
+            unit="µs",
+            reina=own.took_us,
+            theirs=theirs.took_us,
+            notes="Reina in one block, the peer one by one, from rest",
+        ),
+        told(
+            what="targets reached",
+            unit="%",
+            reina=100 * own.reached,
+            theirs=100 * theirs.reached,
+            better="higher",
+            notes=f"median error {figure(error[0])} mm, Reina's {figure(error[1])}",
+        ),
+    ]
 
 
 def _rotations(chain: JointChain, angles: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -188,15 +242,17 @@ def motion_files() -> None:
     """A shipped clip read by Reina and by bvhio."""
     path = RIGS / "trumpeter" / "clips" / "shifting.bvh"
     data = path.read_bytes()
-    own = best_us(lambda: read_bvh(data), 3) / 1e3
-    print()
-    print(f"{path.name}, {len(data) // 1024} KiB: Reina reads it in {own:.1f} ms", end="")
-    if importlib.util.find_spec("bvhio") is None:
-        print("; bvhio not installed: pip install -r requirements/bench.txt")
-        return
-    bvhio: Any = importlib.import_module("bvhio")
-    other = best_us(lambda: bvhio.readAsBvh(str(path)), 2) / 1e3
-    print(f", bvhio in {other:.0f} ms: {other / own:.0f} times as long")
+    there = version("bvhio")
+    bvhio: Any = importlib.import_module("bvhio") if there else None
+    own, theirs = alternate(
+        2,
+        lambda: best_us(lambda: read_bvh(data), 3) / 1e3,
+        lambda: best_us(lambda: bvhio.readAsBvh(str(path)), 2) / 1e3 if there else 0.0,
+        key=float,
+    )
+    what = f"BVH of {len(data) // 1024} KiB, {path.name}"
+    notes = "" if there else "not installed"
+    tell(Row("Reading files", what, "ms", own, "bvhio", there, theirs if there else None, notes=notes))
 
 
 def finger_lengths(finger: CoupledFinger) -> list[float]:
@@ -211,12 +267,14 @@ def row(name: str, reached: float, error_m: float, took_us: float) -> None:
 
 def main() -> None:
     """Measure and print."""
-    print(f"{'':42s} reached    error, mm  µs each   (batches of {COUNT})")
-    closed_forms()
-    python_loop()
-    for name in ("rightIndex", "rightArm", "leftLeg"):
-        iterative(name)
-    projection()
+    print(heading(__file__))
+    if not SHORT:
+        print(f"{'':42s} reached    error, mm  µs each   (batches of {COUNT})")
+        closed_forms()
+        python_loop()
+        for name in ("rightIndex", "rightArm", "leftLeg"):
+            iterative(name)
+        projection()
     beside_others()
     motion_files()
 

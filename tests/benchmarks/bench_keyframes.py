@@ -18,7 +18,8 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from machine import ROOT, heading, verdict
+from machine import ROOT, heading, node_version, verdict
+from table import SHORT, Row, alternate, tell
 
 from reina.curves import Parameter, ParameterRegistry
 from reina.curves.interpolation import interpolations
@@ -43,8 +44,6 @@ TYPES: dict[TypeName, Any] = {
     "color": "#000000",
     "orientation": (0, 0, 0, 1),
 }
-OTHERS_EVERY = 12
-"""They take one block of so many: enough for a median, and a hundred times as long as ours."""
 FOLDER = Path(__file__).parent
 STRAIGHT = (1 / 3, 1 / 3, 2 / 3, 2 / 3)
 """Handles of a Bézier curve that is a straight line."""
@@ -58,15 +57,22 @@ class Player:
         name: What it is called.
         script: Runs it in node.
         needs: A folder that is there when it has been installed.
+        every: It takes one block of so many: enough for a median of code that has been compiled.
     """
 
     name: str
     script: Path
     needs: Path
+    every: int = 1
 
 
 MIXER = Player("three.js AnimationMixer", FOLDER / "mixer_player.mjs", ROOT / "web/node_modules/three")
-THEATRE = Player("Theatre.js", FOLDER / "theatre_player.mjs", FOLDER / "theatre/node_modules/@theatre/core")
+THEATRE = Player(
+    "Theatre.js",
+    FOLDER / "theatre_player.mjs",
+    FOLDER / "theatre/node_modules/@theatre/core",
+    36 if SHORT else 12,
+)
 
 
 def show(span_s: float, names: Sequence[str]) -> tuple[dict[str, Any], ParameterRegistry]:
@@ -136,7 +142,7 @@ def others_us(
     node = shutil.which("node")
     if node is None or not player.needs.is_dir():
         return None
-    starts = [float(times[0]) for times in blocks_of(span_s)][::OTHERS_EVERY]
+    starts = [float(times[0]) for times in blocks_of(span_s)][:: player.every]
     asked = {
         "tracks": [track_for_others(track, registry) for track in document["tracks"]],
         "starts": starts,
@@ -152,6 +158,36 @@ def others_us(
         if parameter.type == "number" and abs(seen[0] - values[0, offset]) > 1e-4:
             raise RuntimeError(f"{player.name} shows {seen[0]} where {values[0, offset]} is right")
     return float(told["us"])
+
+
+def beside(
+    player: Player,
+    plan: ShowPlan,
+    document: dict[str, Any],
+    registry: ParameterRegistry,
+    span_s: float,
+    what: str,
+) -> None:
+    """Tell a row of Reina and another player on the same keys, turn by turn."""
+    missing = shutil.which("node") is None or not player.needs.is_dir()
+    own, theirs = alternate(
+        1 if missing else 2,
+        lambda: us_a_frame(plan, blocks_of(span_s)),
+        lambda: others_us(player, document, registry, span_s) or 0.0,
+        key=float,
+    )
+    tell(
+        Row(
+            "Keyframes: 64 tracks of 1,000 keys",
+            f"a frame, {what}",
+            "µs",
+            own,
+            player.name,
+            "" if missing else node_version(player.needs),
+            None if missing else theirs,
+            notes="not installed" if missing else "in Node, a frame at a time; Reina in blocks of 60",
+        )
+    )
 
 
 def edit_ms(plan: ShowPlan, document: dict[str, Any], registry: ParameterRegistry) -> float:
@@ -177,8 +213,8 @@ def main() -> int:
         ("Bézier curves and holds", ["cubic_bezier", "cubic_bezier", "cubic_bezier", "step"], (THEATRE,)),
         ("straight lines", ["linear"], (THEATRE, MIXER)),
     )
-    for span_s, density in ((1000.0, "a key a second"), (180.0, "5.6 keys a second")):
-        for kinds, names, others in cases:
+    for span_s, density in ((1000.0, "a key a second"), (180.0, "5.6 keys a second"))[: 1 if SHORT else 2]:
+        for kinds, names, others in cases[1 if SHORT else 0 :]:
             document, registry = show(span_s, names)
             plan = Show.from_document(document, registry).plan(registry)
             figure = us_a_frame(plan, blocks_of(span_s))
@@ -186,15 +222,12 @@ def main() -> int:
             met &= figure <= bound
             print(verdict(f"{density}, {kinds}", figure, bound, "µs"))
             for player in others:
-                other = others_us(player, document, registry, span_s)
-                told = (
-                    "not installed" if other is None else f"{other:9.2f} µs   ({other / figure:.1f} × ours)"
-                )
-                print(f"{'  the same in ' + player.name:44} {told}")
+                beside(player, plan, document, registry, span_s, f"{density}, {kinds}")
     document, registry = show(1000.0, list(interpolations()))
     plan = Show.from_document(document, registry).plan(registry)
     print(f"{'an edit, planned again':44} {edit_ms(plan, document, registry):9.2f} ms")
-    return 0 if met else 1
+    # The bounds are meant for the whole form alone.
+    return 0 if met or SHORT else 1
 
 
 if __name__ == "__main__":

@@ -3,29 +3,30 @@
 Run as ``python tests/benchmarks/bench_reader.py``. Every reader gets the same bytes and has to give notes
 with their times in seconds; the best of a few runs counts. Of MusicXML a document of about a megabyte is
 read. pretty_midi and symusic are measured where they are installed (``pip install -r
-requirements/bench.in``). The status is 1 if Reina needs more than a second for 100,000 notes, or if its time
+requirements/bench.txt``). The status is 1 if Reina needs more than a second for 100,000 notes, or if its time
 grows faster than the notes.
 """
 
 import importlib
-import importlib.util
 import io
 import json
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import mido
 import numpy as np
-from machine import heading
+from machine import heading, version
+from table import SHORT, Row, alternate, tell
 
 from reina.music import read_score
 
 ROOT = Path(__file__).parents[2]
 
-SIZES = (1_000, 10_000, 100_000)
+SIZES = (1_000, 10_000, 30_000) if SHORT else (1_000, 10_000, 100_000)
 MAX_S = 1.0
 MAX_GROWTH = 2.0
 """How much longer a note may take in the largest file than in the middle one."""
@@ -114,6 +115,7 @@ READERS: dict[str, tuple[Callable[[bytes], int], int]] = {
     "symusic": (by_symusic, 5),
 }
 """Each reader and how often it runs."""
+NOTES = {"mido": "Python", "pretty_midi": "Python, on mido", "symusic": "C++"}
 
 
 def seconds(read: Callable[[bytes], int], data: bytes, notes: int, runs: int) -> float:
@@ -128,20 +130,39 @@ def seconds(read: Callable[[bytes], int], data: bytes, notes: int, runs: int) ->
     return min(times)
 
 
+def beside(size: int, data: bytes) -> dict[tuple[str, int], float]:
+    """Read a file with every reader that is there, turn by turn; seconds by reader and size."""
+    there = {name: reader for name, reader in READERS.items() if version(name)}
+    best = alternate(
+        1 if SHORT else 2,
+        *(partial(seconds, read, data, size, runs) for read, runs in there.values()),
+        key=float,
+    )
+    taken = dict(zip(there, best, strict=True))
+    for name in READERS:
+        if name != "reina":
+            tell(
+                Row(
+                    "Reading files",
+                    f"MIDI of {size:,} notes",
+                    "ms",
+                    taken["reina"] * 1000,
+                    name,
+                    version(name),
+                    taken[name] * 1000 if name in taken else None,
+                    notes=NOTES[name] if name in taken else "not installed",
+                )
+            )
+    return {(name, size): time_s for name, time_s in taken.items()}
+
+
 def main() -> int:
     """Measure and print a table; return 1 if a bound is missed."""
     print(heading(__file__))
     taken: dict[tuple[str, int], float] = {}
     files = {size: midi_file(size) for size in SIZES}
-    print(f"{'':12}" + "".join(f"{size:>14,} notes" for size in SIZES) + f"{'notes a second':>18}")
-    for name, (read, runs) in READERS.items():
-        if name not in {"reina", "mido"} and importlib.util.find_spec(name) is None:
-            print(f"{name:12}  not installed: pip install -r requirements/bench.in")
-            continue
-        for size, data in files.items():
-            taken[name, size] = seconds(read, data, size, runs)
-        row = "".join(f"{taken[name, size] * 1000:>17.1f} ms" for size in SIZES)
-        print(f"{name:12}{row}{SIZES[-1] / taken[name, SIZES[-1]]:>18,.0f}")
+    for size, data in files.items():
+        taken |= beside(size, data)
     taken["json", SIZES[-1]] = seconds(by_reina, json_file(SIZES[-1]), SIZES[-1], 3)
     print(f"reina, JSON of Tone.js's form, {SIZES[-1]:,} notes: {taken['json', SIZES[-1]] * 1000:.1f} ms")
     document = musicxml_file()
@@ -150,7 +171,9 @@ def main() -> int:
     largest = taken["reina", SIZES[-1]]
     growth = (largest / SIZES[-1]) / (taken["reina", SIZES[-2]] / SIZES[-2])
     print(f"a note of the largest file takes {growth:.2f} times as long as one of the middle file")
-    return 1 if max(largest, taken["json", SIZES[-1]], of_document) > MAX_S or growth > MAX_GROWTH else 0
+    missed = max(largest, taken["json", SIZES[-1]], of_document) > MAX_S or growth > MAX_GROWTH
+    # The bounds are meant for the whole form alone.
+    return 1 if missed and not SHORT else 0
 
 
 if __name__ == "__main__":

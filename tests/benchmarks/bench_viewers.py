@@ -33,13 +33,16 @@ from reina.protocol import SUBPROTOCOL
 from reina.sessions.broadcast import LEAD_S
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable, Generator, Iterator
 
 HERE = Path(__file__).parent
 SETTLE_S = 1.0
 """After the burst that begins an epoch."""
 FRAME_BYTES = 1536
 FPS = 60
+ENDS_WITHIN_S = 3.0
+ANYTHING = -1
+"""For `frames`: what comes is no frame of Reina's, and text counts too."""
 UVLOOP = "+uvloop"
 OPEN = {"REINA_MOST_CONNECTIONS": 20_000, "REINA_MOST_CONNECTIONS_AN_ADDRESS": 20_000}
 
@@ -63,6 +66,7 @@ class Seen(TypedDict):
     interval: Percentiles
     late: Percentiles | None
     texts: int
+    text_bytes: int
     pings: int
     lost: int
     closed: int
@@ -101,10 +105,17 @@ class Measured:
         )
 
 
+def tasks(process: int) -> Iterator[Path]:
+    """The threads of a process, and of those that it started."""
+    for task in Path(f"/proc/{process}/task").iterdir():
+        yield task
+        for child in (task / "children").read_text().split():
+            yield from tasks(int(child))
+
+
 def cpu_seconds(process: int) -> float:
-    """Processor time that the threads of a process have used."""
-    tasks = Path(f"/proc/{process}/task").iterdir()
-    return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks) / 1e9
+    """Processor time that the threads of a process, and of those that it started, have used."""
+    return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks(process)) / 1e9
 
 
 def memory_bytes(process: int) -> int:
@@ -113,10 +124,10 @@ def memory_bytes(process: int) -> int:
 
 
 def pin(process: int, core: int) -> None:
-    """Keep a process and its threads on one core, where the machine has more."""
+    """Keep a process, its threads and what it started on one core, where the machine has more."""
     cores = sorted(os.sched_getaffinity(0))
     if len(cores) > 1:
-        for task in Path(f"/proc/{process}/task").iterdir():
+        for task in tasks(process):
             os.sched_setaffinity(int(task.name), {cores[core % len(cores)]})
 
 
@@ -146,17 +157,36 @@ class Bench:
         """One of stream_stacks.py, under uvloop where the name ends so."""
         command = [python, str(HERE / "stream_stacks.py"), name.removesuffix(UVLOOP)]
         options = [f"--bytes={size}", f"--rate={rate}", *(["--uvloop"] if name.endswith(UVLOOP) else [])]
-        with _started([*command, *options]) as (process, port):
+        return self.program([*command, *options], viewers, frames=1)
+
+    def program(
+        self, command: list[str], viewers: int, *, frames: int = ANYTHING, subprotocol: str = SUBPROTOCOL
+    ) -> Measured:
+        """A server that says its port, and sends from the first line of its input on."""
+        with _started(command) as (process, port):
 
             def begin() -> None:
+                pin(process.pid, 0)
                 assert process.stdin is not None
                 process.stdin.write("go\n")
                 process.stdin.flush()
 
-            return self._watch(process.pid, port, viewers, ["/"], frames=1, lead_s=0.0, begin=begin)
+            return self._watch(
+                process.pid,
+                port,
+                viewers,
+                ["/"],
+                frames=frames,
+                lead_s=0.0,
+                begin=begin,
+                subprotocol=subprotocol,
+            )
 
-    def reina(self, folder: Path, viewers: int, sessions: int, frames: int) -> Measured:
-        """The server itself, with the viewers spread over so many sessions."""
+    def reina(
+        self, folder: Path, viewers: int, sessions: int, frames: int, *, packed: bool = False
+    ) -> Measured:
+        """The server itself, with the viewers spread over so many sessions; frames, or packed blocks."""
+        query = "packed=1" if packed else f"frames_per_message={frames}"
         with (
             serve(folder, settings=OPEN) as server,
             httpx.Client(base_url=server.address, timeout=60) as client,
@@ -168,8 +198,8 @@ class Bench:
                 server.process.pid,
                 port,
                 viewers,
-                [f"{session.path}/stream?frames_per_message={frames}" for session in owned],
-                frames=frames,
+                [f"{session.path}/stream?{query}" for session in owned],
+                frames=0 if packed else frames,
                 lead_s=LEAD_S,
                 begin=lambda: [session.control("play") for session in owned],
             )
@@ -184,10 +214,11 @@ class Bench:
         frames: int,
         lead_s: float,
         begin: Callable[[], object] = lambda: None,
+        subprotocol: str = SUBPROTOCOL,
     ) -> Measured:
         memory = memory_bytes(process)
         numbers = [str(port), str(viewers), str(self._seconds), str(SETTLE_S), str(lead_s), str(frames)]
-        command = [self.program, "watch", "127.0.0.1", *numbers, SUBPROTOCOL, *paths]
+        command = [self.program, "watch", "127.0.0.1", *numbers, subprotocol, *paths]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as watching:
             pin(watching.pid, 1)
             assert watching.stdout is not None
@@ -221,7 +252,13 @@ def _started(command: list[str]) -> Generator[tuple[subprocess.Popen[str], int]]
                 raise RuntimeError(f"{command} did not start")
             yield process, int(port)
         finally:
-            process.kill()
+            # They end with their input, and with what they started.
+            assert process.stdin is not None
+            process.stdin.close()
+            try:
+                process.wait(ENDS_WITHIN_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
 
 
 def main() -> int:

@@ -1,17 +1,26 @@
-"""Other aligners, each measured where it is installed beside Reina; none is part of `make bench`'s own set.
+"""Other aligners, each measured where it is installed beside Reina.
 
-synctoolbox (MIT) and parangonar (Apache-2.0) bring numba, pandas, librosa and music21, most of a gigabyte:
-they are measured where a person has installed them (`pip install synctoolbox parangonar` beside Reina's own).
+synctoolbox (MIT) brings numba, pandas, librosa and music21 and an older NumPy, and so runs in the peers' own
+environment (synctoolbox_aligner.py). parangonar (Apache-2.0) is measured where a person has installed it
+(`pip install parangonar` beside Reina's own).
 """
 
 from __future__ import annotations
 
+import atexit
+import functools
 import importlib
 import importlib.util
+import json
+import subprocess
+import tempfile
+import time
 import warnings
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from machine import PEERS, peers_version
 from tests.unit.sound.alignment.bed import Result
 
 if TYPE_CHECKING:
@@ -19,73 +28,47 @@ if TYPE_CHECKING:
 
     from tests.unit.sound.alignment.renditions import Recording
 
-FRAMES_PER_S = 50
-SYNCTOOLBOX_RATE = 22_050
+PROGRAM = Path(__file__).with_name("synctoolbox_aligner.py")
 
 
-def synctoolbox(recording: Recording, rate: int) -> Result:
-    """MrMsDTW over chroma and onsets, as its authors' notebook has it; leading silence is left out before."""
-    module: Callable[[str], Any] = lambda name: importlib.import_module(f"synctoolbox.{name}")  # noqa: E731
-    pandas: Any = importlib.import_module("pandas")
-    samples = recording.samples
-    loud = np.flatnonzero(np.abs(samples) > 0.1 * np.abs(samples).max())
-    first = max(0, int(loud[0]) - rate // 50)
-    size = int((len(samples) - first) * SYNCTOOLBOX_RATE / rate)
-    audio = np.interp(
-        np.arange(size) * rate / SYNCTOOLBOX_RATE, np.arange(len(samples) - first), samples[first:]
+@functools.cache
+def _program() -> subprocess.Popen[str]:
+    """The program, once for all recordings, so that it compiles itself once; it ends with its input."""
+    process = subprocess.Popen(
+        [str(PEERS), str(PROGRAM)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
+    atexit.register(process.communicate)
+    return process
+
+
+def synctoolbox(recording: Recording, rate: int) -> tuple[Result, float]:
+    """MrMsDTW over chroma and onsets."""
+    process = _program()
+    assert process.stdin is not None
+    assert process.stdout is not None
     notes = recording.score.notes
-    table = pandas.DataFrame(
-        {
-            "start": notes.onset_s,
-            "duration": notes.duration_s,
-            "pitch": notes.sounding_pitch.astype(int),
-            "velocity": notes.velocity,
-            "instrument": "piano",
-        }
-    )
-    table["end"] = table["start"] + table["duration"]
-    chroma, onset = module("feature.chroma"), module("feature.dlnco")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        pairs: list[tuple[Any, Any]] = []
-        for pitch, peaks in (
-            (
-                module("feature.pitch").audio_to_pitch_features(
-                    f_audio=audio, Fs=SYNCTOOLBOX_RATE, feature_rate=FRAMES_PER_S
-                ),
-                module("feature.pitch_onset").audio_to_pitch_onset_features(
-                    f_audio=audio, Fs=SYNCTOOLBOX_RATE
-                ),
-            ),
-            (
-                module("feature.csv_tools").df_to_pitch_features(table, feature_rate=FRAMES_PER_S),
-                module("feature.csv_tools").df_to_pitch_onset_features(table),
-            ),
-        ):
-            tones = chroma.quantize_chroma(f_chroma=chroma.pitch_to_chroma(f_pitch=pitch))
-            begins = onset.pitch_onset_features_to_DLNCO(
-                f_peaks=peaks, feature_sequence_length=tones.shape[1], feature_rate=FRAMES_PER_S
-            )
-            pairs.append((tones, begins))
-        steps = module("dtw.mrmsdtw").sync_via_mrmsdtw(
-            f_chroma1=pairs[0][0],
-            f_onset1=pairs[0][1],
-            f_chroma2=pairs[1][0],
-            f_onset2=pairs[1][1],
-            input_feature_rate=FRAMES_PER_S,
-            step_weights=np.array([1.5, 1.5, 2.0]),
-            threshold_rec=10**6,
+    with tempfile.NamedTemporaryFile(suffix=".npz") as file:
+        np.savez(
+            file,
+            samples=recording.samples,
+            rate=rate,
+            onset_s=notes.onset_s,
+            duration_s=notes.duration_s,
+            pitch=notes.sounding_pitch.astype(int),
+            velocity=notes.velocity,
         )
-    path: Any = module("dtw.utils").make_path_strictly_monotonic(steps)
+        file.flush()
+        process.stdin.write(f"{file.name}\n")
+        process.stdin.flush()
+        answer: dict[str, Any] = json.loads(process.stdout.readline())
     heard = ~np.isnan(recording.onset_s)
-    at_song, at_score = (np.asarray(row, dtype=np.float64) for row in path)
-    frames = np.interp(notes.onset_s[heard] * FRAMES_PER_S, at_score, at_song)
-    errors_ms = 1000 * np.abs(frames / FRAMES_PER_S + first / rate - recording.onset_s[heard])
-    return Result(errors_ms, errors_ms)
+    at_score, at_song = (np.array(answer[name], dtype=np.float64) for name in ("score_s", "song_s"))
+    at_s = np.interp(notes.onset_s[heard], at_score, at_song)
+    errors_ms = 1000 * np.abs(at_s - recording.onset_s[heard])
+    return Result(errors_ms, errors_ms), float(answer["took_s"])
 
 
-def parangonar(recording: Recording, rate: int) -> Result:
+def parangonar(recording: Recording, rate: int) -> tuple[Result, float]:
     """Its matcher of recordings and scores, which gives a time to every note."""
     module: Any = importlib.import_module("parangonar")
     notes = recording.score.notes
@@ -98,21 +81,23 @@ def parangonar(recording: Recording, rate: int) -> Result:
         ],
         dtype=[("onset_beat", "f8"), ("duration_beat", "f8"), ("pitch", "i4"), ("id", "U16")],
     )
+    begin = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         found: list[dict[str, Any]] = module.AudioToScoreMatcher()(recording.samples, table, sample_rate=rate)
+    took_s = time.process_time() - begin
     at = np.full(len(notes), np.nan)
     for event in found:
         if event.get("score_id") is not None and event.get("performance_time") is not None:
             at[int(str(event["score_id"])[1:])] = float(event["performance_time"])
     heard = ~np.isnan(recording.onset_s) & ~np.isnan(at)
     errors_ms = 1000 * np.abs(at[heard] - recording.onset_s[heard])
-    return Result(errors_ms, errors_ms)
+    return Result(errors_ms, errors_ms), took_s
 
 
-OTHERS: dict[str, Callable[[Recording, int], Result]] = {
-    name: aligner
-    for name, aligner in {"synctoolbox": synctoolbox, "parangonar": parangonar}.items()
-    if importlib.util.find_spec(name) is not None
-}
-"""Those that are installed."""
+OTHERS: dict[str, Callable[[Recording, int], tuple[Result, float]]] = {}
+"""Those that are installed: how far off, and seconds of the processor."""
+if peers_version("synctoolbox"):
+    OTHERS["synctoolbox"] = synctoolbox
+if importlib.util.find_spec("parangonar") is not None:
+    OTHERS["parangonar"] = parangonar

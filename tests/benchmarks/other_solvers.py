@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from machine import node_version, version
 
 from reina.rotations import to_euler, to_matrix
 
@@ -324,12 +325,25 @@ def _apart(place: NDArray[np.float64], target: NDArray[np.float64]) -> float:
 
 @dataclass(frozen=True)
 class Other:
-    """A solver to stand beside: how it is called, what must be there for it, how many targets it is given."""
+    """A solver to stand beside.
+
+    Attributes:
+        name: How it is called.
+        run: Solves.
+        modules: What must be there for it.
+        targets: How many it is given.
+        package: Whose it is, where it is another library's.
+    """
 
     name: str
     run: Callable[..., Measured]
     modules: tuple[str, ...]
     targets: int
+    package: str = ""
+
+    def version(self) -> str:
+        """Of the package whose solver it is; empty where it is not installed."""
+        return node_version(THREE) if self.package == "three.js" else version(self.package)
 
     def missing(self) -> str | None:
         """What is to be done before it can run, or None."""
@@ -343,9 +357,9 @@ class Other:
 
 OTHERS: tuple[Other, ...] = (
     Other("plain Python, the same closed form", by_plain_python, (), 1000),
-    Other("three.js CCDIKSolver (JavaScript)", by_three, (), 1000),
-    Other("mink (MuJoCo)", by_mink, ("mink", "mujoco"), 200),
-    Other("pink (Pinocchio)", by_pink, ("pink", "pinocchio"), 200),
-    Other("ikpy (SciPy)", by_ikpy, ("ikpy",), 100),
+    Other("three.js CCDIKSolver (JavaScript)", by_three, (), 1000, "three.js"),
+    Other("mink (MuJoCo)", by_mink, ("mink", "mujoco"), 200, "mink"),
+    Other("pink (Pinocchio)", by_pink, ("pink", "pinocchio"), 200, "pin-pink"),
+    Other("ikpy (SciPy)", by_ikpy, ("ikpy",), 100, "ikpy"),
 )
 """In the order of the table."""

@@ -253,7 +253,10 @@ STACKS: dict[str, type[Stack]] = {
 
 async def run(stack: Stack, size: int, rate: float) -> None:
     """Serve until the input ends."""
-    listening = socket.create_server(("127.0.0.1", 0), backlog=1024)
+    # Named as TCP, or asyncio takes it for something else and leaves Nagle's algorithm on.
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listening.bind(("127.0.0.1", 0))
+    listening.listen(1024)
     listening.setblocking(False)
     await stack.serve(listening)
     print("port", listening.getsockname()[1], flush=True)

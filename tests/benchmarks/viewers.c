@@ -3,7 +3,8 @@
    viewers watch HOST PORT VIEWERS SECONDS SETTLE LEAD FRAMES SUBPROTOCOL PATH...
      opens so many WebSockets over the paths in turn, from several addresses of 127.0.0.0/8 so that ports
      suffice; says `joined`, lets SETTLE seconds pass, says `measuring`, watches for SECONDS, and prints a line
-     of JSON. FRAMES is how many frames a binary message has; 0 for what is no frame of ours (docs/protocol.md).
+     of JSON. FRAMES is how many frames a binary message has; 0 for what is no frame of ours (docs/protocol.md),
+     -1 where messages of text count as well.
      A frame is late by what it comes after LEAD seconds before it is due. It is looked for what came every half
      millisecond, and not waited for: to wake who waits costs the sender up to twice what sending does, more or
      less as this process keeps up, and viewers elsewhere are not woken by the server.
@@ -41,6 +42,7 @@ enum {
     EVENTS = 512,
     READ_BYTES = 1 << 18,
     FRAME_HEAD = 24,
+    TEXT = 1,
     BINARY = 2,
     CLOSE = 8,
     PING = 9,
@@ -134,7 +136,7 @@ static struct {
 
 static struct {
     Times interval, late;
-    uint64_t messages, bytes, texts, pings, lost, closed;
+    uint64_t messages, bytes, texts, text_bytes, pings, lost, closed;
 } seen;
 
 /* A connection that epoll tells of by `whose`. */
@@ -173,9 +175,9 @@ static void pong(Viewer *viewer) {
     seen.pings++;
 }
 
-static void binary(Viewer *viewer, double arrived) {
+static void counted(Viewer *viewer, double arrived) {
     uint32_t index = 0;
-    if (given.frames) {
+    if (given.frames > 0) {
         uint16_t flags;
         double due;
         memcpy(&flags, viewer->first + 2, sizeof flags);
@@ -195,9 +197,12 @@ static void binary(Viewer *viewer, double arrived) {
 
 static void message(Viewer *viewer, double arrived) {
     int kind = viewer->head[0] & 15;
-    if (kind == BINARY) binary(viewer, arrived);
+    if (kind == BINARY || (kind == TEXT && given.frames < 0)) counted(viewer, arrived);
     else if (kind == PING) pong(viewer);
-    else if (kind != CLOSE) seen.texts++;
+    else if (kind != CLOSE) {
+        seen.texts++;
+        seen.text_bytes += viewer->length;
+    }
 }
 
 /* Read what came into one viewer; returns whether it joined by that. */
@@ -290,8 +295,8 @@ static void watch(double seconds, double settle) {
            given.viewers, lasted, seen.messages, seen.bytes, (double)fewest / lasted);
     print_times("interval", &seen.interval);
     print_times("late", &seen.late);
-    printf("\"texts\": %lu, \"pings\": %lu, \"lost\": %lu, \"closed\": %lu, \"cpu\": %.4f}\n", seen.texts, seen.pings,
-           seen.lost, seen.closed, used / lasted);
+    printf("\"texts\": %lu, \"text_bytes\": %lu, \"pings\": %lu, \"lost\": %lu, \"closed\": %lu, \"cpu\": %.4f}\n",
+           seen.texts, seen.text_bytes, seen.pings, seen.lost, seen.closed, used / lasted);
 }
 
 /* Asking for blocks */
