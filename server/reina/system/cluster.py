@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import logging
 import queue
+import signal
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib import import_module
+from multiprocessing import resource_tracker
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from reina.errors import InputError
@@ -64,30 +67,49 @@ def local_cluster(workers: int, scratch: Path) -> Generator[Client]:
         scratch: A folder for what they keep aside.
 
     Raises:
-        ClusterError: The extra `cluster` is not installed.
+        ClusterError: The extra `cluster` is not installed, or none can be started.
     """
     dask, distributed = _modules()
-    settings = {
+    settings: dict[str, object] = {
         # A worker is given a piece when it can begin it: who dies takes none along that only waited.
         "distributed.scheduler.worker-saturation": 1.0,
         "distributed.scheduler.allowed-failures": LIVES,
+        # Else each says at its start, and at its end, what nobody asked.
+        "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical",
         "distributed.scheduler.http.routes": [],
         "distributed.worker.http.routes": [],
     }
-    with (
-        dask.config.set(settings),
-        distributed.LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            security=distributed.Security.temporary(),
-            local_directory=str(scratch),
-            silence_logs=logging.CRITICAL,
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        yield client
+    with dask.config.set(settings):
+        try:
+            with _interrupts_held():
+                cluster = distributed.LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    host="127.0.0.1",
+                    dashboard_address="127.0.0.1:0",
+                    security=distributed.Security.temporary(),
+                    local_directory=str(scratch),
+                    silence_logs=logging.CRITICAL,
+                )
+        except (OSError, RuntimeError) as error:
+            raise ClusterError(f"no processes can be started: {error}") from error
+        with cluster, distributed.Client(cluster, set_as_default=False) as client:
+            yield client
+
+
+@contextmanager
+def _interrupts_held() -> Generator[None]:
+    """Threads and processes that are begun meanwhile hear of no Ctrl-C: it is for the main thread alone."""
+    if not hasattr(signal, "pthread_sigmask"):  # on Windows
+        yield
+        return
+    # Python's own, which would lift it where a thread begins the first process.
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
@@ -140,7 +162,8 @@ def outcomes(
     """The key of what is tried alone."""
     try:
         while True:
-            while not alone and len(under_way) < AT_ONCE * max(1, threads_of(client)):
+            most = AT_ONCE * max(1, threads_of(client))
+            while not alone and len(under_way) < most:
                 work = another()
                 if work is None:
                     break
@@ -211,11 +234,9 @@ def _next(client: Client, done: queue.SimpleQueue[Future[Any]], tell: Callable[[
 
 def _modules() -> tuple[Any, Any]:
     try:
-        import cryptography  # noqa: F401 - what processes of this machine are encrypted by
-        import dask.config
-        import distributed
+        # What processes of one machine encrypt by; Dask does without where nobody asks for it.
+        import_module("cryptography")
+        return import_module("dask"), import_module("distributed")
     except ImportError as error:
-        raise ClusterError(
-            f"this needs dask.distributed, which is not installed: {HOW_TO_INSTALL}"
-        ) from error
-    return dask, distributed
+        told = f"this needs dask.distributed, which is not installed: {HOW_TO_INSTALL}"
+        raise ClusterError(told) from error

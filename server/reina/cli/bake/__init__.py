@@ -75,8 +75,8 @@ def run(arguments: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         line.end()
         print(
-            f"reina bake: called off, {progress.done} of {progress.scores} scores are there; the same command "
-            "goes on from here",
+            f"reina bake: called off, {progress.done} of {progress.scores} scores are there; "
+            "the same command goes on from here",
             file=sys.stderr,
         )
         return INTERRUPTED
