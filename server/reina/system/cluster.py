@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import queue
 import signal
+import time
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
@@ -28,6 +29,8 @@ ALIVE_S = 5.0
 """How often it is looked whether anybody is there to work, while nothing comes."""
 AT_ONCE = 2
 """So many pieces of work are at a worker's, or wait for it: one is always there when another ends."""
+COUNTED_S = 1.0
+"""How often workers are counted: they come and go."""
 LIVES = 1
 """So many workers may end under a piece of work before it is tried alone, beside the first."""
 
@@ -123,7 +126,8 @@ def cluster_at(address: str) -> Generator[Client]:
         ClusterError: Nobody answers there, or the extra `cluster` is not installed.
     """
     _, distributed = _modules()
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         client = distributed.Client(address, timeout=CONNECTING_S, set_as_default=False)
     except (OSError, TimeoutError, ValueError, TypeError) as error:
@@ -160,9 +164,11 @@ def outcomes(
     suspects: list[Work[T]] = []
     alone = ""
     """The key of what is tried alone."""
+    most, counted_s = AT_ONCE, -COUNTED_S
     try:
         while True:
-            most = AT_ONCE * max(1, threads_of(client))
+            if time.monotonic() - counted_s > COUNTED_S:
+                most, counted_s = AT_ONCE * max(1, threads_of(client)), time.monotonic()
             while not alone and len(under_way) < most:
                 work = another()
                 if work is None:

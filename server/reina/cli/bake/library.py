@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, cast
 from reina.cli.bake.work import BLOCKS
 from reina.errors import InputError
 from reina.sessions.file_role import LOOKED_AT_BYTES, OTHER_JSON, SCORE_SUFFIXES, role_of
-from reina.system.durable import sync
 from reina.system.json_text import json_text, read_json
 
 if TYPE_CHECKING:
@@ -174,6 +173,8 @@ class Library:
         finally:
             shutil.rmtree(self._staging, ignore_errors=True)
             self._forget_revisions()
+            # What a bake that has ended says to be there is there after a power cut, too.
+            os.sync()
 
     def folder(self, name: str) -> Path:
         """Where a piece goes.
@@ -190,7 +191,10 @@ class Library:
         return Draft(folder)
 
     def put(self, draft: Draft, name: str, document: Document) -> None:
-        """Have a piece in its place, whole, or not at all, after a power cut too.
+        """Have a piece in its place, whole, or not at all.
+
+        Nothing is synced: a file that a power cut shortens has not the size that the manifest says, and the
+        next bake makes it anew.
 
         Args:
             draft: What was made.
@@ -201,17 +205,12 @@ class Library:
             OSError: It cannot be written.
         """
         draft.add(MANIFEST, json_text(document))
-        for path, _, files in os.walk(draft.folder):
-            for file in files:
-                sync(draft.folder / path / file)
-            sync(draft.folder / path)
         place = self.folder(name)
         place.parent.mkdir(parents=True, exist_ok=True)
         gone = self._staging / secrets.token_hex(8)
         with suppress(FileNotFoundError):
             place.rename(gone)
         draft.folder.rename(place)
-        sync(place.parent)
         shutil.rmtree(gone, ignore_errors=True)
         if BLOCKS in document["parts"]:
             self._name_revision(place / BLOCKS / document["parts"][BLOCKS]["revision"])
