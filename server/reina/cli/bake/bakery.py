@@ -295,10 +295,10 @@ class Bakery:
 
 
 def _of_part(part: str, sizes: dict[str, int]) -> dict[str, int]:
-    """The files of a part among those that were written."""
+    """The files of a part among those that were written, in whatever order that was."""
     endings = {"show": SHOW, "bvh": ".bvh", "sound": SONG}
     return {
         name: size
-        for name, size in sizes.items()
+        for name, size in sorted(sizes.items(), key=lambda one: (len(one[0]), one[0]))
         if (name.startswith(f"{BLOCKS}/") if part == BLOCKS else name.endswith(endings[part]))
     }
