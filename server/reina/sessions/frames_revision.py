@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-import reina
-from reina.system.digest import digest_of
+from reina.system.digest import code_digest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -66,9 +63,3 @@ def revision_of(
         repr(moved),
     )
     return int.from_bytes(hashlib.sha256("\n".join(said).encode()).digest()[:8], "little")
-
-
-@cache
-def code_digest() -> str:
-    """Of what evaluates the frames: another version gives other frames."""
-    return digest_of(Path(reina.__file__).parent, "**/*.py")

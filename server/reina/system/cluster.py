@@ -9,7 +9,6 @@ import time
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
-from multiprocessing import resource_tracker
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from reina.errors import InputError
@@ -37,6 +36,10 @@ LIVES = 1
 
 class ClusterError(InputError):
     """There is no cluster to work on; the message says why and what would help."""
+
+
+class AwayError(ClusterError):
+    """There is nobody to work now: whoever asked does it."""
 
 
 class LostError(InputError):
@@ -106,6 +109,8 @@ def _interrupts_held() -> Generator[None]:
     if not hasattr(signal, "pthread_sigmask"):  # on Windows
         yield
         return
+    from multiprocessing import resource_tracker
+
     # Python's own, which would lift it where a thread begins the first process.
     resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
@@ -116,20 +121,23 @@ def _interrupts_held() -> Generator[None]:
 
 
 @contextmanager
-def cluster_at(address: str) -> Generator[Client]:
+def cluster_at(address: str, *, within_s: float = CONNECTING_S) -> Generator[Client]:
     """The cluster of a scheduler that runs somewhere.
 
     Args:
         address: `tcp://host:8786`, or `tls://…` with the certificates that Dask's configuration names.
+        within_s: How long it may take to answer.
 
     Raises:
         ClusterError: Nobody answers there, or the extra `cluster` is not installed.
     """
-    _, distributed = _modules()
+    dask, distributed = _modules()
+    # Scores, songs and soundless plans are large, and meant to be sent.
+    dask.config.set({"distributed.admin.large-graph-warning-threshold": "1GB"})
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
-        client = distributed.Client(address, timeout=CONNECTING_S, set_as_default=False)
+        client = distributed.Client(address, timeout=within_s, set_as_default=False)
     except (OSError, TimeoutError, ValueError, TypeError) as error:
         raise ClusterError(f"no Dask scheduler answers at {address}: {error}") from error
     with client:

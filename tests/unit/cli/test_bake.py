@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import shutil
 import sys
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from tests.integration.scores import duet, scale
 
-from reina.cli import main
+from reina.cli import bake, main
 from reina.cli.bake import bakery, library, work
 from reina.cli.bake.bakery import PARTS, Bakery, Recipe, Summary
 from reina.cli.bake.library import BY_REVISION, MANIFEST, Library, scores_in
@@ -245,6 +246,7 @@ def test_wrong_options_are_refused(scores: Path, wrong: list[str]) -> None:
 def test_a_scheduler_that_does_not_answer_is_told(
     scores: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cluster, "CONNECTING_S", 0.1)
+    soon = functools.partial(cluster.cluster_at, within_s=0.1)
+    monkeypatch.setattr(bake, "cluster_at", soon)
     assert main(["bake", str(scores), "--only", "show", "--scheduler", "tcp://127.0.0.1:9"]) == 1
     assert "reina bake: no Dask scheduler answers at tcp://127.0.0.1:9" in capsys.readouterr().err

@@ -17,6 +17,7 @@ from reina.errors import InputError
 from reina.instruments import INSTRUMENTS
 from reina.sessions.storage.directory_lock import DirectoryInUseError, locked
 from reina.sound.font import SoundError, soundfont_id
+from reina.sound.provide_soundfont import own_soundfont
 from reina.system.cluster import cluster_at, local_cluster
 from reina.system.json_text import json_text
 
@@ -106,7 +107,7 @@ def _bake(folder: Path, arguments: argparse.Namespace, progress: _Progress) -> S
         raise InputError(f"there are no scores in {folder}: MIDI, MusicXML or JSON")
     progress.scores = len(scores)
     parts: frozenset[str] = arguments.only
-    soundfont = soundfont_id(work.own_soundfont()) if "sound" in parts else None
+    soundfont = soundfont_id(own_soundfont()) if "sound" in parts else None
     recipe = Recipe(parts, arguments.instrument, work.maker(), soundfont)
     with ExitStack() as held:
         output.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,7 @@ from reina.instruments import Cast, Casting
 from reina.music import read_score
 from reina.performance import BLOCK_FRAMES, TAIL_S
 from reina.sessions.frames import EncodedFrames
-from reina.sessions.frames_revision import code_digest, revision_of
+from reina.sessions.frames_revision import revision_of
 from reina.sessions.motion_export import BvhExport, player_skeleton
 from reina.sessions.packed_blocks import PackedBlocks
 from reina.sessions.production import Production
@@ -26,9 +26,10 @@ from reina.sessions.stage import Stage
 from reina.sound.font import soundfont_id
 from reina.sound.hearing import AS_WRITTEN
 from reina.sound.plan import plan_sound
-from reina.sound.provide_soundfont import provide_soundfont
+from reina.sound.provide_soundfont import own_soundfont
 from reina.sound.render import render_whole
 from reina.sound.rendered import SONG
+from reina.system.digest import code_digest
 from reina.system.failure import failure_of
 
 if TYPE_CHECKING:
@@ -184,17 +185,6 @@ def song(order: ScoreOrder, soundfont: str) -> bytes:
         whole = Path(folder) / SONG
         render_whole(plan, path.read_bytes(), whole)
         return whole.read_bytes()
-
-
-def own_soundfont() -> Path:
-    """This machine's soundfont.
-
-    Raises:
-        SoundError: There is none.
-    """
-    data_dir = Settings().data_dir
-    data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
-    return provide_soundfont(data_dir)
 
 
 def motion_file(player: int) -> str:
