@@ -18,12 +18,14 @@ import pytest
 from tests.integration.scores import duet, scale
 from tests.integration.server import PATIENCE_S, rendered, serve, upload
 
+from reina.cli.bake import work
+from reina.cli.bake.library import MANIFEST
 from reina.errors import InputError
 from reina.system.cluster import AwayError, LostError
 from reina.system.elsewhere import Elsewhere
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator
+    from collections.abc import Generator, Iterator, Mapping
 
 ROOT = Path(__file__).parents[2]
 WORK = "tests.integration.elsewhere_work"
@@ -35,7 +37,7 @@ class Cluster:
     """A scheduler and a worker."""
 
     address: str
-    processes: dict[str, subprocess.Popen[bytes]]
+    processes: Mapping[str, subprocess.Popen[Any]]
 
     def end(self, name: str) -> None:
         self.processes[name].kill()
@@ -86,7 +88,7 @@ def until_it_works(cluster: Cluster) -> None:
     async def works() -> bool:
         elsewhere = Elsewhere(cluster.address)
         try:
-            return await work(elsewhere, "doubled", 2) == 4
+            return await asked(elsewhere, "doubled", 2) == 4
         except AwayError:
             return False
         finally:
@@ -109,13 +111,13 @@ def test_work_is_done_told_refused_and_called_off(cluster: Cluster, tmp_path: Pa
     async def all_of_it() -> None:
         elsewhere = Elsewhere(cluster.address)
         heard: list[float] = []
-        assert await work(elsewhere, "doubled", 21, heard=heard) == 42
+        assert await asked(elsewhere, "doubled", 21, heard=heard) == 42
         assert heard == [0.5]
         with pytest.raises(InputError, match="7 is no number"):
-            await work(elsewhere, "refused", 7)
+            await asked(elsewhere, "refused", 7)
         note = tmp_path / "called off"
         heard.clear()
-        endless = asyncio.create_task(work(elsewhere, "endless", str(note), heard=heard))
+        endless = asyncio.create_task(asked(elsewhere, "endless", str(note), heard=heard))
         async with asyncio.timeout(TIMEOUT_S):
             while not heard:  # noqa: ASYNC110 - a list that a callback fills
                 await asyncio.sleep(0.01)
@@ -126,31 +128,34 @@ def test_work_is_done_told_refused_and_called_off(cluster: Cluster, tmp_path: Pa
             while not note.exists():  # noqa: ASYNC110 - another process writes it
                 await asyncio.sleep(0.01)
         # The worker is free again.
-        assert await work(elsewhere, "doubled", 1) == 2
+        assert await asked(elsewhere, "doubled", 1) == 2
         with pytest.raises(LostError):
-            await work(elsewhere, "deadly")
+            await asked(elsewhere, "deadly")
         await elsewhere.aclose()
 
     asyncio.run(all_of_it())
 
 
 def test_a_library_is_baked_there(cluster: Cluster, tmp_path: Path) -> None:
-    (tmp_path / "in").mkdir()
+    scores, output = tmp_path / "in", tmp_path / "out"
+    scores.mkdir()
     for number in range(3):
-        (tmp_path / "in" / f"{number}.mid").write_bytes(scale(4 + number))
-    command = [sys.executable, "-m", "reina", "bake", str(tmp_path / "in"), "--only", "show,blocks"]
-    outputs: list[dict[str, bytes]] = []
-    for where in (["--scheduler", cluster.address], ["--workers", "1"]):
-        output = tmp_path / where[0]
-        done = subprocess.run(
-            [*command, "--out", str(output), *where], capture_output=True, text=True, check=False
-        )
-        assert (done.returncode, done.stderr) == (0, "")
-        outputs.append(
-            {str(p.relative_to(output)): p.read_bytes() for p in output.glob("*/*") if p.is_file()}
-        )
-    assert outputs[0] == outputs[1]
-    assert len(outputs[0]) == 3 * 2
+        (scores / f"{number}.mid").write_bytes(scale(4 + number))
+    command = [sys.executable, "-m", "reina", "bake", str(scores), "--only", "show,blocks"]
+    done = subprocess.run(
+        [*command, "--out", str(output), "--scheduler", cluster.address],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    for path in scores.iterdir():
+        order = work.ScoreOrder(path.read_bytes(), path.name, None, work.maker())
+        _, files = work.begin(order, frozenset({"show", "blocks"}))
+        made = output / path.name
+        found = {p.relative_to(made).as_posix(): p.read_bytes() for p in made.rglob("*") if p.is_file()}
+        del found[MANIFEST]
+        assert found == files
 
 
 def test_songs_are_made_there_and_here_when_the_scheduler_is_gone(

@@ -294,7 +294,7 @@ def test_a_scheduler(
         yield None
 
     monkeypatch.setattr(scheduler, "cluster_at", cluster_at)
-    monkeypatch.setattr(scheduler, "threads_of", lambda _: threads)
+    monkeypatch.setattr(scheduler, "threads_of", Mock(return_value=threads))
     found = scheduler.scheduler_finding(replace(settings, scheduler="tcp://gpu:8786"))
     assert (found.status, found.detail) == (status, told)
     assert bool(found.to_do) == (status == "warn")
@@ -306,6 +306,6 @@ def test_a_scheduler_that_is_none_or_cannot_be_spoken_to(
     found = scheduler.scheduler_finding(replace(settings, scheduler="gpu:8786"))
     assert (found.status, "tcp://host:8786" in found.detail) == ("fail", True)
     monkeypatch.setitem(sys.modules, "distributed", None)
-    monkeypatch.setattr("reina.api.settings.find_spec", lambda _: None)
+    monkeypatch.setattr("reina.api.settings.find_spec", Mock(return_value=None))
     found = scheduler.scheduler_finding(replace(settings, scheduler="tcp://gpu:8786"))
     assert (found.status, "reina[cluster]" in found.detail) == ("fail", True)
