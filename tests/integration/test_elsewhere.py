@@ -100,7 +100,7 @@ def until_it_works(cluster: Cluster) -> None:
         time.sleep(0.1)
 
 
-async def work(
+async def asked(
     elsewhere: Elsewhere, function: str, *arguments: object, heard: list[float] | None = None
 ) -> Any:
     tell = (heard if heard is not None else list[float]()).append
