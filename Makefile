@@ -12,7 +12,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve film test check format assets bench generate wheel lock clean
+.PHONY: help setup serve film cluster test check format assets bench generate wheel lock clean
 
 help: ## Show the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -23,6 +23,8 @@ serve: setup ## Start Reina and print its address
 	$(BIN)/reina serve
 
 film: setup .venv/.film ## Install what `reina film` drives a browser with
+
+cluster: .venv/.cluster ## Install what `reina bake` spreads its work by
 
 test: setup .venv/.dev .venv/.servers .venv/.browser ## Every check and every test, a browser included
 	$(MAKE) check
@@ -75,6 +77,10 @@ clean: ## Remove everything that was built
 
 .venv/.film: .venv/.serve requirements/film.txt
 	$(BIN)/pip install --quiet --require-hashes -r requirements/film.txt
+	@touch $@
+
+.venv/.cluster: .venv/.serve requirements/cluster.txt
+	$(BIN)/pip install --quiet --require-hashes -r requirements/cluster.txt
 	@touch $@
 
 .venv/.node: .venv/bin/python requirements/node.txt

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 ROOT = Path(__file__).parents[1]
-LOCKED = ("serve", "storage", "film", "transcribe")
+LOCKED = ("serve", "storage", "film", "transcribe", "cluster")
 """What is installed where Reina runs: `requirements/NAME.txt`."""
 PATIENCE_S = 120.0
 

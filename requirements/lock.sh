@@ -7,6 +7,7 @@ compile pyproject.toml requirements/build.in -o requirements/serve.txt
 compile pyproject.toml requirements/build.in --extra film -c requirements/serve.txt -o requirements/film.txt
 compile pyproject.toml requirements/build.in --extra transcribe -c requirements/serve.txt -o requirements/transcribe.txt
 compile pyproject.toml requirements/build.in --extra postgres --extra redis --extra s3 -c requirements/serve.txt -o requirements/storage.txt
+compile pyproject.toml requirements/build.in --extra cluster -c requirements/serve.txt -o requirements/cluster.txt
 compile pyproject.toml requirements/build.in --group dev --group assets -c requirements/serve.txt -o requirements/dev.txt
 compile pyproject.toml requirements/build.in requirements/bench.in --group dev --group assets -c requirements/dev.txt -o requirements/bench.txt
 compile requirements/node.in -o requirements/node.txt

@@ -61,7 +61,9 @@ from reina.sessions.storage.session_storage import SessionStorage
 from reina.sessions.store import SessionStore
 from reina.sessions.transcriptions import Transcriptions
 from reina.sessions.unseen import sweep_unseen
+from reina.sound.alignment.aligner_process import Aligner
 from reina.sound.renderer import SongRenderer
+from reina.system.elsewhere import Elsewhere
 from reina.system.turns import Turns
 from reina.system.wall_time import WallTime
 
@@ -106,7 +108,8 @@ def create_app(
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
         # This loads what the first request would: by then there may be no file left to read it from.
         await anyio.lowlevel.checkpoint()
-        renderer = SongRenderer(chosen.data_dir, most_bytes=chosen.song_cache_bytes)
+        elsewhere = Elsewhere(chosen.scheduler) if chosen.scheduler else None
+        renderer = SongRenderer(chosen.data_dir, most_bytes=chosen.song_cache_bytes, elsewhere=elsewhere)
         kept = storage or await asyncio.to_thread(
             SessionStorage.open, chosen.data_dir, chosen.database, chosen.files
         )
@@ -119,6 +122,7 @@ def create_app(
             memory_bytes=chosen.memory_bytes,
             disk=chosen.disk,
             staging_bytes=chosen.staging_bytes,
+            aligner=Aligner(elsewhere=elsewhere),
             blocks_origin=chosen.blocks_origin,
             bus=RedisBus(chosen.bus) if chosen.bus else None,
         )
@@ -141,6 +145,8 @@ def create_app(
         await app.state.transcriptions.aclose()
         await app.state.lab_pool.aclose()
         await store.aclose()
+        if elsewhere is not None:
+            await elsewhere.aclose()
 
     app = FastAPI(
         title="Reina",

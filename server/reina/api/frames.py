@@ -1,7 +1,6 @@
 """Frames over HTTP: the same bytes as the stream's, as fast as they can be computed."""
 
 import asyncio
-import math
 from collections.abc import AsyncIterator
 from typing import Annotated
 
@@ -15,6 +14,7 @@ from reina.performance import BLOCK_FRAMES
 from reina.protocol.messages import Hello
 from reina.sessions.frames import EncodedFrames
 from reina.sessions.production import Production
+from reina.sessions.schedule import frame_from
 from reina.sessions.session import Session
 from reina.system.turns import Turns
 
@@ -24,7 +24,6 @@ LONGEST_S = 600.0
 LATEST_S = 7 * 24 * 3600.0
 """No music lasts so long, and every frame up to here has an index of 32 bits."""
 FASTEST_FPS = 240
-GRID_TOLERANCE = 1e-6
 
 FramesPerSecond = Annotated[int, Query(ge=1, le=FASTEST_FPS, description="Frames a second of song time.")]
 StartS = Annotated[float, Query(ge=0, le=LATEST_S, description="Song time of the first frame.")]
@@ -83,7 +82,7 @@ def frame_span(session: Session, start_s: float, end_s: float | None, fps: int) 
             f"end_s lies between start_s and start_s + {LONGEST_S:g}, not at {end_s:g}; "
             "longer spans are asked for piecewise",
         )
-    return math.ceil(start_s * fps - GRID_TOLERANCE), math.ceil(end_s * fps - GRID_TOLERANCE)
+    return frame_from(start_s, fps), frame_from(end_s, fps)
 
 
 async def _frames(

@@ -7,11 +7,12 @@ import os
 import re
 import tempfile
 from dataclasses import dataclass, field, replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reina.api.accounts import Accounts
-from reina.api.http.signed_cookie import signing_key
+from reina.api.signing_key import signing_key
 from reina.errors import InputError
 from reina.sessions.bus.redis_bus import RedisBus
 from reina.sessions.memory_bound import MEMORY_BYTES
@@ -20,6 +21,7 @@ from reina.sessions.sightings import DAY_S
 from reina.sessions.staging import STAGING_BYTES
 from reina.sessions.usage import DiskBound
 from reina.sound.song_cache import SONG_CACHE_BYTES
+from reina.system.cluster import HOW_TO_INSTALL
 from reina.system.resources import bundled, default_data_dir
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 MEGABYTE = 1_000_000
+_SCHEDULER = re.compile(r"(tcp|tls)://([A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\]):\d{1,5}")
 _ORIGIN = re.compile(r"https?://([A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(:\d{1,5})?")
 
 
@@ -118,6 +121,7 @@ class Settings:
             one is at the others; None: a server has its own.
         user_header: What a trusted proxy tells in who is signed in there; empty: nothing.
         blocks_origin: Where pages fetch packed blocks, as `Session` has it; empty: the stream has them.
+        scheduler: Of a Dask cluster that songs are rendered and put in time on; empty: this machine does it.
     """
 
     database: str = field(default_factory=_database)
@@ -143,6 +147,7 @@ class Settings:
     signing_key_file: Path | None = field(default_factory=lambda: _file("REINA_SIGNING_KEY_FILE"))
     user_header: str = field(default_factory=lambda: os.environ.get("REINA_USER_HEADER", ""))
     blocks_origin: str = field(default_factory=lambda: os.environ.get("REINA_BLOCKS_ORIGIN", ""))
+    scheduler: str = field(default_factory=lambda: os.environ.get("REINA_SCHEDULER", ""))
 
 
 def settings_of(data_dir: Path | None, database: str | None) -> Settings:
@@ -216,6 +221,22 @@ def require_shared(settings: Settings) -> None:
             "have, or s3://bucket/prefix, with REINA_FILES"
         )
     RedisBus(settings.bus)
+
+
+def require_scheduler(settings: Settings) -> None:
+    """See that a cluster can be worked on, whether it is there or not.
+
+    Raises:
+        InputError: What is named is no scheduler's address, or what speaks to one is not installed.
+    """
+    if not settings.scheduler:
+        return
+    if not _SCHEDULER.fullmatch(settings.scheduler):
+        raise InputError(
+            f"a Dask scheduler's address is tcp://host:8786 or tls://host:8786, not {settings.scheduler!r}"
+        )
+    if find_spec("distributed") is None:
+        raise InputError(f"work on {settings.scheduler} needs dask.distributed: {HOW_TO_INSTALL}")
 
 
 def require_writable(data_dir: Path) -> None:

@@ -17,6 +17,7 @@ COMMANDS = {
     "backup": ("reina.cli.backup", "copy what the server keeps, while it runs"),
     "restore": ("reina.cli.restore", "put back what was backed up"),
     "password": ("reina.cli.password", "make a line for the file that says who may upload"),
+    "bake": ("reina.cli.bake", "make beforehand what a whole library of scores needs"),
     "film": ("reina.cli.film", "make a film of a score, without a window"),
 }
 """Each command's module, which is imported when it is asked for, and what it does."""

@@ -23,6 +23,7 @@ from reina.api.settings import (
     days,
     require_blocks_origin,
     require_page,
+    require_scheduler,
     require_shared,
     require_sign_in,
     require_writable,
@@ -159,6 +160,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="end sessions that nobody has seen for so many days; 0 for never (0)",
     )
     parser.add_argument(
+        "--scheduler",
+        default=None,
+        metavar="URL",
+        help="a Dask scheduler, tcp://host:8786, on whose workers songs are rendered and put in time (here)",
+    )
+    parser.add_argument(
         "--no-page", action="store_true", help="serve the API alone, whether the page is built or not"
     )
 
@@ -200,6 +207,7 @@ def _run(arguments: argparse.Namespace, held: contextlib.ExitStack) -> int:
         require_sign_in(settings)
         require_blocks_origin(settings)
         require_shared(settings)
+        require_scheduler(settings)
         held.enter_context(locked(settings.data_dir))
         _provide_soundfont(settings)
         stage = _stage(settings)
@@ -251,6 +259,8 @@ def _settings(arguments: argparse.Namespace) -> Settings:
     settings = settings_of(arguments.data_dir, arguments.database)
     if arguments.end_unseen is not None:
         settings = replace(settings, end_unseen_s=days(arguments.end_unseen) * DAY_S)
+    if arguments.scheduler is not None:
+        settings = replace(settings, scheduler=arguments.scheduler)
     hosts = {*settings.allowed_hosts, *(name.lower() for name in arguments.allow_host)}
     if arguments.host not in EVERY_ADDRESS:
         hosts.add(arguments.host.lower())

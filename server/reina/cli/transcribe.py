@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reina.cli.film_progress import length_of_time
+from reina.cli.progress_line import length_of_time
 from reina.errors import InputError
 from reina.instruments import INSTRUMENTS
 from reina.music.midi.writer import write_midi

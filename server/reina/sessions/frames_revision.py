@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import hashlib
-from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-import reina
-from reina.system.digest import digest_of
+from reina.system.digest import code_digest
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from reina.instruments import Cast
     from reina.sessions.record import SessionRecord
     from reina.sessions.show_revision import ShowRevision
     from reina.sessions.stage import Stage
@@ -31,19 +31,35 @@ def frames_revision(
     scores = [file.digest for file in record.files if file.name == "score"]
     stances = [stance.model_dump_json() for stance in record.stances]
     moved = alignment if alignment is not None and alignment.moves else None
+    return revision_of(stage, scores, record.cast, show_revision, stances=stances, moved=moved)
+
+
+def revision_of(
+    stage: Stage,
+    scores: Iterable[str],
+    cast: Cast,
+    show_revision: ShowRevision,
+    *,
+    stances: Iterable[str] = (),
+    moved: Alignment | None = None,
+) -> int:
+    """The same of what is no session.
+
+    Args:
+        stage: Who plays on what.
+        scores: SHA-256 of the score's file, hexadecimal.
+        cast: Who plays what, completed.
+        show_revision: The show.
+        stances: Stances beside those that there always are, as JSON.
+        moved: Where the score is heard in the song, where that is not where it is written.
+    """
     said = (
-        _code_digest(),
+        code_digest(),
         stage.digest,
         *scores,
-        repr(record.cast),
+        repr(cast),
         *stances,
         show_revision.text.etag,
         repr(moved),
     )
     return int.from_bytes(hashlib.sha256("\n".join(said).encode()).digest()[:8], "little")
-
-
-@cache
-def _code_digest() -> str:
-    """Of what evaluates the frames: another version gives other frames."""
-    return digest_of(Path(reina.__file__).parent, "**/*.py")

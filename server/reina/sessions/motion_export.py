@@ -49,12 +49,21 @@ class BvhExport:
         skeleton: The skeleton's name in the frame: ``player``.
         first: The first frame.
         end: The frame before which it ends.
+        angles: `angles` of another that has written the blocks before.
 
     Raises:
         InputError: There is no such skeleton.
     """
 
-    def __init__(self, production: Production, skeleton: str, first: int, end: int) -> None:
+    def __init__(
+        self,
+        production: Production,
+        skeleton: str,
+        first: int,
+        end: int,
+        *,
+        angles: NDArray[np.float64] | None = None,
+    ) -> None:
         layouts = production.performance.layout.skeletons
         names = [layout.name for layout in layouts]
         if skeleton not in names:
@@ -65,7 +74,8 @@ class BvhExport:
         start = sum(len(layout.joints) for layout in layouts[: self._index])
         self._joints = slice(start, start + len(layouts[self._index].joints))
         self._first, self._end = first, end
-        self._last_angles: NDArray[np.float64] | None = None
+        self.angles = angles
+        """Of the last frame that was written, degrees: those that follow go on from there."""
 
     @property
     def blocks(self) -> range:
@@ -92,7 +102,7 @@ class BvhExport:
         if not len(clip):
             return clip
         values: NDArray[np.float64] = clip.values.copy()
-        if self._last_angles is not None:  # behind the root's position
-            values[:, 3:] += 360.0 * np.round((self._last_angles - values[0, 3:]) / 360.0)
-        self._last_angles = values[-1, 3:]
+        if self.angles is not None:  # behind the root's position
+            values[:, 3:] += 360.0 * np.round((self.angles - values[0, 3:]) / 360.0)
+        self.angles = values[-1, 3:]
         return replace(clip, values=values)

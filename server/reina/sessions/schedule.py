@@ -13,6 +13,11 @@ GRID_TOLERANCE = 1e-6
 """Frames: a song time this close before a frame counts as on it, so that seeking to k / fps shows frame k."""
 
 
+def frame_from(song_time_s: float, fps: int) -> int:
+    """The first frame at or after a song time."""
+    return math.ceil(song_time_s * fps - GRID_TOLERANCE)
+
+
 class DueFrame(NamedTuple):
     """One frame to be sent."""
 
@@ -109,7 +114,7 @@ class FrameSchedule:
                 self._server_s = ended_s + counted_s
                 self._song_s = start_s
                 self._held = counted_s > 0
-                start = math.ceil(start_s * self._fps - GRID_TOLERANCE)
+                start = frame_from(start_s, self._fps)
                 return DueFrame(start, self._due(start) - counted_s, cut=True)
         following = min(following, self._last)
         if following <= index:

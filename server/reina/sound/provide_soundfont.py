@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reina.sound.font import (
@@ -14,11 +15,24 @@ from reina.sound.font import (
     find_soundfont,
     places_of_soundfonts,
 )
-from reina.system.resources import bundled
+from reina.system.resources import bundled, default_data_dir
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
+
+
+def own_soundfont() -> Path:
+    """This machine's soundfont, where no server has named its data folder: that of the environment.
+
+    Raises:
+        MissingSoundfontError: There is none.
+    """
+    data_dir = Path(os.environ.get("REINA_DATA_DIR") or default_data_dir())
+    try:
+        data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
+    except OSError as error:
+        raise MissingSoundfontError(f"there is no data folder {data_dir}: {error.strerror}") from error
+    return provide_soundfont(data_dir)
 
 
 def provide_soundfont(

@@ -122,6 +122,28 @@ def render_plan(
     tell({"progress": 1.0})
 
 
+def render_whole(plan: SoundPlan, soundfont: bytes, song: Path) -> None:
+    """Render a plan as `render_plan` does from its beginning, without segments: the same file, sooner.
+
+    Args:
+        plan: What to render.
+        soundfont: An SF2 file.
+        song: Where to write it.
+
+    Raises:
+        RenderError: The soundfont is none.
+    """
+    gain = song_gain([_render_excerpt(plan, passages, soundfont) for passages in choose_excerpts(plan)])
+    passages = cut_into_passages(plan)
+    segments = cut_into_segments(passages)
+    # Sums of floats depend on their order.
+    needed = (index for number in range(segments.count) for index in segments.needed(number, passages))
+    with Mix(_partial(song, "mix")) as mix:
+        for index in dict.fromkeys(needed):
+            mix.add(passages[index].start, _render_passage(plan, passages[index], soundfont))
+        _put_whole(song, _pieces(mix, segments.frames, gain))
+
+
 def _render_excerpt(plan: SoundPlan, passages: list[Passage], soundfont: bytes) -> Samples:
     excerpt = np.zeros((EXCERPT, CHANNELS), dtype=np.float32)
     for passage in passages:

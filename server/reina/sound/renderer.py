@@ -13,7 +13,7 @@ import logging
 import os
 import sys
 from asyncio.subprocess import PIPE, Process
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Awaitable, Callable, Collection, Hashable, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -28,10 +28,12 @@ from reina.sound.hearing import AS_WRITTEN, Hearing, heard_notes
 from reina.sound.passages import cut_into_passages
 from reina.sound.plan import PlayedParts, plan_sound
 from reina.sound.recording.peaks import Peaks
-from reina.sound.rendered import SONG, segment_path
+from reina.sound.rendered import SONG, RenderedFiles, segment_path
 from reina.sound.segments import SEGMENT, Segments, cut_into_segments
 from reina.sound.song_cache import SONG_CACHE_BYTES, SongCache, most_bytes_of, remove_song
+from reina.system.cluster import AwayError, LostError
 from reina.system.disk_room import has_room, is_disk_full
+from reina.system.elsewhere import Elsewhere
 from reina.system.metrics import in_queue
 from reina.system.turns import Turns
 
@@ -218,6 +220,7 @@ class SongRenderer:
             and long ones go one at a time, so that there is always one that a short one soon gets.
         most_bytes: How large the songs may be together, those that are being made with all that this takes.
         timeout_s: How long one may take before it is stopped.
+        elsewhere: Where it is done while somebody is there; in processes of this machine when None.
     """
 
     def __init__(
@@ -228,7 +231,9 @@ class SongRenderer:
         most_at_once: int = 2,
         most_bytes: int = SONG_CACHE_BYTES,
         timeout_s: float = TIMEOUT_S,
+        elsewhere: Elsewhere | None = None,
     ) -> None:
+        self._elsewhere = elsewhere
         self._data_dir = data_dir
         self._songs = data_dir / "songs"
         self._soundfont = soundfont
@@ -330,21 +335,61 @@ class SongRenderer:
             if before is not None:
                 # One that was given up still has the folder.
                 await asyncio.wait([before])
+            if self._elsewhere is not None:
+                away = functools.partial(
+                    self._run_elsewhere, self._elsewhere, rendering, plan, heard, soundfont, path
+                )
+                with contextlib.suppress(AwayError):
+                    await self._made(rendering, plan, path, away)
+                    return
+            here = functools.partial(self._run, rendering, plan, heard, soundfont, path)
             length_s = plan.duration_s
             long = self._long_turns.of(owner, length_s) if length_s > LONG_S else nullcontext()
-            needed = most_bytes_of(rendering.frames)
-            async with long, self._turns.of(owner, length_s), self.cache.room(needed):
-                path.parent.mkdir(parents=True, exist_ok=True)
-                try:
-                    async with asyncio.timeout(self._timeout_s):
-                        await self._run(rendering, plan, heard, soundfont, path)
-                except TimeoutError as error:
-                    took = f"took over {self._timeout_s:.0f} s"
-                    raise SoundError(
-                        f"rendering {plan.duration_s:.0f} s of sound {took} and was stopped"
-                    ) from error
-                finally:
-                    _remove_unfinished(path)
+            async with long, self._turns.of(owner, length_s):
+                await self._made(rendering, plan, path, here)
+
+    async def _made(
+        self, rendering: _Rendering, plan: SoundPlan, path: Path, make: Callable[[], Awaitable[None]]
+    ) -> None:
+        """Have a song made in room of its own; where that fails, nothing is left."""
+        async with self.cache.room(most_bytes_of(rendering.frames)):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            try:
+                async with asyncio.timeout(self._timeout_s):
+                    await make()
+            except TimeoutError as error:
+                took = f"took over {self._timeout_s:.0f} s"
+                raise SoundError(
+                    f"rendering {plan.duration_s:.0f} s of sound {took} and was stopped"
+                ) from error
+            finally:
+                _remove_unfinished(path)
+
+    async def _run_elsewhere(
+        self,
+        elsewhere: Elsewhere,
+        rendering: _Rendering,
+        plan: SoundPlan,
+        heard: NDArray[np.bool_],
+        soundfont: Path,
+        path: Path,
+    ) -> None:
+        def tell(share: float) -> None:
+            rendering.progress = min(share, 0.99)
+
+        identity = await asyncio.to_thread(soundfont_id, soundfont)
+        try:
+            files: RenderedFiles = await elsewhere.run(
+                "reina.sound.render_elsewhere:render_files",
+                plan,
+                heard,
+                identity,
+                tell=tell,
+                timeout_s=self._timeout_s,
+            )
+        except LostError as error:
+            raise SoundError(f"the score could not be rendered: {error}") from error
+        await asyncio.to_thread(files.write, path)
 
     async def _run(
         self, rendering: _Rendering, plan: SoundPlan, heard: NDArray[np.bool_], soundfont: Path, path: Path

@@ -22,9 +22,10 @@ from tests.servers.redis import redis_server
 
 from reina.api.settings import Settings
 from reina.cli import main
-from reina.cli.doctor import data, database, machine, network, parts, redis_bus
+from reina.cli.doctor import data, database, machine, network, parts, redis_bus, scheduler
 from reina.cli.listening import listen
 from reina.sessions.storage.archive import DATABASE
+from reina.system.cluster import ClusterError
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterable
@@ -288,3 +289,38 @@ def test_open_files(most: int | None, status: str) -> None:
 )
 def test_memory(total: int | None, status: str) -> None:
     assert machine.memory_finding(total).status == status
+
+
+@pytest.mark.parametrize(
+    ("threads", "status", "told"),
+    [
+        (None, "warn", "no Dask scheduler answers at tcp://gpu:8786"),
+        (0, "warn", "tcp://gpu:8786 answers and has no workers"),
+        (4, "ok", "tcp://gpu:8786 answers; 4 pieces of work at a time"),
+    ],
+)
+def test_a_scheduler(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch, threads: int | None, status: str, told: str
+) -> None:
+    @contextlib.contextmanager
+    def cluster_at(address: str) -> Generator[object]:
+        if threads is None:
+            raise ClusterError(f"no Dask scheduler answers at {address}")
+        yield None
+
+    monkeypatch.setattr(scheduler, "cluster_at", cluster_at)
+    monkeypatch.setattr(scheduler, "threads_of", Mock(return_value=threads))
+    found = scheduler.scheduler_finding(replace(settings, scheduler="tcp://gpu:8786"))
+    assert (found.status, found.detail) == (status, told)
+    assert bool(found.to_do) == (status == "warn")
+
+
+def test_a_scheduler_that_is_none_or_cannot_be_spoken_to(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = scheduler.scheduler_finding(replace(settings, scheduler="gpu:8786"))
+    assert (found.status, "tcp://host:8786" in found.detail) == ("fail", True)
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.setattr("reina.api.settings.find_spec", Mock(return_value=None))
+    found = scheduler.scheduler_finding(replace(settings, scheduler="tcp://gpu:8786"))
+    assert (found.status, "reina[cluster]" in found.detail) == ("fail", True)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from reina.cli import main
-from reina.cli.film_progress import FilmProgress, length_of_time
+from reina.cli.film_progress import FilmProgress
+from reina.cli.progress_line import length_of_time
 
 if TYPE_CHECKING:
     from pathlib import Path

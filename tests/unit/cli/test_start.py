@@ -22,6 +22,7 @@ NOT_AT_START = {
         "reina.sound.alignment.aligner",
         "reina.sound.render",
         # What other commands and other stores need.
+        "distributed",
         "obstore",
         "playwright",
         "psycopg",

@@ -12,7 +12,8 @@ from reina.api.accounts import LONGEST_PASSWORD, Accounts
 from reina.api.http.attempts import Attempts
 from reina.api.http.problems import ProblemError
 from reina.api.http.proxies import client_address, comes_by_proxy, is_secure, only_header
-from reina.api.http.signed_cookie import claimed, is_sealed, sealed, signing_key
+from reina.api.http.signed_cookie import claimed, is_sealed, sealed
+from reina.api.signing_key import signing_key
 
 if TYPE_CHECKING:
     from collections.abc import Callable

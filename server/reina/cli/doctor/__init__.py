@@ -15,6 +15,7 @@ from reina.cli.doctor.machine import machine_checks
 from reina.cli.doctor.network import network_checks
 from reina.cli.doctor.parts import parts_checks
 from reina.cli.doctor.redis_bus import bus_finding
+from reina.cli.doctor.scheduler import scheduler_finding
 from reina.cli.score_tables import table
 from reina.cli.serve import HOST, PORT
 from reina.errors import InputError
@@ -67,6 +68,8 @@ def findings(settings: Settings, host: str, port: int) -> Iterator[Finding]:
         port: The same.
     """
     yield from network_checks(host, port)
+    if settings.scheduler:
+        yield scheduler_finding(settings)
     yield from data_checks(settings.data_dir)
     yield database_finding(settings.data_dir.absolute(), settings.database)
     if settings.bus:

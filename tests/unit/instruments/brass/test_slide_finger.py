@@ -88,3 +88,30 @@ def test_its_axis_stays_within_the_ring_as_far_as_it_reaches(ringed: Ringed, pla
         for part in np.linspace(0.0, 1.0, 30)
     ]
     assert np.min(gaps, axis=0).max() < RING_M
+
+
+def test_the_way_is_worked_out_once_for_a_hold(
+    ringed: Ringed, player_rig: Rig, hold: Hold, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved: list[Array] = []
+
+    def solve(chain: object, targets: Array, held: Array, **_: object) -> None:
+        solved.append(targets)
+        raise NotImplementedError
+
+    monkeypatch.setattr("reina.instruments.brass.slide_finger.solve_damped_least_squares", solve)
+    yielding, held = np.zeros(3), hold.rotations(player_rig)
+
+    def another(travel: Array, bends: Array) -> SlideFinger:
+        return SlideFinger(player_rig, "leftRing", ringed.ring, travel, bends, held)
+
+    with pytest.raises(NotImplementedError):
+        another(ringed.travel, yielding)
+    assert len(solved) == 1
+    monkeypatch.undo()
+    first = another(ringed.travel, yielding)
+    monkeypatch.setattr("reina.instruments.brass.slide_finger.solve_damped_least_squares", solve)
+    again = another(ringed.travel.copy(), yielding.copy())
+    assert len(solved) == 1
+    way = np.linspace(0.0, 1.0, 60)
+    np.testing.assert_array_equal(again.solve(way), first.solve(way))
