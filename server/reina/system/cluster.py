@@ -82,6 +82,8 @@ def local_cluster(workers: int, scratch: Path) -> Generator[Client]:
         "distributed.scheduler.allowed-failures": LIVES,
         # Else each says at its start, and at its end, what nobody asked.
         "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical",
+        # What one that is killed leaves goes with the folder.
+        "distributed.nanny.pre-spawn-environ.TMPDIR": str(scratch),
         "distributed.scheduler.http.routes": [],
         "distributed.worker.http.routes": [],
     }
