@@ -204,7 +204,7 @@ def main() -> int:
     options = parser.parse_args()
     print(heading(__file__))
     with tempfile.TemporaryDirectory() as folder:
-        program = Bench(Path(folder), options.seconds).program
+        program = Bench(Path(folder), options.seconds).viewers_program
         wrong = fetching(program, options.servers, options.fetching, options.seconds)
         streaming(program, options.servers, options.streaming, options.seconds)
     killing()

@@ -140,17 +140,17 @@ class Bench:
     """
 
     def __init__(self, folder: Path, seconds: float) -> None:
-        self.program = str(folder / "viewers")
+        self.viewers_program = str(folder / "viewers")
         self._seconds = seconds
         compiler = shutil.which("cc")
         if compiler is None:
             raise SystemExit("the viewers are in C: a compiler named cc is needed")
         source = str(HERE / "viewers.c")
-        subprocess.run([compiler, "-std=c11", "-Wall", "-O2", "-o", self.program, source, "-lm"], check=True)
+        subprocess.run([compiler, "-std=c11", "-Wall", "-O2", "-o", self.viewers_program, source, "-lm"], check=True)
 
     def kernel(self, viewers: int, size: int, rate: float) -> Measured:
         """A loop of send() in C; a rate of 0 sends as fast as it is read."""
-        with _started([self.program, "send", str(viewers), str(size), str(rate)]) as (process, port):
+        with _started([self.viewers_program, "send", str(viewers), str(size), str(rate)]) as (process, port):
             return self._watch(process.pid, port, viewers, ["/"], frames=1, lead_s=0.0)
 
     def stack(self, name: str, python: str, viewers: int, size: int, rate: float) -> Measured:
@@ -218,7 +218,7 @@ class Bench:
     ) -> Measured:
         memory = memory_bytes(process)
         numbers = [str(port), str(viewers), str(self._seconds), str(SETTLE_S), str(lead_s), str(frames)]
-        command = [self.program, "watch", "127.0.0.1", *numbers, subprotocol, *paths]
+        command = [self.viewers_program, "watch", "127.0.0.1", *numbers, subprotocol, *paths]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as watching:
             pin(watching.pid, 1)
             assert watching.stdout is not None

@@ -20,7 +20,7 @@ from reina.sound.recording.probe import probe_recording
 from reina.sound.rendered import SONG, segment_path
 from reina.sound.renderer import MissingSoundfontError, SongRenderer, SongRequest, SoundError
 from reina.sound.segments import OVERLAP, SEGMENT
-from reina.sound.song_cache import most_bytes_of
+from reina.sound.song_cache import SONG_CACHE_BYTES, most_bytes_of
 
 SHORT = a_score([(0, 0.5, 0.15, 60, 1.0), (0, 1.25, 0.15, 60, 1.0)])
 
@@ -232,8 +232,8 @@ def test_prune_removes_what_was_not_asked_for_the_longest(tmp_path: Path, soundf
 class CountedRenderer(SongRenderer):
     """Renders when it is let, as large as it may become, and remembers what was there meanwhile."""
 
-    def __init__(self, data_dir: Path, soundfont: Path, **options: int) -> None:
-        super().__init__(data_dir, soundfont=soundfont, **options)
+    def __init__(self, data_dir: Path, soundfont: Path, most_bytes: int = SONG_CACHE_BYTES) -> None:
+        super().__init__(data_dir, soundfont=soundfont, most_bytes=most_bytes)
         self.begun: list[float] = []
         self.largest = 0
         self.let = asyncio.Semaphore(0)
