@@ -135,17 +135,16 @@ def fetching(program: str, counts: list[int], viewers: list[int], seconds: float
 
 def streaming(program: str, counts: list[int], viewers: list[int], seconds: float) -> None:
     """Viewers who have packed blocks of the stream."""
-    print(f"\nby the stream, a packed block a second and eight words of notes, {seconds:g} s each")
+    print(f"\nby the stream, a packed block a second, {seconds:g} s each")
     print("servers  viewers  messages/s  nginx              servers            lost  closed")
     for count in counts:
         with house(count, origin="") as made:
-            path = f"{made.owned.path}/stream?packed=1"
+            path = f"{made.owned.path}/stream?packed=1&notes=0"
             for number in viewers:
                 numbers = [str(made.port), str(number), str(seconds), str(SETTLE_S), "0", "0"]
                 command = [program, "watch", "127.0.0.1", *numbers, SUBPROTOCOL, path]
                 seen, nginx, servers = run_viewers(made, command)
-                # Each note's beginning and end is told too.
-                messages = seen["messages"] + seen["texts"]
+                messages = max(seen["messages"], 1)
                 print(
                     f"{count:7} {number:8} {messages / seen['seconds']:10.0f} "
                     f"{nginx / seen['seconds']:5.0%} {nginx * 1e6 / messages:7.1f} µs "

@@ -82,6 +82,29 @@ def test_who_joins_gets_the_present_block_and_playing_the_ones_to_come(server: R
     assert max(map(len, watcher.messages)) < 4_000
 
 
+def test_who_wants_no_words_of_notes_hears_all_the_rest(server: Running, owned: Owned) -> None:
+    async def scenario() -> None:
+        async with (
+            watch(server, owned.id, packed=1, notes=0) as quiet,
+            watch(server, owned.id, packed=1) as told,
+        ):
+            await control(owned, "play")
+            await told.until(lambda: len(told.of_type("note_off")) >= 2)
+            await asyncio.to_thread(edit_fov, owned, 0.8)
+            await control(owned, "pause")
+            for watcher in (quiet, told):
+                await watcher.until(lambda w=watcher: not w.of_type("transport")[-1]["playing"])
+            kinds = {text["type"] for text in told.texts}
+            assert {text["type"] for text in quiet.texts} == kinds - {"note_on", "note_off"}
+
+    asyncio.run(scenario())
+    with httpx.Client(base_url=server.address) as client:
+        with pytest.raises(websockets.InvalidStatus) as refused:
+            asyncio.run(watch(server, owned.id, notes=2).__aenter__())
+        assert "notes is 0 or 1, not 2" in refused.value.response.body.decode()
+        assert client.get(owned.path).status_code == 200
+
+
 def test_a_block_comes_two_seconds_before_it_is_due(server: Running, owned: Owned) -> None:
     arrivals: dict[int, float] = {}
 

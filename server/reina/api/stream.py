@@ -28,7 +28,9 @@ MAX_FRAMES_PER_MESSAGE = 12
 SIZES = {str(size): size for size in range(1, MAX_FRAMES_PER_MESSAGE + 1)}
 PACKED: "dict[str, Form | None]" = {"0": None, "1": "packed", "lossless": "lossless"}
 """What may be asked for in place of frames: packed blocks of a form."""
-ASKED_FOR = {"frames_per_message", "packed"}
+NOTES = {"1": True, "0": False}
+"""Whether notes are told of as they begin and end."""
+ASKED_FOR = {"frames_per_message", "notes", "packed"}
 GONE = (WebSocketDisconnect, OSError, RuntimeError)
 """What sending raises once the viewer has gone, or was closed under it, as for a message too large."""
 
@@ -130,6 +132,7 @@ async def stream(
     session_id: str,
     frames_per_message: Annotated[str, Query()] = "1",
     packed: Annotated[str, Query()] = "0",
+    notes: Annotated[str, Query()] = "1",
 ) -> None:
     """Refuse before the handshake ends, or send until either side goes."""
     store: SessionStore = socket.app.state.store
@@ -141,7 +144,7 @@ async def stream(
         detail = f"this server speaks {SUBPROTOCOL}; the viewer offered {offered}"
         problem = ProblemError(400, "other-version", "The stream has another version", detail)
     elif session is not None and (unknown := set(socket.query_params) - ASKED_FOR):
-        known, asked = " and ".join(sorted(ASKED_FOR)), ", ".join(sorted(unknown))[:100]
+        known, asked = ", ".join(sorted(ASKED_FOR)), ", ".join(sorted(unknown))[:100]
         detail = f"the stream may be asked for {known}, not for {asked}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
     elif session is not None and size is None:
@@ -150,6 +153,10 @@ async def stream(
     elif session is not None and packed not in PACKED:
         detail = f"packed is {', '.join(PACKED)}, not {packed[:20]}"
         problem = ProblemError(422, "request-invalid", "The request does not fit", detail)
+    elif session is not None and notes not in NOTES:
+        problem = ProblemError(
+            422, "request-invalid", "The request does not fit", f"notes is 0 or 1, not {notes[:20]}"
+        )
     if problem or session is None or size is None:
         if problem:
             await socket.send_denial_response(problem.response())
@@ -159,12 +166,13 @@ async def stream(
         await session.ready(form=form)
         line: DirectLine | None = socket.scope.get("extensions", {}).get(DIRECT_LINE)
         if line is not None:
-            viewer = Viewer(line, frames_per_message=size, form=form)
+            viewer = Viewer(line, frames_per_message=size, form=form, hears_notes=NOTES[notes])
             watching = Watching(viewer, session, store, now)
             line.hand_over(watching.hear, watching.leave)
             return
         patience = asyncio.timeout(None)
-        viewer = Viewer(AsgiConnection(socket, patience), frames_per_message=size, form=form)
+        connection = AsgiConnection(socket, patience)
+        viewer = Viewer(connection, frames_per_message=size, form=form, hears_notes=NOTES[notes])
         await _listen(socket, Watching(viewer, session, store, now), patience)
 
 

@@ -45,7 +45,8 @@ the handshake ends. Text messages are JSON control messages, told apart by `type
 `hello`, and whoever joins late or again needs nothing else. It is said again when another player comes
 on stage. Whoever read score and cast before it reads them again where its epoch is not the one that
 `GET .../transport` said before they were read. Binary messages are frames, or
-packed blocks of them. No message is compressed by the WebSocket.
+packed blocks of them. No message is compressed by the WebSocket. `?notes=0` leaves `note_on` and
+`note_off` out, which are half of what a viewer of packed blocks is sent: the score has them all.
 
 ## Frames
 

@@ -113,11 +113,12 @@ class Audience:
         self._settle(now)
         state = self._clock.state(now)
         if self._viewers:
-            self._post(self._notes.advance(now))
+            self._post_notes(self._notes.advance(now))
         else:
             # What went by while nobody watched is not made up for.
             self._notes.begin(state)
-        for text in (hello(state), *self._notes.sounding()):
+        sounding = self._notes.sounding() if viewer.hears_notes else ()
+        for text in (hello(state), *sounding):
             viewer.post_text(text_frame(text))
         self._catch_up(viewer, state)
         self._viewers.add(viewer)
@@ -169,9 +170,9 @@ class Audience:
         now = self._now()
         if self._viewers:
             # What came before the change is told before it.
-            self._post(self._notes.advance(now))
+            self._post_notes(self._notes.advance(now))
             if notes is not None:
-                self._post(self._notes.end())
+                self._post_notes(self._notes.end())
         self._notes = notes or self._notes
         self._begin(self._clock.state(now), resumed=False)
         for broadcast, viewers in self._by_lead():
@@ -188,7 +189,7 @@ class Audience:
         if now >= self._ends_s:
             self._settle(now)
         if now >= self._notes.due_s:
-            self._post(self._notes.advance(now))
+            self._post_notes(self._notes.advance(now))
         self._send_due(now)
         return self._state.playing
 
@@ -207,7 +208,7 @@ class Audience:
         for viewer in self._viewers:
             viewer.drop_frames()
         self.announce(transport_message(state))
-        self._post(self._notes.begin(state))
+        self._post_notes(self._notes.begin(state))
 
     def _send_due(self, now: float) -> None:
         for broadcast, viewers in self._by_lead():
@@ -292,6 +293,13 @@ class Audience:
             frame = text_frame(text)
             for viewer in self._viewers:
                 viewer.post_text(frame)
+
+    def _post_notes(self, texts: Iterable[str]) -> None:
+        for text in texts:
+            frame = text_frame(text)
+            for viewer in self._viewers:
+                if viewer.hears_notes:
+                    viewer.post_text(frame)
 
     # What the ticker calls
 

@@ -29,6 +29,11 @@ if TYPE_CHECKING:
 SEARCH_S = 120.0
 """A search of which nothing was heard for so long has ended with its server; another begins it anew."""
 
+ASKING_S = 2.0
+"""What has not answered by then is away: whoever asks for a session that is loaded waits no longer for it."""
+AWAY_S = 2.0
+"""So long after that it is not asked again."""
+
 _log = logging.getLogger(__name__)
 
 
@@ -56,6 +61,7 @@ class Following:
         self._asking_next: dict[str, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._takeovers: dict[str, asyncio.TimerHandle] = {}
+        self._away_until_s = 0.0
         loaded.is_outdated = lambda session: self._begin(self._ask(session))
         edits.changed = self._tell_change
         edits.searching = self._tell_search
@@ -123,8 +129,10 @@ class Following:
         """Let a session be as it is kept, for a request that has come by now.
 
         Those who come while it is asked share the next time that it is: what is seen then is no older than
-        their requests.
+        their requests. Where what is asked is away, a session is let be as it is.
         """
+        if asyncio.get_running_loop().time() < self._away_until_s:
+            return
         asking = self._asking.get(session.id)
         if asking is None:
             await asyncio.shield(self._ask_now(session))
@@ -155,9 +163,16 @@ class Following:
     async def _ask(self, session: Session) -> None:
         """Ask what is kept of a session and where its clock is, and be so; what does not answer is let be."""
         try:
-            version, shared = await asyncio.gather(
-                asyncio.to_thread(self._storage.version, session.id), self._clock(session)
-            )
+            async with asyncio.timeout(ASKING_S):
+                version, shared = await asyncio.gather(
+                    asyncio.to_thread(self._storage.version, session.id), self._clock(session)
+                )
+        except (InputError, TimeoutError) as error:
+            # What is loaded plays on.
+            self._away_until_s = asyncio.get_running_loop().time() + AWAY_S
+            _log.warning("whether session %s was changed elsewhere is not known: %s", session.id, error)
+            return
+        try:
             if version is None:
                 await self._forget(session)
             elif version != session.version:
@@ -165,8 +180,7 @@ class Following:
             if shared is not None and session in self._loaded:
                 await session.take_clock(shared)
         except InputError as error:
-            # What is loaded plays on.
-            _log.warning("whether session %s was changed elsewhere is not known: %s", session.id, error)
+            _log.warning("what was changed of session %s elsewhere is not to be had: %s", session.id, error)
 
     async def _catch_up(self, session: Session) -> None:
         try:

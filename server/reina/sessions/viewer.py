@@ -68,11 +68,19 @@ class Viewer:
         connection: Where it goes.
         frames_per_message: How many frames the viewer wants in a binary message.
         form: The form of the packed blocks that it wants in place of frames; None for frames.
+        hears_notes: Whether it is told of notes as they begin and end.
     """
 
     def __init__(
-        self, connection: Connection, *, frames_per_message: int = 1, form: Form | None = None
+        self,
+        connection: Connection,
+        *,
+        frames_per_message: int = 1,
+        form: Form | None = None,
+        hears_notes: bool = True,
     ) -> None:
+        self.hears_notes = hears_notes
+        """Whether it is told of notes as they begin and end."""
         self.form: Form | None = form
         """The form of the packed blocks that it is sent; None where it is sent frames."""
         self.frames_per_message = frames_per_message if form is None else BLOCK_FRAMES

@@ -53,6 +53,8 @@ export function streamAddress(href: string): string {
   const address = new URL(href, location.href);
   address.protocol = address.protocol.replace("http", "ws");
   address.searchParams.set("packed", "1");
+  // The score has them all: nothing here waits to be told.
+  address.searchParams.set("notes", "0");
   return address.href;
 }
 
