@@ -81,7 +81,9 @@ afterEach(() => {
 describe("streamAddress", () => {
   it("is the link on the page's host, over WebSocket, secure where the page is", () => {
     vi.stubGlobal("location", { href: "https://band.room/s/1" });
-    expect(streamAddress("/api/v1/sessions/1/stream")).toBe("wss://band.room/api/v1/sessions/1/stream?packed=1&notes=0");
+    expect(streamAddress("/api/v1/sessions/1/stream")).toBe(
+      "wss://band.room/api/v1/sessions/1/stream?packed=1&notes=0",
+    );
     vi.stubGlobal("location", { href: "http://localhost:8000/" });
     expect(streamAddress("/api/v1/sessions/1/stream")).toMatch(/^ws:\/\/localhost:8000\//);
   });
