@@ -304,18 +304,18 @@ def test_a_session_that_is_just_unloaded_comes_back_as_it_was(
     tmp_path: Path, stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     writing = threading.Event()
-    write = SessionStorage.change
+    write = SessionStorage.keep_clock
 
-    def slowly(storage: SessionStorage, record: SessionRecord) -> SessionRecord:
+    def slowly(storage: SessionStorage, record: SessionRecord, version: int) -> bool:
         writing.wait(5)
-        return write(storage, record)
+        return write(storage, record, version)
 
     async def scenario() -> None:
         monkeypatch.setattr(ClockKeeping, "note", _nothing)
         desk = Desk(tmp_path, stage, loaded=1)
         first = await desk.create(scale(8))
         first.control(Seek(action="seek", song_time_s=0.75))
-        monkeypatch.setattr(SessionStorage, "change", slowly)
+        monkeypatch.setattr(SessionStorage, "keep_clock", slowly)
         await desk.create(scale(4))
         asking = asyncio.create_task(desk.get(first.id))
         await asyncio.sleep(0.05)
