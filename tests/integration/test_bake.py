@@ -242,7 +242,12 @@ def test_one_bakes_to_a_place_until_ctrl_c_which_ends_the_workers_and_says_how_t
 ) -> None:
     with baking(scores, "--out", tmp_path, *QUICK) as under_way:
         under_way.wait_for(1)
-        other = bake(scores, "--out", tmp_path, *QUICK)
+        # It stands still while another is tried: it may be done by the time that that has started.
+        under_way.process.send_signal(signal.SIGSTOP)
+        try:
+            other = bake(scores, "--out", tmp_path, *QUICK)
+        finally:
+            under_way.process.send_signal(signal.SIGCONT)
         assert (other.returncode, other.stderr) == (
             1,
             f"reina bake: something else is baked into {tmp_path}; name another with --out\n",
